@@ -191,6 +191,7 @@ PRESSES: dict[str, Any] = {
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
     **dict.fromkeys(("difference", "more"), _Switch),
+    "ride": Literal["off"] | tuple[_Radius, _Azimuth] | None,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
     "suppose": _Switch | tuple[_Amplitude, Annotated[float, Meta(ge=0.001, le=1e4)]],

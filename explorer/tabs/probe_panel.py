@@ -4,6 +4,7 @@ import math
 import threading
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 import viser
@@ -17,7 +18,7 @@ from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist, rotate
 from explorer.scene.controller import SceneController
 from explorer.tabs.context import Player, Tab, TabContext
-from explorer.tabs.element import Probe, probe
+from explorer.tabs.element import Probe, Ride, probe
 from explorer.tabs.layout import COARSE, by_hand
 from explorer.tabs.probe_drawing import outline, probe_panel
 from explorer.tabs.probe_measured import BesideMeasured, beside_measured, measured_panel
@@ -163,6 +164,8 @@ class ProbePanel(Tab):
         for box in (self._follow, self._shown, self._opened):
             by_hand(box, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
+        self._ride = Ride(context, scene, lambda: self._player.playing)
+        context.bridge.on("ride", self._take_along)
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
         bind("play", self.toggle)
@@ -177,6 +180,7 @@ class ProbePanel(Tab):
             # Where the blade is by now: an older place would pull a slider that is dragged back.
             self._psi.value = self._context.view().azimuth_deg
         solution = state.solution
+        self._ride.show(solution)
         # The first step of r/R on the blade.
         self._r.min = round(_R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
         place = self._place()
@@ -207,6 +211,7 @@ class ProbePanel(Tab):
 
     def show_failure(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""
+        self._ride.end()
         self._pause()
         self._drawn = None
         self._panel.content = faded(self._html)
@@ -230,6 +235,16 @@ class ProbePanel(Tab):
         self._walked, self._left = None, LONGEST
         self._player.play()
         self._set_playing(True)
+
+    def _take_along(self, at: Any) -> None:
+        """A turn with the section at (r/R, ψ [°]), or at the probe; "off" ends it."""
+        state = self._context.state()
+        if at == "off" or state is None:
+            self._ride.end()
+            return
+        r, psi_deg = at or (self._r.value, self._psi.value)
+        self._pause()
+        self._ride.begin(state.solution, min(max(r, self._r.min), 1.0), psi_deg)
 
     def _pause(self) -> None:
         if self._player.playing:

@@ -18,7 +18,7 @@ STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", 
 """Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
     *("viser.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js"),
-    *("plan.js", "rubber.js", "flight.js", "dial.js", "spoken.js", "wipe.js", "story.js", "lecture.js"),
+    *("plan.js", "ride.js", "rubber.js", "flight.js", "dial.js", "spoken.js", "wipe.js", "story.js", "lecture.js"),
 )
 """Scripts of the page in the order in which they run: `viser.js` before viser's client; `frame.js` defines `RX`."""
 

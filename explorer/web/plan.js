@@ -152,7 +152,7 @@
     if (reversed(r, psi)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${field}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.map(([name, title, digits, unit]) => `<dt>${title}</dt><dd class="${name === 'margin' && value.margin < 0 ? 'rxf-bad' : ''}">${fixed(value[name], digits, unit)}</dd>`).join('') + field;
   };
-  const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
+  const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-ride-at="${pin}" title="One slow turn with this section">Ride</button><button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
   // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
   function size(element) {
@@ -243,7 +243,9 @@
   place.addEventListener('pointerdown', event => { pressed = [event.clientX, event.clientY]; });
   place.addEventListener('click', event => {
     const unpin = event.target instanceof Element && event.target.closest('[data-unpin]');
-    if (unpin) pins.splice(Number(unpin.dataset.unpin), 1);
+    const ride = event.target instanceof Element && event.target.closest('[data-ride-at]');
+    if (ride) { const {r, psi} = pins[Number(ride.dataset.rideAt)]; RX.send('ride', [r, psi]); }
+    else if (unpin) pins.splice(Number(unpin.dataset.unpin), 1);
     else {
       const found = layout && RX.state.plan && find(event);
       if (!found || !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 5) return;

@@ -1,7 +1,7 @@
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, lit = {}, motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  let seat = null, surfaces = {}, lit = {}, motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -109,7 +109,7 @@
   let stepping = false;
   // Frames are asked for only while something turns; in software, where each keeps the processors busy, no rotor turns by itself.
   const follows = now => heard && !(heard.still && now - heard.at > LATE);
-  const turning = now => motion && (follows(now) || (spin && sharp && !calm.matches));
+  const turning = now => motion && !seat && (follows(now) || (spin && sharp && !calm.matches));
   const go = () => {
     const now = performance.now();
     if (stepping || !turning(now)) return;
@@ -193,6 +193,27 @@
       else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
       heard = {psi: angle, at};
       go();
+    },
+    // The reference blade at ψ, and the camera behind and above its section so far out [m]; `leave` flies back.
+    ride(angle, out, radius) {
+      const client = viewer(), control = client?.cameraControl, node = client?.nodeRefFromName?.['/rotor/blade_0'], world = node?.parent;
+      if (!motion || !control || !world) return;
+      const point = node.position.clone();
+      if (!seat) seat = {from: control.getPosition(point.clone()), to: control.getTarget(point.clone())};
+      show(psi = angle);
+      world.updateWorldMatrix(true, false);
+      const c = Math.cos(angle), s = Math.sin(angle), flapped = (out - motion.hinge) * Math.sin(harmonic(motion.flap, angle)), far = Math.max(.52 * radius, 2.7);  // Beyond the camera's near plane.
+      const at = (x, y, z) => point.clone().set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld);
+      const from = at(out - .6 * far, -far, .5 * far), to = at(out + .12 * far, .1 * far, -.32 * far);  // The section above the card.
+      control.setLookAt(from.x, from.y, from.z, to.x, to.y, to.z, !calm.matches && performance.now() - (seat.since ??= performance.now()) < 900);
+    },
+    async leave() {
+      const back = seat, control = viewer()?.cameraControl;
+      seat = null;
+      if (!back || !control) return;
+      heard = mark = null;
+      await Promise.race([control.setLookAt(...back.from.toArray(), ...back.to.toArray(), !calm.matches), new Promise(done => setTimeout(done, 1500))]);
+      await new Promise(done => setTimeout(done, 200));  // Until the server has heard where the camera is.
     },
     // A second rotor at the same place turns with it.
     compare(other) { compared = other; },

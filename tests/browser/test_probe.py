@@ -284,6 +284,27 @@ def test_the_view_along_the_blade_rides_with_it(watched: Watched):
     page.keyboard.press("1")
 
 
+@pytest.mark.slow
+def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched):
+    page = watched.page
+    page.keyboard.press("1")
+    watched.until(lambda: stands(watched, "3d"))  # A busy machine begins the flight late.
+    before = watched.at_rest(lambda: eye(watched).round(2).tolist())
+    page.get_by_role("button", name="Ride along").click()
+    card = page.locator("[data-explorer=ride]")
+    card.wait_for()
+    place = page.evaluate("() => [RX.state.ride.r, RX.state.ride.out]")
+    assert place[1] == pytest.approx(place[0] * RADIUS, rel=1e-3)
+    first = card.locator("b").inner_text()
+    watched.until_changed(lambda: card.locator("b").inner_text(), first)
+    assert np.linalg.norm(eye(watched)) < 1.5 * RADIUS  # Beside the blade: from elsewhere the whole disk is seen.
+    assert card.locator("circle").count() == 1
+    page.keyboard.press("Escape")
+    card.wait_for(state="hidden")
+    page.wait_for_function("() => !RX.state.ride")
+    watched.until(lambda: np.allclose(eye(watched), before, atol=0.1))
+
+
 def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     page = watched.page
     page.keyboard.press("Shift+?")

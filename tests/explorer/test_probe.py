@@ -14,7 +14,7 @@ from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.picture import DISK_DROP, compose, make_picture, rotate, rotor_pose, tip_path_pose
-from explorer.tabs.element import FlowRegion, probe
+from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.tabs.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe_measured import lift_chart
 from rotor.aero.switches import with_switches
@@ -226,6 +226,24 @@ class TestDrawing:
         assert p.section.lift_curve(np.array([p.alpha]), p.mach)[0] == pytest.approx(p.cl, abs=1e-9)
         q = probe(fast, float(disk.r[15] + 0.4 * disk.dr[15]), float(disk.psi[17] + 0.01))
         assert q.section.lift_curve(np.array([q.alpha]), q.mach)[0] == pytest.approx(q.cl, abs=2e-3)
+
+
+class TestRide:
+    """One turn with a section: a steady section's point is on its lift curve all the way round."""
+
+    @pytest.mark.parametrize("near", [0.3, 0.75])
+    def test_the_point_is_on_its_curve_and_the_triangle_closes(self, near: float, fast: Solution):
+        r = float(fast.disk.r[np.abs(fast.disk.r - near).argmin()])
+        turn, step = turn_of(fast, r, 40.0), AZIMUTHS // math.gcd(AZIMUTHS, len(fast.disk.psi))
+        reversed_flow = np.array(turn["u"]) < 0.0
+        assert reversed_flow.any() == (near < 0.37)  # At ψ 270° the air comes from behind inboard of µ.
+        for k in range(0, AZIMUTHS, step):  # Where the disk has a station.
+            on_curve = np.interp(turn["alpha"][k], turn["angles"], turn["curves"][k])
+            if abs(turn["alpha"][k]) < max(turn["angles"]):  # Beside the hub the flow stands across the section.
+                assert on_curve == pytest.approx(turn["cl"][k], abs=0.01)
+            assert turn["lift"][k] == pytest.approx(probe(fast, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
+            if not reversed_flow[k]:
+                assert turn["theta"][k] - turn["phi"][k] == pytest.approx(turn["alpha"][k], abs=0.02)
 
 
 @pytest.fixture(scope="module")
