@@ -15,6 +15,7 @@ from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
 from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words, place_on, refined
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun
+from explorer.tabs.optimise.search_words import concept_picture
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
@@ -134,6 +135,11 @@ class TestWords:
         saved = 100.0 * (1.0 - run.best.power / run.start_power)
         assert saved > 0.01
         assert f"−{saved:.2f} % vs. start" in search_text.headline(run)
+
+    @pytest.mark.parametrize("name", CONCEPTS)
+    def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):
+        drawn = ET.fromstring(concept_picture(CONCEPTS[name]))
+        assert len(drawn.findall("path")) == len(CONCEPTS[name].parameters)
 
 
 class TestSearchRequest:

@@ -69,7 +69,7 @@ class OptimisePanel(BackgroundWork):
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
-        self._explanation = gui.add_html("")
+        self._picture = gui.add_html("")
         form.menu("objective", "Objective", OBJECTIVES)
         form.slider("hover_share", Slider("Hover [%]", 0.0, 100.0, 5.0), first.hover_share)
         form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
@@ -172,7 +172,9 @@ class OptimisePanel(BackgroundWork):
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
         run, request, units = self.run, self.request(), self._context.units
         self.form.show({name: request.asks_for(name) for name in _NUMBERS})
-        self._explanation.content = tag("div.rx.rx-dim.rx-small", request.known_concept().explanation)
+        concept = request.known_concept()
+        words = tag("div.rx-dim.rx-small", concept.explanation)
+        self._picture.content = tag("div.rx.rx-concept", text.concept_picture(concept), words)
         under_way = run is not None and run.under_way
         self.show_progress(None if run is None else run.part_done, under_way)
         self._standing.content = text.standing(run, self.line)
