@@ -53,9 +53,7 @@ class _Stand:
     """Width over height of the canvas below which the camera stands further back."""
 
 
-_STANDS = {
-    "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4),
-}
+_STANDS = {"3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4)}
 
 
 @dataclass(frozen=True, eq=False)

@@ -120,11 +120,7 @@ def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
     power = measure(objective, start, gradient=False).power if changed else None
-    return _Beside(
-        tuple(caveats),
-        None if optimum.best.index is None else _index_band(objective, solutions),
-        power,
-    )
+    return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
 
 
 def _with_other_models(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:

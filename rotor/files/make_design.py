@@ -14,16 +14,7 @@ from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonic
 from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import Design, Models, check_preset, preset_models, with_grid
-from rotor.design.quantities import (
-    ARGUMENTS,
-    HOVER_INFLOWS,
-    LOAD_KEYS,
-    OPTIONS,
-    PRESETS,
-    STAND_TRIMS,
-    SWEPT,
-    Flight,
-)
+from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS, PRESETS, STAND_TRIMS, SWEPT, Flight
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft

@@ -20,14 +20,7 @@ from rotor.design.aircraft import SEA_LEVEL_DENSITY, Aircraft, Fuselage, RotorFi
 from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.dynamics.structure import uh60a_torsion
 from rotor.files.declared import Place, Refusal, check_bounds, convert, naming, read_toml
-from rotor.files.rotor_tables import (
-    BladeTable,
-    DoubtTable,
-    MainRotorTable,
-    StructureTable,
-    TopTable,
-    angular_speed,
-)
+from rotor.files.rotor_tables import BladeTable, DoubtTable, MainRotorTable, StructureTable, TopTable, angular_speed
 from rotor.files.section_file import OwnSectionTable, check_section_name, read_section
 from rotor.units import GRAVITY
 from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten

@@ -137,10 +137,7 @@ class Schedule:
 
 
 def run_plan(
-    plan: Plan,
-    keep: Callable[[Cell], None] | None = None,
-    stop: Callable[[], bool] | None = None,
-    processes: int = 1,
+    plan: Plan, keep: Callable[[Cell], None] | None = None, stop: Callable[[], bool] | None = None, processes: int = 1
 ) -> Schedule:
     """Compute a plan; `keep` is called with every cell.
 

@@ -58,9 +58,7 @@ def figure_5_5() -> Report:
     ends = (f"{way}_{end}_ppm" for way in ("along", "across") for end in ("low", "high"))
     return report(
         "5.5",
-        tables=[
-            table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows),
-        ],
+        tables=[table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows)],
         panels=[Chart("", Axis("field [kV/mm]"), Axis("free strain along [µε]"), tuple(curves))],
         numbers=numbers,
         each=", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()),

@@ -159,13 +159,7 @@ SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.3
 TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 """The thesis' hovering, low, medium and high speed; it states no numbers for them."""
 
-DOCUMENT_3_1 = {
-    "radius_m": 1.6764,
-    "angular_speed_rad_s": 124.62,
-    "chord_m": 0.2469,
-    "blades": 4.0,
-    "arm_m": 9.926,
-}
+DOCUMENT_3_1 = {"radius_m": 1.6764, "angular_speed_rad_s": 124.62, "chord_m": 0.2469, "blades": 4.0, "arm_m": 9.926}
 DOCUMENT_3_2 = {
     "radius_m": 8.1788,
     "angular_speed_rad_s": 27.0,

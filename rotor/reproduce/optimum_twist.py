@@ -74,9 +74,7 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     ]
     return report(
         number,
-        tables=[
-            table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows),
-        ],
+        tables=[table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows)],
         panels=[_panel(name, row, shown) for name, row in optima.items()],
         largest=by_name(largest),
         widest=widest,

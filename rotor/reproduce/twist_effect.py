@@ -15,37 +15,9 @@ import numpy as np
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
-from rotor.reproduce.ladder import (
-    FAST,
-    FAST_KMH,
-    HOVER,
-    RUNGS,
-    STRONG,
-    TRIM,
-    WEAK,
-    built,
-    least,
-    strong_over_weak,
-)
-from rotor.reproduce.report import (
-    TOLERANCE,
-    Agreement,
-    Report,
-    ReportTable,
-    by_name,
-    curve,
-    judged,
-    report,
-    table,
-)
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    FULL,
-    THESIS_WAKE,
-    VARIANT_TITLES,
-    main_rotor_kw,
-    solved,
-)
+from rotor.reproduce.ladder import FAST, FAST_KMH, HOVER, RUNGS, STRONG, TRIM, WEAK, built, least, strong_over_weak
+from rotor.reproduce.report import TOLERANCE, Agreement, Report, ReportTable, by_name, curve, judged, report, table
+from rotor.reproduce.runs import FIVE_RATES, FULL, THESIS_WAKE, VARIANT_TITLES, main_rotor_kw, solved
 from rotor.trim.solve import solve
 
 MASSES = (4000.0, 5000.0, 6000.0, 7000.0, 8322.4, 9000.0)
@@ -220,7 +192,7 @@ def figure_3_15() -> Report:
                     (mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
                     for mu, saving in zip(FULL, best, strict=True)
                 ],
-            ),
+            )
         ],
         panels=[
             Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))

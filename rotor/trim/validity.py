@@ -189,9 +189,7 @@ _RULES = (
     ),
     _Rule("switched-off", lambda trim: switched_off(trim.design.models), lambda trim: _switches(trim.design)),
     _Rule(
-        "rigid-blades",
-        lambda trim: not trim.design.models.flapping and trim.mu > 0.0,
-        lambda trim: _rigid(trim.moment),
+        "rigid-blades", lambda trim: not trim.design.models.flapping and trim.mu > 0.0, lambda trim: _rigid(trim.moment)
     ),
     _Rule(
         "rigid-blades-linear-inflow",

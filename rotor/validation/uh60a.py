@@ -165,10 +165,7 @@ def _drag_rise() -> Chart:
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = np.arange(mach[0], mach[-1], 0.01)
-    series = (
-        Points("RANS and net, kept aside", mach, drag),
-        Line("section table", fine, table(alpha, fine).cd, 1),
-    )
+    series = (Points("RANS and net, kept aside", mach, drag), Line("section table", fine, table(alpha, fine).cd, 1))
     return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 
