@@ -6,21 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from rotor.command.common import (
-    CONCEPT_HELP,
-    STOPPED,
-    add_command,
-    add_design_arguments,
-    add_search_arguments,
-    bar,
-    design_from,
-    finite,
-    interruptible,
-    limits_from,
-    parse_division,
-    print_result,
-    short_spec,
-)
+from rotor.command import common
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
@@ -41,8 +27,10 @@ from rotor.trim.solution import Solution
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving")
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=CONCEPT_HELP)
+    parser = common.add_command(
+        commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving"
+    )
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     parser.add_argument(
         "--objective",
@@ -50,12 +38,14 @@ def add_parser(commands: Any) -> None:
         metavar="NAME",
         help="total (default) | induced | hover-cruise: hover and the given speed | vibration: index of the hub loads",
     )
-    parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
+    parser.add_argument(
+        "--hover-share", type=common.finite, metavar="S", help="fraction of time in hover (default 0.5)"
+    )
     parser.add_argument(
         "--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}: minimise the mean power"
     )
-    add_design_arguments(parser, speed=True)
-    add_search_arguments(parser, STARTS)
+    common.add_design_arguments(parser, speed=True)
+    common.add_search_arguments(parser, STARTS)
     parser.add_argument(
         "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
     )
@@ -65,8 +55,8 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best design so far printed."""
-    design = design_from(args)
-    concept = find_concept(args.concept, parse_division(args.division))
+    design = common.design_from(args)
+    concept = find_concept(args.concept, common.parse_division(args.division))
     if args.on_top:
         concept = on_top(concept, design.twist)
     objective = _objective(args, design)
@@ -79,12 +69,12 @@ def run(args: argparse.Namespace) -> int:
         design=design,
         concept=concept,
         objective=objective,
-        limits=limits_from(args, design, (concept,)),
+        limits=common.limits_from(args, design, (concept,)),
         starts=args.starts,
         seed=args.seed,
         band=args.band,
     )
-    with interruptible() as stop, bar(None, " designs") as advance:
+    with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     beside = _beside(design, objective, optimum)
     if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
@@ -92,8 +82,12 @@ def run(args: argparse.Namespace) -> int:
             beside = replace(beside, flights=_in_other_flights(search, optimum.best))
         if args.doubt or (design.hovering and alone):
             beside = replace(beside, models=_with_other_models(search, optimum.best))
-    print_result(args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective))
-    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
+    common.print_result(
+        args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective)
+    )
+    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: common.STOPPED}[
+        optimum.status
+    ]
 
 
 @dataclass(frozen=True)
@@ -285,7 +279,7 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:.{digits}f} to {high:.{digits}f} between annuli and a lifting line"
         lines.append(wrapped(line, " " * 38))
-    lines.append(f"twist {short_spec(best.twist)}")
+    lines.append(f"twist {common.short_spec(best.twist)}")
     airfoils = airfoils_spec(optimum.design.rotor)
     if airfoils:
         lines.append(f"airfoils {airfoils}")
@@ -307,11 +301,11 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
         lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.1f} kW, saving {saving:.2f} %")
     for name, outcome in (*beside.models, *beside.flights):
-        twist = "no optimum" if outcome.best is None else short_spec(outcome.best.twist)
+        twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
         saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"
         lines.append(f"with {name}: {twist}{saving}")
     for other in optimum.minima[1:]:
-        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {short_spec(other.twist)}")
+        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {common.short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

@@ -96,6 +96,7 @@ def make_design(
     blades = aircraft.rotor_for(name)
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
+    chosen = {"low_speed": low_speed, "loss_on": loss_on, "unsteady": unsteady, "dynamic_stall": dynamic_stall}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -107,19 +108,7 @@ def make_design(
         condition=changed_condition(before, blades.tip_speed, asked, **overrides),
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=with_grid(
-            _changed(
-                models,
-                inflow,
-                off,
-                low_speed=low_speed,
-                loss_on=loss_on,
-                unsteady=unsteady,
-                dynamic_stall=dynamic_stall,
-            ),
-            elements,
-            azimuths,
-        ),
+        models=with_grid(_changed(models, inflow, off, chosen), elements, azimuths),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
@@ -151,7 +140,7 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     return rotor
 
 
-def _changed(models: Models, inflow: str | None, off: str | None, **chosen: str | bool | None) -> Models:
+def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
         known = (*INFLOW_MODELS, *HOVER_INFLOWS)

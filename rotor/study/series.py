@@ -210,15 +210,8 @@ def schedule(
         WeightedCondition(design.at(mu=speed).condition, time)
         for speed, time in sorted(zip(speeds, times, strict=True))
     ]
-    plan = Plan(
-        design,
-        tuple(find_concept(name) for name in concepts),
-        tuple(flights),
-        quantity,
-        limits or Limits(),
-        starts,
-        seed,
-    )
+    blades = tuple(find_concept(name) for name in concepts)
+    plan = Plan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
     return run_plan(plan, processes=processes)
 
 
@@ -281,17 +274,8 @@ def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     names = ("speed_kt", *told(design.condition for design in designs))
     condition = (name for name in SWEPT if name in names)
     powers = (f"{part}_kw" for part in POWERS)
-    columns = (
-        "rotor",
-        "twist",
-        "twist_deg_per_r",
-        "pitch_per_rev",
-        "twist_per_rev",
-        *condition,
-        "status",
-        *powers,
-        "message",
-    )
+    blade = ("rotor", "twist", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev")
+    columns = (*blade, *condition, "status", *powers, "message")
     return (*columns, *VIBRATION) if any(design.models.bending for design in designs) else columns
 
 

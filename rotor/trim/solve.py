@@ -342,22 +342,18 @@ def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, Bl
     )
 
 
+_SHOWN = ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+"""Fields of `DiskFields` that are those of the blade elements."""
+
+
 def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     disk, e = problem.disk, elements
     return DiskFields(
         r=disk.r,
         dr=disk.dr,
         psi=disk.psi,
-        theta=e.theta,
-        u_t=e.u_t,
-        u_p=e.u_p,
-        induced=e.induced,
+        **{name: getattr(e, name) for name in _SHOWN},
         inflow=e.induced + e.flow.mu_z,
-        alpha=e.alpha,
-        mach=e.mach,
-        cl=e.cl,
-        cd=e.cd,
-        cd_mach=e.cd_mach,
         stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
         dct=e.fz,
         dcq=e.fx,
