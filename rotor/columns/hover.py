@@ -248,18 +248,13 @@ def hover_system(problem: Problem) -> System:
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
     grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
-    count = len(structure.equations)
-    return System(
-        structure,
+    count, along, numbers = (
+        len(structure.equations),
         Shapes(structure, shapes, disk.dr),
-        grid,
-        grid,
-        _annulus_section,
-        _nothing_made,
         np.array([1.0, *values.values()]),
-        np.full(count, problem.scale),
-        np.ones(count),
     )
+    tolerance, limits = np.full(count, problem.scale), np.ones(count)
+    return System(structure, along, grid, grid, _annulus_section, _nothing_made, numbers, tolerance, limits)
 
 
 def hover_elements(problem: Problem, point: Point) -> BladeElements:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import msgspec
 
@@ -67,24 +67,11 @@ def read_tables(file: str, text: str) -> RotorFile:
     values = read_toml(file, text)
     with naming(file, text):
         top = convert(values, TopTable)
-        main = _main_rotor(top.main_rotor)
+        main = convert(top.main_rotor, MainRotorTable, *_MAIN)
         rotor = RotorFile(top, main, _sections(top, [main, *([main.document] if main.document else [])]))
         if len(rotor.named) > MOST_NAMED:
             raise Refusal(f"the sections in use name {len(rotor.named)} files: {MOST_NAMED} are allowed", "sections")
         return rotor
-
-
-def _main_rotor(given: dict[str, Any]) -> MainRotorTable:
-    """Where a document states another blade, the keys of that which flies may be in a table beside it, `flown`."""
-    flown = given.get("flown")
-    if not isinstance(flown, dict):
-        return convert(given, MainRotorTable, *_MAIN)
-    blade = cast("dict[str, Any]", flown)
-    try:
-        return convert({key: value for key, value in given.items() if key != "flown"} | blade, MainRotorTable, *_MAIN)
-    except Refusal as error:
-        inside = len(error.place) > 1 and error.place[1] in blade
-        raise Refusal(str(error), *_MAIN, *(["flown"] if inside else []), *error.place[1:]) from None
 
 
 def _sections(top: TopTable, blades: list[BladeTable]) -> dict[str, OwnSectionTable]:

@@ -13,10 +13,21 @@ from itertools import pairwise
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Series
+from rotor.chart import Chart, Series
 from rotor.files.make_design import make_design
 from rotor.reproduce.ladder import FAST, FAST_KMH, HOVER, RUNGS, STRONG, TRIM, WEAK, built, least, strong_over_weak
-from rotor.reproduce.report import TOLERANCE, Agreement, Report, ReportTable, by_name, curve, judged, report, table
+from rotor.reproduce.report import (
+    TOLERANCE,
+    Agreement,
+    Report,
+    ReportTable,
+    by_name,
+    curve,
+    judged,
+    panel,
+    report,
+    table,
+)
 from rotor.reproduce.runs import FIVE_RATES, FULL, THESIS_WAKE, VARIANT_TITLES, main_rotor_kw, solved
 from rotor.trim.solve import solve
 
@@ -57,11 +68,11 @@ def figure_3_11() -> Report:
         ]
         title = f"{name} preset"
         panels += [
-            Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
-            Chart(
+            panel(title, "C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
+            panel(
                 title,
-                Axis("C_T/σ"),
-                Axis("relative to the best of the five [%]"),
+                "C_T/σ",
+                "relative to the best of the five [%]",
                 _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
             ),
         ]
@@ -195,7 +206,7 @@ def figure_3_15() -> Report:
             )
         ],
         panels=[
-            Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))
+            panel(title, "advance ratio µ at 100 %", label, _five(FULL, partial(_at, kw)))
             for title, label, kw in (
                 ("100 % rotor speed", "main-rotor power [kW]", partial(main_rotor_kw, "flight")),
                 (f"{SLOWER:.0f} % rotor speed", "main-rotor power [kW]", slower_kw),
@@ -268,10 +279,10 @@ def _speeds(
     number: str, speeds: tuple[float, ...], verdict: Agreement, numbers: dict[str, float], **words: str | float
 ) -> Report:
     panels = tuple(
-        Chart(
+        panel(
             VARIANT_TITLES[name],
-            Axis("advance ratio µ"),
-            Axis(label),
+            "advance ratio µ",
+            label,
             _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
         )
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
@@ -378,19 +389,19 @@ def keys_1987() -> Report:
             ),
         ),
         panels=(
-            Chart(
+            panel(
                 "",
-                Axis("speed [km/h]"),
-                Axis("power of −17.3° over −11.5° [%]"),
+                "speed [km/h]",
+                "power of −17.3° over −11.5° [%]",
                 (
                     *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
                     curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
                 ),
             ),
-            Chart(
+            panel(
                 "",
-                Axis("X/qd²σ"),
-                Axis("power of −17.3° over −11.5° at 330 km/h [%]"),
+                "X/qd²σ",
+                "power of −17.3° over −11.5° at 330 km/h [%]",
                 (
                     curve("", force, lowest, "band", upper=highest, colour=2),
                     *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),

@@ -1,6 +1,5 @@
 """Lift, coefficients and flow of one blade along its span and around the disk, in SI units, of a solution."""
 
-import importlib
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -52,26 +51,6 @@ class Distribution(ShortRepr):
             "alpha_deg": np.degrees(self.alpha).tolist(),
             "inflow_m_s": self.inflow.tolist(),
         }
-
-    def to_xarray(self) -> Any:
-        """The fields as an xarray Dataset over `r` and `psi_deg`, with names, units and angles in degrees of `to_dict`.
-
-        ImportError with the remedy where xarray is missing.
-        """
-        try:
-            xarray: Any = importlib.import_module("xarray")
-        except ModuleNotFoundError:
-            raise ImportError("xarray is not installed: pip install xarray, or use to_dict()") from None
-        fields = {
-            "lift_n_per_m": (self.lift, "N/m"),
-            "cl": (self.cl, "1"),
-            "cm": (self.cm, "1"),
-            "mach": (self.mach, "1"),
-            "alpha_deg": (np.degrees(self.alpha), "degree"),
-            "inflow_m_s": (self.inflow, "m/s"),
-        }
-        values = {name: (("r", "psi_deg"), value, {"units": unit}) for name, (value, unit) in fields.items()}
-        return xarray.Dataset(values, {"r": self.r, "psi_deg": np.degrees(self.psi)})
 
     def table(self) -> str:
         """Mean and greatest lift [N/m] at a few radii, and where the blade then is."""
