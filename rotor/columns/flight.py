@@ -160,19 +160,9 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
         points = len(nodes.matrix)
         tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
         limits = np.concatenate([limits, np.full(points, nodes.limit)])
-    return System(
-        structure=structure,
-        shapes=Shapes(structure, shapes | terms.shapes(), disk.dr),
-        grid=grid,
-        thin=grid if step == 1 else _grid(problem, structure, step),
-        section=section.section,
-        memory=section.memory,
-        make=_Flow(problem, structure, terms),
-        numbers=np.array([1.0, *values.values()]),
-        tolerance=tolerance,
-        limits=limits,
-        nodes=nodes,
-    )
+    along, make = Shapes(structure, shapes | terms.shapes(), disk.dr), _Flow(problem, structure, terms)
+    thin, given = grid if step == 1 else _grid(problem, structure, step), np.array([1.0, *values.values()])
+    return System(structure, along, grid, thin, section.section, make, given, tolerance, limits, nodes, section.memory)
 
 
 def check_freedoms(problem: Problem) -> None:

@@ -39,34 +39,18 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
     parser.add_argument("--division", metavar="R,…", help="r/R of the breaks, for concepts with segments")
-    parser.add_argument(
-        "--from-mu", type=common.finite, default=0.0, metavar="MU", help="first advance ratio (default hover)"
-    )
-    parser.add_argument(
-        "--to-mu", type=common.finite, default=0.3, metavar="MU", help="second advance ratio (default 0.3)"
-    )
-    parser.add_argument(
-        "--share",
-        type=common.finite,
-        default=0.5,
-        metavar="0…1",
-        help="fraction of time in the second condition (default 0.5)",
-    )
-    parser.add_argument(
-        "--blade",
-        choices=("retrofit", "new"),
-        default="retrofit",
-        help="retrofit of the existing blade (default) or a new blade",
-    )
-    parser.add_argument(
-        "--stiffness",
-        type=common.finite,
-        metavar="G",
-        help="GJ of a new blade relative to the existing one (default 0.5)",
-    )
+    for flag, value, metavar, words in (
+        ("--from-mu", 0.0, "MU", "first advance ratio (default hover)"),
+        ("--to-mu", 0.3, "MU", "second advance ratio (default 0.3)"),
+        ("--share", 0.5, "0…1", "fraction of time in the second condition (default 0.5)"),
+        ("--stiffness", None, "G", "GJ of a new blade relative to the existing one (default 0.5)"),
+        ("--angle-deg", 45.0, "DEG", "fibre angle (default 45)"),
+    ):
+        parser.add_argument(flag, type=common.finite, default=value, metavar=metavar, help=words)
+    blades = ("retrofit", "new")
+    parser.add_argument("--blade", choices=blades, default=blades[0], help="the existing blade (default) or a new one")
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
-    parser.add_argument("--angle-deg", type=common.finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
     parser.add_argument(
         "--against",
         choices=("best-fixed", "as-built"),
@@ -151,23 +135,12 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "actuator": args.actuator,
         "plies": args.plies,
         "concept": args.concept,
-        "required_twist_deg": None,
-        "attainable_twist_deg": None,
-        "feasible": None,
-        "voltages_v": [],
-        "added_mass_kg": None,
-        "torsion_frequency_per_rev": None,
         "against": args.against,
-        "ideal_saving_w": None,
-        "gross_saving_w": None,
-        "stiffness_cost_w": None,
-        "mass_cost_w": None,
-        "drive_cost_w": None,
-        "net_saving_w": None,
-        "net_saving_band_w": None,
-        "fuel_saving_kg_h": None,
-        "limits": [],
-        "caveats": [],
+        **dict.fromkeys(("feasible", "added_mass_kg", "torsion_frequency_per_rev", "fuel_saving_kg_h")),
+        **dict.fromkeys(f"{twist}_twist_deg" for twist in ("required", "attainable")),
+        **dict.fromkeys(f"{part}_saving_w" for part in ("ideal", "gross", "net")),
+        **dict.fromkeys(f"{part}_w" for part in ("stiffness_cost", "mass_cost", "drive_cost", "net_saving_band")),
+        **{name: [] for name in ("voltages_v", "limits", "caveats")},
     }
 
 

@@ -65,15 +65,8 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError(
             "--doubt searches for the least total power in one flight: leave --mission and --objective out"
         )
-    search = Search(
-        design=design,
-        concept=concept,
-        objective=objective,
-        limits=common.limits_from(args, design, (concept,)),
-        starts=args.starts,
-        seed=args.seed,
-        band=args.band,
-    )
+    limits = common.limits_from(args, design, (concept,))
+    search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     beside = _beside(design, objective, optimum)

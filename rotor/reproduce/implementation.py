@@ -58,7 +58,7 @@ def error_figure(number: str) -> Report:
         (study.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, study in enumerate(studies[RANGES[0]])
     ]
     symbol = "Cl" if which == "lift" else "Cd"
-    panel = Chart(
+    errors_drawn = Chart(
         "",
         Axis("polynomial order"),
         Axis(f"rms error of {symbol}", log=True),
@@ -75,7 +75,7 @@ def error_figure(number: str) -> Report:
         number,
         judged(knee == chosen),
         tables=[table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows)],
-        panels=[panel],
+        panels=[errors_drawn],
         numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
         mach=polar.mach,
         reynolds=polar.reynolds / 1e6,
