@@ -74,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
         if args.doubt:
             beside = replace(beside, flights=_in_other_flights(search, optimum.best))
         if args.doubt or (design.hovering and alone):
-            beside = replace(beside, models=_with_other_models(search, optimum.best))
+            beside = replace(beside, models=_from(search, optimum.best, other_models(design).items()))
     common.print_result(
         args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective)
     )
@@ -110,11 +110,6 @@ def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
     return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
 
 
-def _with_other_models(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
-    """From the same best twist."""
-    return _from(search, best, other_models(search.design).items())
-
-
 def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
     """With other masses and drag areas, from the same best twist."""
     units = {"mass": "{:.0f} kg", "drag area": "{:.1f} m²"}
@@ -127,6 +122,7 @@ def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum
 
 
 def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) -> tuple[tuple[str, Optimum], ...]:
+    """Optima of other designs, from the same best twist."""
     other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
     return tuple((name, run_search(replace(other, design=design))) for name, design in designs)
 
@@ -173,7 +169,8 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
 
 def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any]:
     """The JSON of `optimise --json`; values not found are null."""
-    best = optimum.best
+    best, band = optimum.best, beside.index_band and list(beside.index_band)
+    index = {"index_percent": best and best.index, "index_band_percent": band}
     return {
         "status": optimum.status.value,
         "concept": optimum.concept,
@@ -182,7 +179,7 @@ def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any
         "power_w": None if best is None else best.power,
         "baseline_power_w": optimum.baseline_power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
-        **({} if best is None or best.index is None else _index(optimum, best, beside)),
+        **({} if best is None or best.index is None else index | {"baseline_index_percent": optimum.baseline_index}),
         "band": _bands(concept, optimum.band),
         "local_minima": [_minimum(minimum, concept) for minimum in optimum.minima],
         "evaluations": optimum.evaluations,
@@ -216,14 +213,6 @@ def _bands(concept: Concept, bands: Sequence[ParameterBand]) -> dict[str, list[f
     return {
         by_name[band.parameter].label: [round(by_name[band.parameter].shown(end), 6) for end in (band.low, band.high)]
         for band in bands
-    }
-
-
-def _index(optimum: Optimum, best: Minimum, beside: _Beside) -> dict[str, Any]:
-    return {
-        "index_percent": best.index,
-        "index_band_percent": beside.index_band and list(beside.index_band),
-        "baseline_index_percent": optimum.baseline_index,
     }
 
 

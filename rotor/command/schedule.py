@@ -18,6 +18,7 @@ from rotor.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
+_DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def add_parser(commands: Any) -> None:
@@ -64,7 +65,8 @@ def run(args: argparse.Namespace) -> int:
 def plan_from(args: argparse.Namespace) -> Plan:
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
     division = common.parse_division(args.division)
-    concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
+    names.sort(key=lambda name: list(CONCEPTS).index(name) if name in CONCEPTS else -1)
+    concepts = tuple(find_concept(name, division if name in _DIVIDED else None) for name in names)
     design = common.design_from(args)
     if args.on_top:
         concepts = tuple(on_top(concept, design.twist) for concept in concepts)
@@ -80,17 +82,6 @@ def plan_from(args: argparse.Namespace) -> Plan:
     for concept in concepts:
         limits.bounds_of(concept)
     return Plan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
-
-
-def _rank(name: str) -> int:
-    return list(CONCEPTS).index(name) if name in CONCEPTS else -1
-
-
-def _concept(name: str, division: tuple[float, ...] | None) -> Concept:
-    return find_concept(name, division if division is not None and name in _DIVIDED else None)
-
-
-_DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def record(schedule: Schedule) -> dict[str, Any]:

@@ -99,7 +99,10 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     with naming(main, texts[main]):
         sections = tuple(read_section(table, name, texts, used, remarks) for name, table in file.sections.items())
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
-        stated = _stated(file.main, rotor, sections)
+        stated, document = None, file.main.document
+        if document is not None:
+            blade = _blade(file.main, document, (*_MAIN, "document"), sections)
+            stated = Stated(replace(rotor, blade=blade), document.twist("document"))
         controls = top.controls.range() if top.controls else None
         doubt = msgspec.structs.asdict(convert(top.doubt, DoubtTable, "doubt"))
         fuselage = (
@@ -147,13 +150,6 @@ def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], tw
         builtin_twist=main.twist(twist_name),
         precone=math.radians(precone or 0.0) if fixed else None,
     )
-
-
-def _stated(main: MainRotorTable, flown: Rotor, sections: tuple[OwnSection, ...]) -> Stated | None:
-    if main.document is None:
-        return None
-    blade = _blade(main, main.document, (*_MAIN, "document"), sections)
-    return Stated(replace(flown, blade=blade), main.document.twist("document"))
 
 
 def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[OwnSection, ...]) -> Blade:
