@@ -341,8 +341,10 @@ class Programme:
 @cache
 def programmes() -> tuple[Programme, ...]:
     """All published results, in the order of the data file."""
-    rows = _data("active_twist_programmes")["programme"]
-    return tuple(
-        Programme(**{key: tuple(value) if isinstance(value, list) else value for key, value in row.items()})
-        for row in rows
-    )
+    return tuple(_programme(row) for row in _data("active_twist_programmes")["programme"])
+
+
+def _programme(row: dict[str, Any]) -> Programme:
+    ranges = ("per_rev", "amplitude_deg", "vibration_percent")
+    pairs: dict[str, Any] = {key: tuple(row[key]) for key in ranges if key in row}
+    return Programme(**(row | pairs))
