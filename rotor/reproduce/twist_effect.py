@@ -121,15 +121,9 @@ def figure_3_12() -> Report:
     slow, fast = best["thesis"][0], best["thesis"][-1]
     saves = {name: main_rotor_kw(name, 0, LOW[0]) / main_rotor_kw(name, -16, LOW[0]) - 1.0 for name in FIVE_NAMES}
     costs = [mu for mu in LOW if main_rotor_kw("thesis", -16, mu) > (1 + TOLERANCE) * main_rotor_kw("thesis", 0, mu)]
-    return _speeds(
-        "3.12",
-        LOW,
-        judged(not costs),
-        {f"{name}_saving": value for name, value in saves.items()},
-        costs=f", and from µ {costs[0]:g} on it costs power" if costs else "",
-        slow=slow,
-        fast=fast,
-    )
+    numbers = {f"{name}_saving": value for name, value in saves.items()}
+    beyond = f", and from µ {costs[0]:g} on it costs power" if costs else ""
+    return _speeds("3.12", LOW, judged(not costs), numbers, costs=beyond, slow=slow, fast=fast)
 
 
 def figure_3_13() -> Report:
@@ -150,21 +144,13 @@ def figure_3_14() -> Report:
     cost = {name: _cost(name, -4, last) for name in FIVE_NAMES}
     trim, section = (least(on, last, None).rate_deg for on in (TRIM, ("table", "mach")))
     anywhere = max(_cost("thesis", -4, mu) for mu in HIGH)
-    return _speeds(
-        "3.14",
-        HIGH,
-        judged(anywhere <= TOLERANCE),
-        {
-            **{f"{name}_best": float(rates[0]) for name, rates in best.items()},
-            **{f"{name}_cost_of_4": value for name, value in cost.items()},
-            "with_trim": trim,
-            "with_section": section,
-        },
-        best=_best_words(best),
-        cost=by_name(cost, "{:.2f} %"),
-        anywhere=anywhere,
-        thesis_optimum=least((), last, None).rate_deg,
-    )
+    numbers = {f"{name}_best": float(rates[0]) for name, rates in best.items()}
+    numbers |= {f"{name}_cost_of_4": value for name, value in cost.items()}
+    numbers |= {"with_trim": trim, "with_section": section}
+    words = {"best": _best_words(best), "cost": by_name(cost, "{:.2f} %")}
+    optimum = least((), last, None).rate_deg
+    agreement = judged(anywhere <= TOLERANCE)
+    return _speeds("3.14", HIGH, agreement, numbers, **words, anywhere=anywhere, thesis_optimum=optimum)
 
 
 SLOWER = 90.0
@@ -195,16 +181,7 @@ def figure_3_15() -> Report:
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
         "3.15",
-        tables=[
-            table(
-                "flight_kw",
-                ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-                [
-                    (mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
-                    for mu, saving in zip(FULL, best, strict=True)
-                ],
-            )
-        ],
+        tables=[_kw_table("flight", FULL)],
         panels=[
             panel(title, "advance ratio µ at 100 %", label, _five(FULL, partial(_at, kw)))
             for title, label, kw in (
@@ -249,6 +226,12 @@ def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Serie
 def best_of_five(name: str, mu: float) -> int:
     """The best of the thesis' five twists [°/R]."""
     return min(FIVE_RATES, key=lambda rate: main_rotor_kw(name, rate, mu))
+
+
+def _kw_table(name: str, speeds: Sequence[float]) -> ReportTable:
+    """The powers of the five twists over speed, and the best of them."""
+    rows = [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds]
+    return table(f"{name}_kw", ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"), rows)
 
 
 def _cost(name: str, rate: float, mu: float) -> float:
@@ -296,15 +279,10 @@ def _speeds(
         for first, second in pairwise(FIVE_RATES):
             crossed += [(name, first, second, mu) for mu in crossings(name, first, second, speeds)]
     met = [f"{first}° and {second}° at µ {mu:.3f}" for name, first, second, mu in crossed if name == "thesis"]
-    kw = [
-        table(
-            f"{name}_kw",
-            ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-            [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds],
-        )
-        for name in FIVE_NAMES
+    tables = [
+        *(_kw_table(name, speeds) for name in FIVE_NAMES),
+        table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed),
     ]
-    tables = [*kw, table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed)]
     paths += ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis).")
     return report(number, verdict, tables=tables, panels=panels, numbers=numbers, paths=paths, **words)
 

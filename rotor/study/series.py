@@ -30,15 +30,8 @@ from rotor.units import KNOT
 from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
-VIBRATION = (
-    "index_percent",
-    "least_index_percent",
-    "largest_index_percent",
-    *HUB_COLUMNS,
-    "flap_2_per_rev",
-    "lag_1_per_rev",
-    "torsion_1_per_rev",
-)
+_INDICES = ("index_percent", "least_index_percent", "largest_index_percent")
+VIBRATION = (*_INDICES, *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev")
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over inflow models,
 their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")

@@ -71,16 +71,8 @@ def distribution(solution: Solution) -> Distribution:
         raise TypeError(f"solution is {solution!r:.80}: give what rotor.solve returns")
     design, disk = solution.design, solution.require().disk
     rotor = design.rotor
-    return Distribution(
-        r=disk.r,
-        psi=disk.psi,
-        lift=disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)),
-        cl=disk.cl,
-        cm=_moments(design, disk),
-        mach=disk.mach,
-        alpha=disk.alpha,
-        inflow=disk.induced * rotor.tip_speed,
-    )
+    lift, inflow = disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)), disk.induced * rotor.tip_speed
+    return Distribution(disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow)
 
 
 def _moments(design: Design, flow: DiskFields) -> Array:

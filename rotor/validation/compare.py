@@ -231,16 +231,9 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
     ours = {name: quantity_of(name, solution, measured) for name in targets}
     value = ours[measured.quantity]
-    return ComparedPoint(
-        given=given,
-        measured=targets,
-        ours=ours,
-        message="",
-        error_percent=100.0 * (value / wanted - 1.0),
-        within_scatter=abs(value - wanted) <= measured.scatter_of(wanted),
-        judged=judged,
-        passed=not judged or measured.allows(wanted, value),
-    )
+    error, within = 100.0 * (value / wanted - 1.0), abs(value - wanted) <= measured.scatter_of(wanted)
+    passed = not judged or measured.allows(wanted, value)
+    return ComparedPoint(given, targets, ours, "", error, within, judged, passed)
 
 
 def measured_set(name: str) -> TrustSet:

@@ -136,16 +136,10 @@ def flown_powers() -> Iterator[FlownPower]:
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         ends, controls = between_drag_areas(solution), solution.controls
         ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
-        yield FlownPower(
-            rotor=power.rotor,
-            case=power.case,
-            mu=power.mu,
-            measured=power.power,
-            ours=solution.power.main_rotor if solution.converged else None,
-            band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-            measured_angles=power.angles,
-            angles=tuple(map(math.degrees, ours)) if solution.converged else None,
-        )
+        main = solution.power.main_rotor if solution.converged else None
+        band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
+        angles = tuple(map(math.degrees, ours)) if solution.converged else None
+        yield FlownPower(power.rotor, power.case, power.mu, power.power, main, band, power.angles, angles)
 
 
 def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[float, float]:
