@@ -28,12 +28,8 @@ from rotor.trim.solve import solve_alike
 
 
 def add_sweep(commands: Any) -> None:
-    parser = common.add_command(
-        commands,
-        "sweep",
-        run_sweep,
-        "power of one or more twists over speed, mass, altitude or another quantity of flight",
-    )
+    words = "power of one or more twists over speed, mass, altitude or another quantity of flight"
+    parser = common.add_command(commands, "sweep", run_sweep, words)
     common.add_design_arguments(parser, twists=True, ranges=True)
     common.add_output_arguments(parser)
 
@@ -105,20 +101,13 @@ FRONT_COLUMNS = (
 
 
 def add_front(commands: Any) -> None:
-    parser = common.add_command(
-        commands, "front", run_front, "least power for less and less vibration, by active or static twist"
-    )
-    parser.add_argument(
-        "--concept", metavar="NAME", help=f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
-    )
+    words = "least power for less and less vibration, by active or static twist"
+    parser = common.add_command(commands, "front", run_front, words)
+    varied = f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
+    parser.add_argument("--concept", metavar="NAME", help=varied)
     parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
-    parser.add_argument(
-        "--reach-deg",
-        type=common.finite,
-        default=1.0,
-        metavar="DEG",
-        help="largest amplitude of each harmonic (default 1)",
-    )
+    reach = "largest amplitude of each harmonic (default 1)"
+    parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
     parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
     common.add_design_arguments(parser, speed=True)
     common.add_output_arguments(parser)
