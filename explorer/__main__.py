@@ -26,11 +26,7 @@ from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, called, run_command
 
-_COMMANDS = {
-    "report": "explorer.export.report",
-    "blade": "explorer.export.blade",
-    "story": "explorer.story.story_file",
-}
+_COMMANDS = {"report": "explorer.export.report", "blade": "explorer.export.blade", "story": "explorer.story.story_file"}
 """Modules with commands of their own, loaded when one is asked for."""
 
 
@@ -69,10 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     tell_in_a_log()
     try:
         start = inputs_of(load_design(options.design)) if options.design is not None else OPENING
-        limits = ServerLimits(
-            sessions=options.max_sessions,
-            allow_hosts=tuple(options.allow_host),
-        )
+        limits = ServerLimits(sessions=options.max_sessions, allow_hosts=tuple(options.allow_host))
         app = App(options.host, options.port, start, limits)
     except PortBusy as error:
         raise ValueError(str(error)) from None

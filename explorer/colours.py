@@ -197,12 +197,7 @@ DARK = SceneTheme(
     lights=_lights(1.9, 0.55, 1.3),
     sky=0.55,
     environment=0.20,
-    ink=DiskInk(
-        stall=(255, 92, 150),
-        reverse_flow=(58, 63, 74),
-        drag_divergence=(245, 247, 250),
-        opacity=0.80,
-    ),
+    ink=DiskInk(stall=(255, 92, 150), reverse_flow=(58, 63, 74), drag_divergence=(245, 247, 250), opacity=0.80),
 )
 
 

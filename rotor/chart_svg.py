@@ -74,31 +74,19 @@ def svg(chart: Chart, inline: bool = False) -> Markup:
         [tag("path", d=_rule(axes, rule.at, rule.along), stroke=rule.colour, stroke_dasharray=rule.dashes)
          for rule in chart.rules],
     )  # fmt: skip
-    return _whole(
-        (_WIDE, bottom + 46.0),
-        chart.title,
-        inline,
-        tag("path", d="".join(grid), fill="none", stroke="currentColor", stroke_opacity=0.14),
-        tag("path", d=f"M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}", fill="none", stroke="currentColor"),
-        tag("g", words, fill="currentColor"),
-        key,
-        _cut_off(axes, drawn),
-    )
+    lines = tag("path", d="".join(grid), fill="none", stroke="currentColor", stroke_opacity=0.14)
+    frame = tag("path", d=f"M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}", fill="none", stroke="currentColor")
+    size, text = (_WIDE, bottom + 46.0), tag("g", words, fill="currentColor")
+    return _whole(size, chart.title, inline, lines, frame, text, key, _cut_off(axes, drawn))
 
 
 def small_svg(chart: Chart) -> Markup:
     """The chart without text, for a row of a table."""
     axes = _Axes(chart, chart.span("x"), chart.span("y"), 4.0, 3.0, 112.0, 28.0)
-    return _whole(
-        (120.0, 34.0),
-        chart.title,
-        False,
-        tag("path", d="M4,3V31H116", fill="none", stroke="currentColor", stroke_opacity=0.35),
-        [
-            _drawn(axes, series, colour, 0.45, 0.75)
-            for series, colour in zip(chart.series, chart.colours(), strict=True)
-        ],
-    )
+    frame = tag("path", d="M4,3V31H116", fill="none", stroke="currentColor", stroke_opacity=0.35)
+    pairs = zip(chart.series, chart.colours(), strict=True)
+    drawn = [_drawn(axes, series, colour, 0.45, 0.75) for series, colour in pairs]
+    return _whole((120.0, 34.0), chart.title, False, frame, drawn)
 
 
 def _whole(size: Place, title: str, inline: bool, *content: Content) -> Markup:

@@ -18,12 +18,7 @@ def card_words(band: Doubt, units: Units) -> dict[str, Any]:
     """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
     unit = units.power[0]
     within = unit.of(band.band)
-    words = {
-        "within": f"± {number(within, decimals(within))}",
-        "change_within": "",
-        "sure": "",
-        "doubt": band.sentence,
-    }
+    words = {"within": f"± {number(within, decimals(within))}", "change_within": "", "sure": "", "doubt": band.sentence}
     percent = band.change_band_percent
     if band.change and percent:
         words |= {"change_within": f"± {number(percent, decimals(percent))}", "sure": band.sureness or ""}

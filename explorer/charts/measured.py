@@ -25,11 +25,7 @@ _KEPT = 20
 _PACE = 0.3
 """[s] between two drawings of a curve that grows."""
 _MILLE = "×10³"
-_AXES = {
-    "ct": ("CT ×10³", 1e3),
-    "ct_over_sigma": ("CT/σ", 1.0),
-    "mu": ("µ", 1.0),
-}
+_AXES = {"ct": ("CT ×10³", 1e3), "ct_over_sigma": ("CT/σ", 1.0), "mu": ("µ", 1.0)}
 _QUANTITIES = {
     "cp": ("CP over CT", "CP ×10³", 1e3),
     "cq_over_sigma": ("CQ/σ over µ", "CQ/σ ×10³", 1e3),

@@ -100,10 +100,7 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
         return []
     curve = curves.known(design, reference)
     change = 100.0 * (curve.design / curve.reference - 1.0)
-    return [
-        Line(entry.title, *_smooth(change), colour),
-        Points("", np.array(SWEEP[:1]), change[:1], colour),
-    ]
+    return [Line(entry.title, *_smooth(change), colour), Points("", np.array(SWEEP[:1]), change[:1], colour)]
 
 
 def _smooth(values: Array) -> tuple[Array, Array]:

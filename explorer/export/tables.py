@@ -62,10 +62,7 @@ def comparison(report: DesignReport) -> Markup:
         _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
         _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
         *(
-            _row(
-                _named(name, title),
-                compared(lambda solution, name=name: getattr(solution.power, name)),
-            )
+            _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
             for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),

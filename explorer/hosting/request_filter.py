@@ -205,12 +205,7 @@ class RequestFilter:
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the filter before them."""
-        filtered = {
-            **options,
-            "max_size": LARGEST_MESSAGE,
-            "create_connection": GuardedConnection,
-            "logger": _visitors,
-        }
+        filtered = {**options, "max_size": LARGEST_MESSAGE, "create_connection": GuardedConnection, "logger": _visitors}
         filtered["process_request"] = self._process(options["process_request"])
         return _contained(handler), filtered
 

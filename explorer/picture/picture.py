@@ -291,11 +291,7 @@ def marks_of(view: ViewState) -> Marks:
 
 
 def page_disk_png(
-    solution: Solution,
-    field: Field,
-    colour_range: tuple[float, float],
-    view: ViewState,
-    pixels: int,
+    solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
     ink = scene_theme(view.dark).ink

@@ -71,10 +71,7 @@ def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tup
 
 
 def still_page(
-    solution: Solution,
-    view: ViewState,
-    colour_range: tuple[float, float],
-    compared: Solution | None = None,
+    solution: Solution, view: ViewState, colour_range: tuple[float, float], compared: Solution | None = None
 ) -> str:
     """One as a page of its own; from a server that nobody else sees, for only servers can record.
 

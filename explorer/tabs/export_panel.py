@@ -73,11 +73,7 @@ class ExportPanel(Tab):
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
     def __init__(
-        self,
-        context: TabContext,
-        scene: SceneController,
-        history: HistoryPanel,
-        actuator: Callable[[], Verdict | str],
+        self, context: TabContext, scene: SceneController, history: HistoryPanel, actuator: Callable[[], Verdict | str]
     ) -> None:
         """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator

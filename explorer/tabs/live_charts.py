@@ -10,14 +10,7 @@ import viser
 
 from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
 from explorer.charts.plots import PowerCurve, Range
-from explorer.charts.strip import (
-    Role,
-    alpha_chart,
-    lift_chart,
-    power_change_chart,
-    total_power_chart,
-    with_speeds,
-)
+from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState

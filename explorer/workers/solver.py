@@ -10,17 +10,7 @@ from typing import Any
 
 from rotor import Design, Optimum, Solution, make_design, solve
 from rotor.design.quantities import PRESETS
-from rotor.optimisation import (
-    Concept,
-    Objective,
-    Plan,
-    Schedule,
-    Search,
-    at_condition,
-    measure,
-    run_plan,
-    run_search,
-)
+from rotor.optimisation import Concept, Objective, Plan, Schedule, Search, at_condition, measure, run_plan, run_search
 from rotor.trim import power_gradient
 
 _NICE = 5

@@ -7,13 +7,11 @@ contents of chapter 5 is known, so its numbers are not compared.
 
 from rotor.actuator.catalogue import (
     Actuator,
-    Engines,
     ExtensionTwist,
     PiezoPly,
     Programme,
     TorqueTube,
     actuators,
-    engines_of,
     find_actuator,
     programmes,
 )
@@ -24,7 +22,7 @@ from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, Supposed, break_even, pay_sentence, suppose
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.stopped import Failure, failure
+from rotor.actuator.stopped import failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
@@ -34,9 +32,7 @@ __all__ = (
     "BreakEven",
     "ConditionPair",
     "EffectInFlight",
-    "Engines",
     "ExtensionTwist",
-    "Failure",
     "FlightLeg",
     "Host",
     "InstalledActuator",
@@ -51,7 +47,6 @@ __all__ = (
     "break_even",
     "default_placement",
     "effect",
-    "engines_of",
     "failure",
     "find_actuator",
     "fly",

@@ -11,7 +11,7 @@ import numpy as np
 
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.dynamics.structure import titanium
+from rotor.dynamics.structure import listed_material, titanium
 from rotor.dynamics.thin_wall import Layer, Material
 from rotor.user_input import did_you_mean
 
@@ -184,14 +184,7 @@ def _ply(row: dict[str, Any]) -> PiezoPly:
         id=row["id"],
         name=row["name"],
         electrodes=row["electrodes"],
-        material=Material(
-            row["name"],
-            1e9 * row["e1_gpa"],
-            1e9 * row["e2_gpa"],
-            row["nu12"],
-            1e9 * row["g12_gpa"],
-            row["density_kg_m3"],
-        ),
+        material=listed_material(row["name"], row),
         thickness=1e-3 * row["thickness_mm"],
         d_along=1e-12 * row["d_along_pm_v"],
         d_across=1e-12 * row["d_across_pm_v"],

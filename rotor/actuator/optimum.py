@@ -89,12 +89,12 @@ def best_twist(
     design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: from these starts and no others."""
-    return _search((design,), (1.0,), concept, None, 1.0, starts, alone=alone)
+    return _search(((design,), (1.0,)), concept, None, starts, alone=alone)
 
 
 def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
     """The concept's fixed twist of least mean power."""
-    return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
+    return _search((pair.designs(), pair.shares), concept, None, starts)
 
 
 def best_actuated(
@@ -106,40 +106,40 @@ def best_actuated(
     starts: Sequence[Sequence[float]] = (),
 ) -> TwistOptimum:
     """Least mean power with the actuator, within its range times `scale`."""
-    return _search(pair.designs(), pair.shares, concept, installed, scale, starts)
+    return _search((pair.designs(), pair.shares), concept, (installed, scale), starts)
 
 
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array) -> TwistOptimum:
     """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2)."""
-    reached = _Task((design,), (1.0,), None, installed, 1.0, bounds).descend(())
+    reached = _Task(((design,), (1.0,)), None, (installed, 1.0), bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
 
 
+_Flights = tuple[tuple[Design, ...], tuple[float, ...]]
+"""Designs at their conditions, and the shares of time."""
+_Fitted = tuple[InstalledActuator, float] | None
+"""An actuator, and the part of its range that is used."""
+
+
 def _search(
-    designs: tuple[Design, ...],
-    shares: tuple[float, ...],
-    concept: Concept,
-    installed: InstalledActuator | None,
-    scale: float,
-    starts: Sequence[Sequence[float]],
-    *,
-    alone: bool = False,
+    flights: _Flights, concept: Concept, fitted: _Fitted, starts: Sequence[Sequence[float]], *, alone: bool = False
 ) -> TwistOptimum:
+    installed = fitted and fitted[0]
     if installed is not None and installed.host.kind == "retrofit":
         low, high = 0.0, 1.0
         if isinstance(installed.actuator, PiezoPly):
             low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
         either = [[ends] * 2 * len(installed.shapes) for ends in ((low, high), (-high, -low))]  # Direction of fibres.
-        tasks = [_Task(designs, shares, None, installed, scale, bounds) for bounds in either]
+        tasks = [_Task(flights, None, fitted, bounds) for bounds in either]
         jigs: list[Sequence[float]] = [()]
     else:
         segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
         bounds = [(0.0, 0.0)] * segments + [(-1.0, 1.0)] * segments
-        tasks, jigs = [_Task(designs, shares, concept, installed, scale, bounds)], list(starts)
+        tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
         if not alone and (installed is None or not starts):
-            first = nearest(concept, designs[0].twist)
+            first = nearest(concept, flights[0][0].twist)
             flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
             jigs += [first, flatter]
     optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
@@ -154,22 +154,16 @@ class _Task:
     """One descent; each trim starts from the previous one."""
 
     def __init__(
-        self,
-        designs: tuple[Design, ...],
-        shares: tuple[float, ...],
-        concept: Concept | None,
-        installed: InstalledActuator | None,
-        scale: float,
-        swings: Sequence[tuple[float, float]] | Array,
+        self, flights: _Flights, concept: Concept | None, fitted: _Fitted, swings: Sequence[tuple[float, float]] | Array
     ) -> None:
         """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
-        self.designs = tuple(installed.on(design) for design in designs) if installed else designs
-        self.shares, self.concept = shares, concept
-        self.trims: list[Solution | None] = [None] * len(designs)
-        self.segments = len(installed.shapes) if installed else 0
-        self.shapes = np.zeros((0, len(STATIONS)))
-        if installed:
-            self.shapes = scale * law_shapes(installed, designs[0])
+        (self.designs, self.shares), self.concept = flights, concept
+        self.trims: list[Solution | None] = [None] * len(self.designs)
+        self.segments, self.shapes = 0, np.zeros((0, len(STATIONS)))
+        if fitted:
+            installed, scale = fitted
+            self.segments, self.shapes = len(installed.shapes), scale * law_shapes(installed, self.designs[0])
+            self.designs = tuple(installed.on(design) for design in self.designs)
         bounds = [(p.low, p.high) for p in concept.parameters] if concept else []
         self.low, high = np.array([*bounds, *swings]).T
         self.span = high - self.low

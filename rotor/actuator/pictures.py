@@ -9,13 +9,7 @@ import numpy as np
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pay import BreakEven
-from rotor.actuator.section import (
-    passive_skin,
-    passive_wall,
-    section_spec,
-    skin,
-    web_line,
-)
+from rotor.actuator.section import passive_skin, passive_wall, section_spec, skin, web_line
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line

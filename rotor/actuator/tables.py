@@ -114,12 +114,7 @@ def _ply_properties(actuator: Actuator) -> Row:
     }
 
 
-def table_5_2(
-    pair: ConditionPair,
-    *,
-    placement: Placement | None = None,
-    host: Host | None = None,
-) -> ActuatorTable:
+def table_5_2(pair: ConditionPair, *, placement: Placement | None = None, host: Host | None = None) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
     verdicts = [
         judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host)

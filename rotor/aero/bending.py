@@ -31,13 +31,7 @@ from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
-from rotor.dynamics.bending import (
-    BendingModes,
-    bending_beam,
-    bending_modes,
-    blade_bending_modes,
-    frequencies_by_kind,
-)
+from rotor.dynamics.bending import BendingModes, bending_beam, bending_modes, blade_bending_modes, frequencies_by_kind
 from rotor.dynamics.torsion import blade_modes
 from rotor.units import GRAVITY
 

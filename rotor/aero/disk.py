@@ -69,16 +69,8 @@ class Disk:
     @property
     def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]:
         """What the loads of the blade elements need beside velocities."""
-        return (
-            self.half_solidity,
-            self.section,
-            self.weight,
-            self.offset,
-            self.tables,
-            self.held,
-            self.cos_sweep,
-            self.sin_sweep,
-        )
+        blend, data = (self.section, self.weight, self.offset), (self.tables, self.held)
+        return self.half_solidity, *blend, *data, self.cos_sweep, self.sin_sweep
 
 
 def element_edges(widths: Array) -> Array:

@@ -13,23 +13,18 @@ import numpy as np
 from rotor.aero.bent_section import turned
 from rotor.aero.disk import Disk
 from rotor.aero.dynamic_stall import SEPARATION, VORTEX
-from rotor.aero.elements import BentState, BladeElements, TwistState, over_azimuths
+from rotor.aero.elements import (
+    FLOW_FIELDS,
+    SECTION_FIELDS,
+    BentState,
+    BladeElements,
+    TwistState,
+    over_azimuths,
+    section_fields,
+)
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
-from rotor.aero.section import (
-    ALPHA,
-    CD,
-    CD_MACH,
-    CL,
-    FR,
-    FX,
-    FZ,
-    MACH,
-    M,
-    angles_of_attack,
-    stall_angles,
-    stall_margins,
-)
+from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
 from rotor.aero.stalling_section import StallingData, added_to
 from rotor.aero.unsteady_section import at_three_quarters
 from rotor.arrays import Array, read_only
@@ -41,26 +36,6 @@ STALLED = 0.7
 """f″ below which a section is stalled: f of static stall by Leishman and Beddoes (J. AHS 34(3), 1989)."""
 AREA_RADII = 80
 """Even radii at which regions are counted where there are fewer elements."""
-
-
-_OVER_DISK = (
-    "theta",
-    "u_t",
-    "u_p",
-    "u_r",
-    "loss",
-    "rate",
-    "induced",
-    "fz",
-    "fx",
-    "fr",
-    "alpha",
-    "mach",
-    "cl",
-    "cd",
-    "cd_mach",
-)
-"""Fields of `BladeElements` by element and azimuth."""
 
 
 @lru_cache(maxsize=16)
@@ -95,7 +70,7 @@ def _all_round(problem: Problem, elements: BladeElements) -> BladeElements:
     def around(field: Array) -> Array:
         return over_azimuths(field[:, 0], azimuths)
 
-    values = {name: around(getattr(e, name)) for name in _OVER_DISK}
+    values = {name: around(getattr(e, name)) for name in (*FLOW_FIELDS, *SECTION_FIELDS)}
     twist = torsion and replace(torsion, twist=around(torsion.twist), moment=around(torsion.moment))
     return replace(e, **values, beta=np.full(azimuths, e.beta[0]), torsion=twist)
 
@@ -104,36 +79,15 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     """The elements at all azimuths of a problem."""
     e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
     matrix = resampling(len(e.beta), azimuths)
-    fields = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate, e.induced)) @ matrix
+    fields = np.stack([getattr(e, name) for name in FLOW_FIELDS]) @ matrix
     rates = None if e.rates is None else e.rates @ matrix
     f, s, bends = _sections(problem, e, fields[:6] if rates is None else np.concatenate([fields[:6], rates]), matrix)
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
         twist = TwistState(e.torsion.coordinates, torsion.radial.T @ around, f[M])
-    theta, u_t, u_p, u_r, loss, rate, induced = fields
-    return replace(
-        e,
-        theta=theta,
-        u_t=u_t,
-        u_p=u_p,
-        u_r=u_r,
-        loss=loss,
-        rate=rate,
-        beta=e.beta @ matrix,
-        induced=induced,
-        fz=f[FZ],
-        fx=f[FX],
-        fr=f[FR],
-        alpha=s[ALPHA],
-        mach=s[MACH],
-        cl=s[CL],
-        cd=s[CD],
-        cd_mach=s[CD_MACH],
-        torsion=twist,
-        bent=bends,
-        rates=rates,
-    )
+    values = dict(zip(FLOW_FIELDS, fields, strict=True)) | section_fields(f, s)
+    return replace(e, **values, beta=e.beta @ matrix, torsion=twist, bent=bends, rates=rates)
 
 
 def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:

@@ -28,15 +28,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
-from rotor.airfoil.stall_onset import (
-    LAG_PRESSURE,
-    LAG_SEPARATION,
-    LAG_VORTEX,
-    NEGATIVE,
-    POSITIVE,
-    SLOPE,
-    TRAVEL,
-)
+from rotor.airfoil.stall_onset import LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, NEGATIVE, POSITIVE, SLOPE, TRAVEL
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 

@@ -144,16 +144,9 @@ def build_torsion(
     highest: harmonic; count: modes.
     """
     torsion = _at_unit_density(rotor, disk, only_mach, swept, highest, count)
-    return replace(
-        torsion,
-        gain=torsion.gain * density,
-        inertia=torsion.inertia / density,
-        coupling=torsion.coupling / density,
-        tension=torsion.tension / density,
-        own_tension=torsion.own_tension / density,
-        tip_mass=torsion.tip_mass / density,
-        moment_unit=torsion.moment_unit * density,
-    )
+    lighter = ("inertia", "coupling", "tension", "own_tension", "tip_mass")
+    scaled = {name: getattr(torsion, name) / density for name in lighter}
+    return replace(torsion, **scaled, gain=torsion.gain * density, moment_unit=torsion.moment_unit * density)
 
 
 @lru_cache(maxsize=32)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero.inflow.interface import DiskFlow
+from rotor.aero.section import FR, FX, FZ
 from rotor.arrays import Array
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
@@ -120,6 +121,16 @@ class DiskSums:
     """Power of the air on the blade's motion, over ρA(ΩR)³."""
     damping: float = 0.0
     """That which dampers of further freedoms take."""
+
+
+FLOW_FIELDS = ("theta", "u_t", "u_p", "u_r", "loss", "rate", "induced")
+SECTION_FIELDS = ("fz", "fx", "fr", "alpha", "mach", "cl", "cd", "cd_mach")
+"""Fields of `BladeElements` by element and azimuth: what meets the section, and what comes of it."""
+
+
+def section_fields(forces: Array, flow: Array) -> dict[str, Array]:
+    """`SECTION_FIELDS` by name, of the forces and the flow of a section."""
+    return dict(zip(SECTION_FIELDS, (forces[FZ], forces[FX], forces[FR], *flow), strict=True))
 
 
 def over_azimuths(values: Array, azimuths: int) -> Array:

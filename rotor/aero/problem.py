@@ -150,14 +150,8 @@ def build_problem(design: Design) -> Problem:
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
         inflow = inflow.without_tip_loss()
-    disk = build_disk(
-        rotor,
-        *grid_of(design),
-        None if models.compressibility else LOW_MACH,
-        models.has("swept_tip"),
-        models.has("surface_drag"),
-        inflow.fine_tip,
-    )
+    only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
+    disk = build_disk(rotor, *grid_of(design), only_mach, swept, models.has("surface_drag"), inflow.fine_tip)
     flow = expected_flow(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
@@ -171,15 +165,7 @@ def build_problem(design: Design) -> Problem:
         bending = build_bending(rotor, disk, condition.density, MODES, BENDING_HARMONICS, REFERENCE_COLLECTIVE)
     highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
     if models.has("elastic_twist") and rotor.blade.structure is not None:
-        torsion = build_torsion(
-            rotor,
-            disk,
-            condition.density,
-            None if models.compressibility else LOW_MACH,
-            models.has("swept_tip"),
-            highest,
-            TORSION_MODES,
-        )
+        torsion = build_torsion(rotor, disk, condition.density, only_mach, swept, highest, TORSION_MODES)
     stall = _stall_data(design, disk, inflow)
     return Problem(
         design=design,

@@ -75,21 +75,9 @@ def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
     return k1 / 6.0 * camber, k1 / 6.0 * slope
 
 
-SECTION_NAMES = (
-    "sc1095",
-    "sc1094r8",
-    "naca0012",
-    "naca63a015",
-    "naca64208",
-    "naca64118",
-    "naca64528",
-    "naca64935",
-    "goe429",
-    "naca0015re242k",
-    "oa209",
-    "naca23012tab",
-    "naca23012tab-model",
-)
+_SIX_SERIES = ("naca63a015", "naca64208", "naca64118", "naca64528", "naca64935")
+_TABBED = ("naca23012tab", "naca23012tab-model")
+SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", *_SIX_SERIES, "goe429", "naca0015re242k", "oa209", *_TABBED)
 _OUTLINES = {"naca23012tab-model": "naca23012tab"}
 """Outlines of sections that have that of another: the same at another Reynolds number."""
 

@@ -16,10 +16,10 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.bent_section import SLOPES
-from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState
+from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState, section_fields
 from rotor.aero.inflow.interface import DiskFlow, InflowTerms
 from rotor.aero.problem import Problem, in_disk_axes, swirl_of
-from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, LOSS, MACH, RATE, TH, UP, UR, UT, M
+from rotor.aero.section import FZ, LOSS, RATE, TH, UP, UR, UT, M
 from rotor.aero.unsteady_section import DTH, RATES
 from rotor.arrays import Array
 from rotor.columns.bending import bends, coordinates_of, freedoms_of
@@ -121,29 +121,13 @@ def _add_sums(s: Structure, key: _StructureKey) -> None:
     parts = torque + [(-share, i, j, q) for share, i, j, q in motion] + damping
     mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
     pull = [(share, mu_x, atom, q) for share, atom, _, q in drag] + [(-1.0, mu_z, ONE, s.measure(FZ, "one", STEADY))]
-    for name, terms in (
-        ("drag", drag),
-        ("torque", torque),
-        ("motion", motion),
-        ("damping", damping),
-        ("power", parts + pull),
-        ("power on a stand", parts),
-    ):
+    sums = {"drag": drag, "torque": torque, "motion": motion, "damping": damping}
+    for name, terms in (*sums.items(), ("power", parts + pull), ("power on a stand", parts)):
         s.sum(name, terms)
 
 
-_DERIVED = (
-    "cos",
-    "sin",
-    "mu_x",
-    "mu_z",
-    "speed",
-    "wake_x",
-    "wake_z",
-    "change of tilt",
-    "change of lambda0",
-    "change of swirl",
-)
+_CHANGES = ("change of tilt", "change of lambda0", "change of swirl")
+_DERIVED = ("cos", "sin", "mu_x", "mu_z", "speed", "wake_x", "wake_z", *_CHANGES)
 """Made atoms: cos α, sin α, µ_x and µ_z as the blade elements see them, V, µ_x and µ_z of the wake, and three that are
 zero, whose columns hold the slopes of live shapes: α, λ0 and λ0 (µ_z + λ0)."""
 SWIRL, SWIRL_SLOPE = "swirl", "swirl slope"
@@ -159,19 +143,11 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
         values |= freedom.numbers(problem)
         shapes |= freedom.shapes(problem)
     section, blade = problem.interface, tuple(freedom.key for freedom in freedoms)
-    structure = _structure(
-        _StructureKey(
-            trim_of(problem.design),
-            blade,
-            tuple(values),
-            terms.key,
-            problem.unsteady,
-            terms.interface.channels if problem.unsteady else None,
-            (section.pairs, section.channels, section.forces),
-            freedoms,
-            terms,
-        )
-    )
+    kind = (section.pairs, section.channels, section.forces)
+    first = terms.interface.channels if problem.unsteady else None
+    trim, numbers = trim_of(problem.design), tuple(values)
+    key = _StructureKey(trim, blade, numbers, terms.key, problem.unsteady, first, kind, freedoms, terms)
+    structure = _structure(key)
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
     tolerance = np.full(len(structure.equations), wanted.residual_tolerance * problem.scale)
@@ -184,19 +160,9 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
         points = len(nodes.matrix)
         tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
         limits = np.concatenate([limits, np.full(points, nodes.limit)])
-    return System(
-        structure=structure,
-        shapes=Shapes(structure, shapes | terms.shapes(), disk.dr),
-        grid=grid,
-        thin=grid if step == 1 else _grid(problem, structure, step),
-        section=section.section,
-        memory=section.memory,
-        make=_Flow(problem, structure, terms),
-        numbers=np.array([1.0, *values.values()]),
-        tolerance=tolerance,
-        limits=limits,
-        nodes=nodes,
-    )
+    along, make = Shapes(structure, shapes | terms.shapes(), disk.dr), _Flow(problem, structure, terms)
+    thin, given = grid if step == 1 else _grid(problem, structure, step), np.array([1.0, *values.values()])
+    return System(structure, along, grid, thin, section.section, make, given, tolerance, limits, nodes, section.memory)
 
 
 def check_freedoms(problem: Problem) -> None:
@@ -283,15 +249,8 @@ class _Flow:
         values, slopes, sees = np.zeros(len(self._atoms)), np.zeros((len(self._atoms), 2)), float(self._sees_tilt)
         cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), flow.lambda0, seen.speed, seen.axial
         values[:7] = cos, sin, seen.mu_x, seen.mu_z, speed, flow.mu_x, flow.mu_z
-        slopes[:7, 0] = (
-            -sin,
-            cos,
-            -sees * seen.mu_z,
-            sees * seen.mu_x,
-            sees * seen.mu_x * l0 / speed,
-            -flow.mu_z,
-            flow.mu_x,
-        )
+        slopes[:2, 0], slopes[5:7, 0] = (-sin, cos), (-flow.mu_z, flow.mu_x)
+        slopes[2:5, 0] = -sees * seen.mu_z, sees * seen.mu_x, sees * seen.mu_x * l0 / speed
         slopes[4, 1] = axial / speed
         slopes[7, 0] = slopes[8, 1] = 1.0
         live = dict[tuple[int, Shape], Array]()
@@ -371,14 +330,7 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         beta=beta,
         induced=induced,
         swirl=swirl,
-        fz=f[FZ],
-        fx=f[FX],
-        fr=f[FR],
-        alpha=s[ALPHA],
-        mach=s[MACH],
-        cl=s[CL],
-        cd=s[CD],
-        cd_mach=s[CD_MACH],
+        **section_fields(f, s),
         torsion=twist,
         bent=bent,
         rates=c[first : first + len(RATES)] if problem.unsteady else None,

@@ -17,31 +17,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths
+from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths, section_fields
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.problem import Problem, swirl_of
-from rotor.aero.section import (
-    ALPHA,
-    CD,
-    CD_MACH,
-    CHANNELS,
-    CL,
-    FORCES,
-    FX,
-    FZ,
-    LOSS,
-    MACH,
-    PAIRS,
-    TH,
-    UP,
-    UT,
-    M,
-    SectionData,
-    section,
-)
+from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, TH, UP, UT, M, SectionData, section
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.columns.bending import freedoms_of
@@ -266,18 +248,13 @@ def hover_system(problem: Problem) -> System:
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
     grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
-    count = len(structure.equations)
-    return System(
-        structure,
+    count, along, numbers = (
+        len(structure.equations),
         Shapes(structure, shapes, disk.dr),
-        grid,
-        grid,
-        _annulus_section,
-        _nothing_made,
         np.array([1.0, *values.values()]),
-        np.full(count, problem.scale),
-        np.ones(count),
     )
+    tolerance, limits = np.full(count, problem.scale), np.ones(count)
+    return System(structure, along, grid, grid, _annulus_section, _nothing_made, numbers, tolerance, limits)
 
 
 def hover_elements(problem: Problem, point: Point) -> BladeElements:
@@ -302,28 +279,22 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     def everywhere(values: Array) -> Array:
         return over_azimuths(values, azimuths)
 
-    zero = np.zeros(disk.shape)
     return BladeElements(
         state=state,
         flow=DiskFlow(0.0, problem.climb, state.lambda0),
         theta=everywhere(channels[TH]),
         u_t=everywhere(channels[UT]),
         u_p=everywhere(channels[UP]),
-        u_r=zero,
+        u_r=np.zeros(disk.shape),
         loss=np.ones(disk.shape),
-        rate=zero,
+        rate=np.zeros(disk.shape),
         beta=np.full(azimuths, coning),
         induced=everywhere(inflow),
         swirl=disk.r - channels[UT],
-        fz=everywhere(f[FZ, :, 0]),
-        fx=everywhere(f[FX, :, 0]),
-        fr=zero,
-        alpha=everywhere(s[ALPHA, :, 0]),
-        mach=everywhere(s[MACH, :, 0]),
-        cl=everywhere(s[CL, :, 0]),
-        cd=everywhere(s[CD, :, 0]),
-        cd_mach=everywhere(s[CD_MACH, :, 0]),
+        **section_fields(np.repeat(f, azimuths, axis=2), np.repeat(s, azimuths, axis=2)),
         torsion=twist,
+        bent=None,
+        rates=None,
     )
 
 

@@ -18,16 +18,7 @@ from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1
 from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
 from rotor.assets import SHIPPED_ROTORS
 from rotor.chart_svg import svg
-from rotor.command.common import (
-    add_command,
-    add_design_arguments,
-    design_from,
-    finite,
-    parse_division,
-    parse_pair,
-    print_result,
-    short_spec,
-)
+from rotor.command import common
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
@@ -36,39 +27,26 @@ from rotor.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
-        commands,
-        "actuator",
-        run,
-        "attainable twist, limits and net saving of an actuator between two flight conditions",
-    )
+    about = "attainable twist, limits and net saving of an actuator between two flight conditions"
+    parser = common.add_command(commands, "actuator", run, about)
     parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default); list: --table 5.1")
     parser.add_argument(
         "--plies", type=int, default=2, metavar="N", help="per skin (default 2); for a torque tube: number of tubes"
     )
     parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
     parser.add_argument("--division", metavar="R,…", help="r/R of the breaks, for concepts with segments")
-    parser.add_argument("--from-mu", type=finite, default=0.0, metavar="MU", help="first advance ratio (default hover)")
-    parser.add_argument("--to-mu", type=finite, default=0.3, metavar="MU", help="second advance ratio (default 0.3)")
-    parser.add_argument(
-        "--share",
-        type=finite,
-        default=0.5,
-        metavar="0…1",
-        help="fraction of time in the second condition (default 0.5)",
-    )
-    parser.add_argument(
-        "--blade",
-        choices=("retrofit", "new"),
-        default="retrofit",
-        help="retrofit of the existing blade (default) or a new blade",
-    )
-    parser.add_argument(
-        "--stiffness", type=finite, metavar="G", help="GJ of a new blade relative to the existing one (default 0.5)"
-    )
+    for flag, value, metavar, words in (
+        ("--from-mu", 0.0, "MU", "first advance ratio (default hover)"),
+        ("--to-mu", 0.3, "MU", "second advance ratio (default 0.3)"),
+        ("--share", 0.5, "0…1", "fraction of time in the second condition (default 0.5)"),
+        ("--stiffness", None, "G", "GJ of a new blade relative to the existing one (default 0.5)"),
+        ("--angle-deg", 45.0, "DEG", "fibre angle (default 45)"),
+    ):
+        parser.add_argument(flag, type=common.finite, default=value, metavar=metavar, help=words)
+    blades = ("retrofit", "new")
+    parser.add_argument("--blade", choices=blades, default=blades[0], help="the existing blade (default) or a new one")
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
-    parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
     parser.add_argument(
         "--against",
         choices=("best-fixed", "as-built"),
@@ -84,7 +62,7 @@ def add_parser(commands: Any) -> None:
         help="what an actuator would have to be to pay on this rotor (all: on each)",
     )
     parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
-    add_design_arguments(parser)
+    common.add_design_arguments(parser)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
 
@@ -92,8 +70,8 @@ def run(args: argparse.Namespace) -> int:
     """Exit code 0, or 1 where nothing trims."""
     if args.table == "5.1":
         return _show(args, table_5_1())
-    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, parse_division(args.division))
-    pair = ConditionPair(design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
+    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, common.parse_division(args.division))
+    pair = ConditionPair(common.design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
     if args.what_would_pay is None:
         check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
@@ -113,7 +91,7 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
-    print_result(args, lambda: record(verdict), lambda: report(verdict))
+    common.print_result(args, lambda: record(verdict), lambda: report(verdict))
     return 0
 
 
@@ -153,23 +131,12 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "actuator": args.actuator,
         "plies": args.plies,
         "concept": args.concept,
-        "required_twist_deg": None,
-        "attainable_twist_deg": None,
-        "feasible": None,
-        "voltages_v": [],
-        "added_mass_kg": None,
-        "torsion_frequency_per_rev": None,
         "against": args.against,
-        "ideal_saving_w": None,
-        "gross_saving_w": None,
-        "stiffness_cost_w": None,
-        "mass_cost_w": None,
-        "drive_cost_w": None,
-        "net_saving_w": None,
-        "net_saving_band_w": None,
-        "fuel_saving_kg_h": None,
-        "limits": [],
-        "caveats": [],
+        **dict.fromkeys(("feasible", "added_mass_kg", "torsion_frequency_per_rev", "fuel_saving_kg_h")),
+        **dict.fromkeys(f"{twist}_twist_deg" for twist in ("required", "attainable")),
+        **dict.fromkeys(f"{part}_saving_w" for part in ("ideal", "gross", "net")),
+        **dict.fromkeys(f"{part}_w" for part in ("stiffness_cost", "mass_cost", "drive_cost", "net_saving_band")),
+        **{name: [] for name in ("voltages_v", "limits", "caveats")},
     }
 
 
@@ -177,7 +144,7 @@ def report(verdict: Verdict) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
-    twists = [short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
+    twists = [common.short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
     saved = verdict.fuel_saving
     fuel = (
         "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
@@ -253,7 +220,7 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
 
 
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:
-    print_result(args, lambda: {key: value for key, value in asdict(table).items() if key != "keys"}, table.text)
+    common.print_result(args, lambda: {key: value for key, value in asdict(table).items() if key != "keys"}, table.text)
     return 0
 
 
@@ -263,8 +230,8 @@ def _kw(power: float) -> str:
 
 def _placement(args: argparse.Namespace) -> Placement:
     base = default_placement(args.plies)
-    span = parse_pair(args.span, f"active span {args.span!r}", "0.25:0.9", ":") if args.span else base.span
-    chord = parse_pair(args.chord, f"active chord {args.chord!r}", "0.05:0.8", ":") if args.chord else base.chord
+    span = common.parse_pair(args.span, f"active span {args.span!r}", "0.25:0.9", ":") if args.span else base.span
+    chord = common.parse_pair(args.chord, f"active chord {args.chord!r}", "0.05:0.8", ":") if args.chord else base.chord
     if not 0.0 < args.angle_deg < 90.0:
         raise ValueError(
             f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside; 45 gives the most twist"

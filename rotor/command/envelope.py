@@ -3,15 +3,7 @@
 import argparse
 from typing import Any
 
-from rotor.command.common import (
-    add_command,
-    add_design_arguments,
-    add_output_arguments,
-    bar,
-    check_output,
-    design_from,
-    print_result,
-)
+from rotor.command import common
 from rotor.study.envelope import SPEEDS, Envelope, Reach, envelope
 from rotor.table import Table, table
 from rotor.terminal import wrapped
@@ -19,36 +11,38 @@ from rotor.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
+    parser = common.add_command(
         commands,
         "envelope",
         run,
         "largest load factor and mass over speed, top speed and ceiling, by stall and engines",
     )
-    add_design_arguments(parser, twists=True)
+    common.add_design_arguments(parser, twists=True)
     parser.add_argument("--mu", dest="speeds", metavar="A:B:STEP", help="advance ratios (default 0:0.4:0.1)")
     parser.add_argument(
         "--moving", action="store_true", help="the linear twist of least power at each speed too, as if moved in flight"
     )
-    add_output_arguments(parser)
+    common.add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 when the rotor flies at every speed, else 1."""
     speeds = parse_range(args.speeds) if args.speeds else SPEEDS
-    designs = [design_from(args, spec) for spec in args.twist or [None]]
+    designs = [common.design_from(args, spec) for spec in args.twist or [None]]
     for speed in speeds:  # Bad input is reported first.
         designs[0].at(mu=speed)
-    check_output(args)
+    common.check_output(args)
     asked = [(design, False) for design in designs] + [(designs[0], True)] * args.moving
-    with bar(len(asked) * len(speeds), "speed") as advance:
+    with common.bar(len(asked) * len(speeds), "speed") as advance:
         envelopes = [
             envelope(design, speeds, moving=moving, tell=lambda point: advance(f"µ {point.mu:g}"))
             for design, moving in asked
         ]
     if args.csv:
         points_table(*envelopes).write(args.csv)
-    print_result(args, lambda: [each.record() for each in envelopes], lambda: "\n\n".join(map(report, envelopes)))
+    common.print_result(
+        args, lambda: [each.record() for each in envelopes], lambda: "\n\n".join(map(report, envelopes))
+    )
     return 0 if all(point.load_factor.value is not None for each in envelopes for point in each.points) else 1
 
 

@@ -6,21 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from rotor.command.common import (
-    CONCEPT_HELP,
-    STOPPED,
-    add_command,
-    add_design_arguments,
-    add_search_arguments,
-    bar,
-    design_from,
-    finite,
-    interruptible,
-    limits_from,
-    parse_division,
-    print_result,
-    short_spec,
-)
+from rotor.command import common
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
@@ -41,8 +27,10 @@ from rotor.trim.solution import Solution
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving")
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=CONCEPT_HELP)
+    parser = common.add_command(
+        commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving"
+    )
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     parser.add_argument(
         "--objective",
@@ -50,12 +38,14 @@ def add_parser(commands: Any) -> None:
         metavar="NAME",
         help="total (default) | induced | hover-cruise: hover and the given speed | vibration: index of the hub loads",
     )
-    parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
+    parser.add_argument(
+        "--hover-share", type=common.finite, metavar="S", help="fraction of time in hover (default 0.5)"
+    )
     parser.add_argument(
         "--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}: minimise the mean power"
     )
-    add_design_arguments(parser, speed=True)
-    add_search_arguments(parser, STARTS)
+    common.add_design_arguments(parser, speed=True)
+    common.add_search_arguments(parser, STARTS)
     parser.add_argument(
         "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
     )
@@ -65,8 +55,8 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best design so far printed."""
-    design = design_from(args)
-    concept = find_concept(args.concept, parse_division(args.division))
+    design = common.design_from(args)
+    concept = find_concept(args.concept, common.parse_division(args.division))
     if args.on_top:
         concept = on_top(concept, design.twist)
     objective = _objective(args, design)
@@ -75,25 +65,22 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError(
             "--doubt searches for the least total power in one flight: leave --mission and --objective out"
         )
-    search = Search(
-        design=design,
-        concept=concept,
-        objective=objective,
-        limits=limits_from(args, design, (concept,)),
-        starts=args.starts,
-        seed=args.seed,
-        band=args.band,
-    )
-    with interruptible() as stop, bar(None, " designs") as advance:
+    limits = common.limits_from(args, design, (concept,))
+    search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
+    with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     beside = _beside(design, objective, optimum)
     if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
         if args.doubt:
             beside = replace(beside, flights=_in_other_flights(search, optimum.best))
         if args.doubt or (design.hovering and alone):
-            beside = replace(beside, models=_with_other_models(search, optimum.best))
-    print_result(args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective))
-    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
+            beside = replace(beside, models=_from(search, optimum.best, other_models(design).items()))
+    common.print_result(
+        args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective)
+    )
+    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: common.STOPPED}[
+        optimum.status
+    ]
 
 
 @dataclass(frozen=True)
@@ -120,16 +107,7 @@ def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
     power = measure(objective, start, gradient=False).power if changed else None
-    return _Beside(
-        tuple(caveats),
-        None if optimum.best.index is None else _index_band(objective, solutions),
-        power,
-    )
-
-
-def _with_other_models(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
-    """From the same best twist."""
-    return _from(search, best, other_models(search.design).items())
+    return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
 
 
 def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
@@ -144,6 +122,7 @@ def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum
 
 
 def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) -> tuple[tuple[str, Optimum], ...]:
+    """Optima of other designs, from the same best twist."""
     other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
     return tuple((name, run_search(replace(other, design=design))) for name, design in designs)
 
@@ -190,7 +169,8 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
 
 def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any]:
     """The JSON of `optimise --json`; values not found are null."""
-    best = optimum.best
+    best, band = optimum.best, beside.index_band and list(beside.index_band)
+    index = {"index_percent": best and best.index, "index_band_percent": band}
     return {
         "status": optimum.status.value,
         "concept": optimum.concept,
@@ -199,7 +179,7 @@ def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any
         "power_w": None if best is None else best.power,
         "baseline_power_w": optimum.baseline_power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
-        **({} if best is None or best.index is None else _index(optimum, best, beside)),
+        **({} if best is None or best.index is None else index | {"baseline_index_percent": optimum.baseline_index}),
         "band": _bands(concept, optimum.band),
         "local_minima": [_minimum(minimum, concept) for minimum in optimum.minima],
         "evaluations": optimum.evaluations,
@@ -233,14 +213,6 @@ def _bands(concept: Concept, bands: Sequence[ParameterBand]) -> dict[str, list[f
     return {
         by_name[band.parameter].label: [round(by_name[band.parameter].shown(end), 6) for end in (band.low, band.high)]
         for band in bands
-    }
-
-
-def _index(optimum: Optimum, best: Minimum, beside: _Beside) -> dict[str, Any]:
-    return {
-        "index_percent": best.index,
-        "index_band_percent": beside.index_band and list(beside.index_band),
-        "baseline_index_percent": optimum.baseline_index,
     }
 
 
@@ -289,7 +261,7 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:.{digits}f} to {high:.{digits}f} between annuli and a lifting line"
         lines.append(wrapped(line, " " * 38))
-    lines.append(f"twist {short_spec(best.twist)}")
+    lines.append(f"twist {common.short_spec(best.twist)}")
     airfoils = airfoils_spec(optimum.design.rotor)
     if airfoils:
         lines.append(f"airfoils {airfoils}")
@@ -311,11 +283,11 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
         lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.1f} kW, saving {saving:.2f} %")
     for name, outcome in (*beside.models, *beside.flights):
-        twist = "no optimum" if outcome.best is None else short_spec(outcome.best.twist)
+        twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
         saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"
         lines.append(f"with {name}: {twist}{saving}")
     for other in optimum.minima[1:]:
-        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {short_spec(other.twist)}")
+        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {common.short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

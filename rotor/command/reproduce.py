@@ -7,14 +7,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-from rotor.command.common import (
-    STOPPED,
-    add_command,
-    add_processes_argument,
-    bar,
-    interruptible,
-    processes_from,
-)
+from rotor.command.common import STOPPED, add_command, add_processes_argument, bar, interruptible, processes_from
 from rotor.user_input import make_folder
 
 
@@ -27,9 +20,7 @@ def add_parser(commands: Any) -> None:
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
     )
     parser.add_argument(
-        "--trust",
-        action="store_true",
-        help="also make the trust page: validation.md, validation/, trust.csv",
+        "--trust", action="store_true", help="also make the trust page: validation.md, validation/, trust.csv"
     )
     add_processes_argument(parser)
 

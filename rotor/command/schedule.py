@@ -5,24 +5,7 @@ import sys
 from dataclasses import replace
 from typing import Any
 
-from rotor.command.common import (
-    CONCEPT_HELP,
-    STOPPED,
-    add_command,
-    add_design_arguments,
-    add_output_arguments,
-    add_processes_argument,
-    add_search_arguments,
-    bar,
-    check_output,
-    design_from,
-    interruptible,
-    limits_from,
-    parse_division,
-    print_result,
-    processes_from,
-    short_spec,
-)
+from rotor.command import common
 from rotor.command.optimise import named
 from rotor.design.aircraft import told
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
@@ -35,14 +18,15 @@ from rotor.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
+_DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
+    parser = common.add_command(
         commands, "schedule", run, "optimum twist per condition, best fixed blade, gain of in-flight twist"
     )
     parser.add_argument(
-        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {CONCEPT_HELP}"
+        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {common.CONCEPT_HELP}"
     )
     parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
@@ -51,19 +35,19 @@ def add_parser(commands: Any) -> None:
     )
     where.add_argument("--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}")
     parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
-    add_design_arguments(parser)
-    add_search_arguments(parser, 4)
-    add_processes_argument(parser)
-    add_output_arguments(parser)
+    common.add_design_arguments(parser)
+    common.add_search_arguments(parser, 4)
+    common.add_processes_argument(parser)
+    common.add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with the results so far printed."""
     plan = plan_from(args)
-    processes = processes_from(args)
-    check_output(args)
+    processes = common.processes_from(args)
+    common.check_output(args)
     total = len(plan.concepts) * (len(plan.conditions) + 1)
-    with interruptible() as stop, bar(total, " optima") as advance:
+    with common.interruptible() as stop, common.bar(total, " optima") as advance:
 
         def add(cell: Cell) -> None:
             advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
@@ -72,17 +56,18 @@ def run(args: argparse.Namespace) -> int:
         stopped = stop()
     if args.csv:
         optima_table(schedule).write(args.csv)
-    print_result(args, lambda: record(schedule), lambda: report(schedule))
+    common.print_result(args, lambda: record(schedule), lambda: report(schedule))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
-    return STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
+    return common.STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
 
 
 def plan_from(args: argparse.Namespace) -> Plan:
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
-    division = parse_division(args.division)
-    concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
-    design = design_from(args)
+    division = common.parse_division(args.division)
+    names.sort(key=lambda name: list(CONCEPTS).index(name) if name in CONCEPTS else -1)
+    concepts = tuple(find_concept(name, division if name in _DIVIDED else None) for name in names)
+    design = common.design_from(args)
     if args.on_top:
         concepts = tuple(on_top(concept, design.twist) for concept in concepts)
     if args.mission:
@@ -93,21 +78,10 @@ def plan_from(args: argparse.Namespace) -> Plan:
     conditions = tuple(
         sorted(conditions, key=lambda condition: (condition.flight.advance_ratio, condition.flight.mass))
     )
-    limits = limits_from(args, design, concepts)
+    limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)
     return Plan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
-
-
-def _rank(name: str) -> int:
-    return list(CONCEPTS).index(name) if name in CONCEPTS else -1
-
-
-def _concept(name: str, division: tuple[float, ...] | None) -> Concept:
-    return find_concept(name, division if division is not None and name in _DIVIDED else None)
-
-
-_DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def record(schedule: Schedule) -> dict[str, Any]:
@@ -216,7 +190,7 @@ def _line(cell: Cell, width: int) -> str:
     saving = "" if optimum.saving is None else f"saves {100 * optimum.saving:.2f} %"
     met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
     status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
-    power, twist = _kilowatts(optimum.best.power), short_spec(optimum.best.twist)
+    power, twist = _kilowatts(optimum.best.power), common.short_spec(optimum.best.twist)
     return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 

@@ -9,15 +9,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.limits import actuator_stability
 from rotor.actuator.section import Host, default_placement
-from rotor.command.common import (
-    add_command,
-    add_design_arguments,
-    add_output_arguments,
-    check_output,
-    design_from,
-    finite,
-    print_result,
-)
+from rotor.command import common
 from rotor.dynamics.structure import check_blade
 from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
@@ -26,13 +18,15 @@ from rotor.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "stability", run, "damping of the blade's modes, margins to flutter and divergence")
+    parser = common.add_command(
+        commands, "stability", run, "damping of the blade's modes, margins to flutter and divergence"
+    )
     parser.add_argument(
         "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
     )
     parser.add_argument(
         "--cg-offset-percent",
-        type=finite,
+        type=common.finite,
         default=0.0,
         metavar="P",
         help="move the centre of gravity of the lifting blade aft by so much of the chord (default 0)",
@@ -44,17 +38,17 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
     parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
-    add_design_arguments(parser, speed=True)
-    add_output_arguments(parser, "the modes, or with --boundary its lines,")
+    common.add_design_arguments(parser, speed=True)
+    common.add_output_arguments(parser, "the modes, or with --boundary its lines,")
 
 
 def run(args: argparse.Namespace) -> int:
     """0, or 1 where the design does not trim."""
-    design, offset = design_from(args), 0.01 * args.cg_offset_percent
+    design, offset = common.design_from(args), 0.01 * args.cg_offset_percent
     if args.actuator is None and args.plies is not None:
         raise ValueError("--plies needs an actuator: add --actuator, for example MFC_P1")
     offsets = tuple(0.01 * place for place in parse_range(args.boundary)) if args.boundary else ()
-    check_output(args)
+    common.check_output(args)
     try:
         if args.actuator is not None:
             check_blade(design.aircraft)
@@ -77,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
     if args.csv:
         modes: list[dict[str, CellValue]] = record["modes"]
         (boundary if offsets else table("; ".join(modes[0]), (mode.values() for mode in modes))).write(args.csv)
-    print_result(args, lambda: record, lambda: _report(result.table(), boundary))
+    common.print_result(args, lambda: record, lambda: _report(result.table(), boundary))
     return 0
 
 

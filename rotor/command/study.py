@@ -14,25 +14,10 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from rotor.command.common import (
-    STOPPED,
-    add_command,
-    add_output_arguments,
-    check_output,
-    interruptible,
-    print_result,
-)
+from rotor.command.common import STOPPED, add_command, add_output_arguments, check_output, interruptible, print_result
 from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
-from rotor.study.run import (
-    ChunkRun,
-    ExecutorLost,
-    check_workers,
-    dask_client,
-    open_store,
-    processes_here,
-    run_chunks,
-)
+from rotor.study.run import ChunkRun, ExecutorLost, check_workers, dask_client, open_store, processes_here, run_chunks
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 from rotor.table import table

@@ -14,18 +14,7 @@ import numpy as np
 
 from rotor.airfoil.sections import TABLE_NAMES, Section, load_installed
 from rotor.arrays import Array
-from rotor.command.common import (
-    CONCEPT_HELP,
-    add_command,
-    add_design_arguments,
-    add_output_arguments,
-    check_output,
-    design_from,
-    finite,
-    print_result,
-    short_spec,
-    waves_text,
-)
+from rotor.command import common
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, SWEPT
@@ -39,31 +28,29 @@ from rotor.trim.solve import solve_alike
 
 
 def add_sweep(commands: Any) -> None:
-    parser = add_command(
-        commands,
-        "sweep",
-        run_sweep,
-        "power of one or more twists over speed, mass, altitude or another quantity of flight",
-    )
-    add_design_arguments(parser, twists=True, ranges=True)
-    add_output_arguments(parser)
+    words = "power of one or more twists over speed, mass, altitude or another quantity of flight"
+    parser = common.add_command(commands, "sweep", run_sweep, words)
+    common.add_design_arguments(parser, twists=True, ranges=True)
+    common.add_output_arguments(parser)
 
 
 def run_sweep(args: argparse.Namespace) -> int:
     """0 when every point converged, else 1."""
     name, steps = _swept(args)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
-    designs = [design_from(args, spec) for spec in specs]
+    designs = [common.design_from(args, spec) for spec in specs]
     for design in designs:
         for step in steps:  # Bad input is reported first.
             design.at(**cast(Any, {name: step}))
-    check_output(args)
+    common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
     solutions = SweepTable(tuple(solution for each in tables for solution in each))
     found = sweep_table(solutions, args.over)
     if args.csv:
         found.write(args.csv)
-    print_result(args, lambda: [dict(zip(solutions.columns, row, strict=True)) for row in solutions.rows], found.text)
+    common.print_result(
+        args, lambda: [dict(zip(solutions.columns, row, strict=True)) for row in solutions.rows], found.text
+    )
     return 0 if all(solution.converged for solution in solutions) else 1
 
 
@@ -114,17 +101,16 @@ FRONT_COLUMNS = (
 
 
 def add_front(commands: Any) -> None:
-    parser = add_command(
-        commands, "front", run_front, "least power for less and less vibration, by active or static twist"
-    )
-    parser.add_argument("--concept", metavar="NAME", help=f"static twist to vary: {CONCEPT_HELP}; else active twist")
+    words = "least power for less and less vibration, by active or static twist"
+    parser = common.add_command(commands, "front", run_front, words)
+    varied = f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
+    parser.add_argument("--concept", metavar="NAME", help=varied)
     parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
-    parser.add_argument(
-        "--reach-deg", type=finite, default=1.0, metavar="DEG", help="largest amplitude of each harmonic (default 1)"
-    )
+    reach = "largest amplitude of each harmonic (default 1)"
+    parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
     parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
-    add_design_arguments(parser, speed=True)
-    add_output_arguments(parser)
+    common.add_design_arguments(parser, speed=True)
+    common.add_output_arguments(parser)
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -133,8 +119,8 @@ def run_front(args: argparse.Namespace) -> int:
         harmonics = [int(item) for item in args.harmonics.split(",")]
     except ValueError:
         raise ValueError(f"harmonics {args.harmonics!r} are not understood: write for example 2,3") from None
-    design = design_from(args)
-    check_output(args)
+    design = common.design_from(args)
+    common.check_output(args)
     try:
         front = vibration_front(design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points)
     except RuntimeError as error:
@@ -144,7 +130,7 @@ def run_front(args: argparse.Namespace) -> int:
     found = table(FRONT_COLUMNS, (front_row(point, front.start, start) for point in (front.start, *front.points)))
     if args.csv:
         found.write(args.csv)
-    print_result(args, lambda: front_record(design, front, found.records()), lambda: _front(front, found))
+    common.print_result(args, lambda: front_record(design, front, found.records()), lambda: _front(front, found))
     return 0 if len(front.points) == args.points else 1
 
 
@@ -164,7 +150,7 @@ def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[
         point.band and "{:.1f} … {:.1f}".format(*point.band),
         100.0 * (point.index / start.index - 1.0),
         point.over_inflows and "{:+.0f} … {:+.0f}".format(*point.over_inflows),
-        waves_text(harmonics) or short_spec(twist),
+        common.waves_text(harmonics) or common.short_spec(twist),
         *(point.band or none),
         *(point.over_inflows or none),
         point.preview and point.preview[0] / 1e3,
@@ -203,18 +189,18 @@ def _front(front: VibrationFront, found: Table) -> str:
 
 
 def add_waterfall(commands: Any) -> None:
-    parser = add_command(
+    parser = common.add_command(
         commands, "waterfall", run_waterfall, "power of tip loss, flapping, reverse flow …, one after another"
     )
-    add_design_arguments(parser, speed=True)
+    common.add_design_arguments(parser, speed=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
     """0 when every step converged, else 1."""
-    design = design_from(args)
+    design = common.design_from(args)
     result = waterfall(design)
-    print_result(args, lambda: waterfall_record(result), lambda: waterfall_report(result))
+    common.print_result(args, lambda: waterfall_record(result), lambda: waterfall_report(result))
     return 0 if result.converged else 1
 
 
@@ -281,7 +267,7 @@ def _kilowatts(power: float) -> float:
 
 
 def add_airfoil(commands: Any) -> None:
-    parser = add_command(commands, "airfoil", run_airfoil, "shows section data")
+    parser = common.add_command(commands, "airfoil", run_airfoil, "shows section data")
     parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
     parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")

@@ -29,11 +29,7 @@ def add_parser(commands: Any) -> None:
     parser = add_command(commands, "validate", run, "compares with every measured point of rotors that were tested")
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
-    parser.add_argument(
-        "--inflow",
-        metavar="NAME",
-        help="inflow model (default: that of the preset flight)",
-    )
+    parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of the preset flight)")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")

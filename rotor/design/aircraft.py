@@ -370,10 +370,7 @@ class Aircraft:
         """For a design file: the name of a shipped rotor, or all files of a user's own, line by line."""
         if self.files is None:
             return self.key
-        return {
-            "main": self.files.main,
-            "files": {name: text.splitlines() for name, text in self.files.texts},
-        }
+        return {"main": self.files.main, "files": {name: text.splitlines() for name, text in self.files.texts}}
 
     def rotor_for(self, preset: str) -> Rotor:
         """The rotor of a preset: for `thesis` the document's rotor if there is one, else the rotor as built."""

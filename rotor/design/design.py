@@ -13,6 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack, cast
 
+from rotor.design import quantities
 from rotor.design.active_twist import (
     ActiveTwist,
     Harmonic,
@@ -24,22 +25,6 @@ from rotor.design.active_twist import (
 )
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
 from rotor.design.blade import Rotor, airfoils_spec
-from rotor.design.quantities import (
-    CHOSEN,
-    CONDITION,
-    OPTIONS,
-    PRESETS,
-    QUANTITIES,
-    STAND_TRIMS,
-    SWEPT,
-    Flight,
-    FlightTrim,
-    HoverInflow,
-    LossOn,
-    LowSpeed,
-    StandTrim,
-    When,
-)
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.user_input import check_suffix, write_whole
@@ -84,9 +69,9 @@ class Models:
 
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
-    hover_inflow: HoverInflow
+    hover_inflow: quantities.HoverInflow
     """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3)."""
-    trim: FlightTrim | StandTrim
+    trim: quantities.FlightTrim | quantities.StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
     `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
     stand, which need `FlightCondition.stand`: see `rotor.design.aircraft`."""
@@ -122,16 +107,16 @@ class Models:
     """Whether the blade twists under its loads. Off: rigid in torsion."""
     bending: bool = False
     """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
-    dynamic_stall: When = "auto"
+    dynamic_stall: quantities.When = "auto"
     """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall.
     `auto`: where with steady ones more than 5 % of the disk is stalled, but for polynomials of one Mach number."""
-    unsteady: When = "auto"
+    unsteady: quantities.When = "auto"
     """Whether attached flow is unsteady. `auto`: where blades bend or pitch follows the azimuth at n/rev, but for the
     document's models and polynomials of one Mach number."""
-    low_speed: LowSpeed = "wake"
+    low_speed: quantities.LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
-    loss_on: LossOn = "lift"
+    loss_on: quantities.LossOn = "lift"
     """Where Prandtl's factors act under linear inflow in forward flight. `lift`: F C_l; `inflow`: λ_i/F, as in
     eq. (3.3). In hover they are in the balance of the annulus."""
     document_losses: bool = False
@@ -150,10 +135,10 @@ class Models:
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        for name in CHOSEN:
-            object.__setattr__(self, name, QUANTITIES[name].chosen(getattr(self, name)))
-        for name in ("hover_inflow", "low_speed", "loss_on", *CHOSEN):
-            QUANTITIES[name].check_choice(getattr(self, name))
+        for name in quantities.CHOSEN:
+            object.__setattr__(self, name, quantities.QUANTITIES[name].chosen(getattr(self, name)))
+        for name in ("hover_inflow", "low_speed", "loss_on", *quantities.CHOSEN):
+            quantities.QUANTITIES[name].check_choice(getattr(self, name))
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
@@ -194,7 +179,7 @@ class Design:
                 f"rate of climb {self.condition.climb_speed:g} m/s: the document's equations (3.3), (3.6) are those of "
                 "level flight; use the preset flight, or leave the rate of climb out"
             )
-        if (trim in STAND_TRIMS) != (stand is not None):
+        if (trim in quantities.STAND_TRIMS) != (stand is not None):
             raise ValueError(
                 f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
                 f"{'give them' if stand is None else 'leave them out'}, or choose another trim"
@@ -229,8 +214,10 @@ class Design:
             f"preset {self.preset}, inflow {inflow})"
         )
 
-    @takes(SWEPT, after="hover")
-    def at(self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[Flight[float | None]]) -> "Design":
+    @takes(quantities.SWEPT, after="hover")
+    def at(
+        self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
+    ) -> "Design":
         """This design at another flight condition; what is left out stays as it is.
 
         The arguments are those of `make_design`; `mu`, `speed_kt` and `hover` exclude one another.
@@ -265,11 +252,15 @@ class Design:
             "rotor": self.aircraft.record(),
             "preset": self.preset,
             "twist": inline_spec(self.twist),
-            **{row.key: row.of(self) for row in CONDITION.values() if row.written or row.of(self) != row.default},
+            **{
+                row.key: row.of(self)
+                for row in quantities.CONDITION.values()
+                if row.written or row.of(self) != row.default
+            },
             "inflow": self.models.inflow,
             **{
                 name: getattr(self.models, name)
-                for name in ("hover_inflow", "low_speed", "loss_on", *CHOSEN, *switches, *OPTIONS)
+                for name in ("hover_inflow", "low_speed", "loss_on", *quantities.CHOSEN, *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
@@ -437,8 +428,8 @@ def preset_models(preset: str) -> Models:
 
 def check_preset(preset: str) -> None:
     """Raise ValueError for a preset that does not exist."""
-    if preset not in PRESETS:
-        raise ValueError(f"preset {preset!r} is not known: use {' or '.join(PRESETS)}")
+    if preset not in quantities.PRESETS:
+        raise ValueError(f"preset {preset!r} is not known: use {' or '.join(quantities.PRESETS)}")
 
 
 def require_design(design: Design) -> Design:

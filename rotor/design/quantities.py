@@ -52,93 +52,65 @@ When = Literal["auto", "on", "off"]
 WHEN: tuple[When, ...] = get_args(When)
 
 
-def _switch(name: str, title: str, on: str, off: str, source: str = "section 5") -> Quantity:
+def _switch(name: str, on: str, off: str, *, source: str = "section 5", title: str = "") -> Quantity:
     """An effect that every design has unless it is switched off."""
     return Quantity(
-        name, "switch", place=f"models.{name}", default=True, key=name, section="models", title=title,
-        on=on, off=off, hint=f"{on} Off: {off} | {source}", input=name, written=True,
+        name, "switch", place=f"models.{name}", default=True, key=name, section="models",
+        title=title or name.replace("_", " ").capitalize(), on=on, off=off,
+        hint=f"{on} Off: {off} | {source}", input=name, written=True,
     )  # fmt: skip
 
 
 _SWITCHES = (
-    _switch(
-        "flapping",
-        "Flapping",
+    _switch("flapping",
         "The blades flap about their hinges, and cyclic removes the remaining first-harmonic flapping.",
-        "Rigid blades, β = 0, and no cyclic: the hub carries the moment of the unequal lift.",
-        "2.39, 3.20",
+        "Rigid blades, β = 0, and no cyclic: the hub carries the moment of the unequal lift.", source="2.39, 3.20",
     ),
-    _switch(
-        "tip_loss",
-        "Tip loss",
+    _switch("tip_loss",
         "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a lifting line keeps the tips of its blades.",
-        "3.16",
+        "F_tip = 1; a lifting line keeps the tips of its blades.", source="3.16",
     ),
-    _switch(
-        "hub_loss",
-        "Root loss",
+    _switch("hub_loss",
         "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
-        "F_hub = 1.",
-        "3.17",
+        "F_hub = 1.", source="3.17", title="Root loss",
     ),
-    _switch(
-        "reverse_flow",
-        "Reverse flow",
+    _switch("reverse_flow",
         "On the retreating side, inside r < −µ sin ψ, air meets the blade from behind and adds drag.",
-        "No load inside the circle r < −µ sin ψ.",
-        "3.5, 3.15",
+        "No load inside the circle r < −µ sin ψ.", source="3.5, 3.15",
     ),
-    _switch(
-        "compressibility",
-        "Compressibility",
+    _switch("compressibility",
         "Section data depend on the Mach number: steeper lift, earlier stall, wave drag on the advancing tip.",
         "Section data at Mach 0.3 everywhere.",
     ),
-    _switch(
-        "surface_drag",
-        "Surface drag",
+    _switch("surface_drag",
         "Drag is multiplied by the factor that the rotor file states for the surface of its blades.",
         "Drag is that of the section data.",
     ),
-    _switch(
-        "swept_tip",
-        "Swept tip",
+    _switch("swept_tip",
         "A swept tip sees the Mach number of the flow normal to its quarter chord.",
         "The tip sees Mach numbers as if it were straight.",
     ),
-    _switch(
-        "radial_friction",
-        "Radial friction",
+    _switch("radial_friction",
         "Skin friction follows the yawed velocity: air flows along the blade at the front and the rear of the disk.",
         "Friction of the flow across the blade only.",
     ),
-    _switch(
-        "elastic_twist",
-        "Elastic twist",
+    _switch("elastic_twist",
         "The blade twists under its own loads: the air meets the flown twist, not the jig twist that is built.",
         "The blade is rigid in torsion: flown and jig twist are the same.",
     ),
-    _switch(
-        "swirl",
-        "Swirl",
+    _switch("swirl",
         "The rotor turns the air it works in, which takes power and meets the blade more slowly.",
         "The air in the disk moves along the shaft only.",
     ),
-    _switch(
-        "fuselage",
-        "Fuselage drag",
+    _switch("fuselage",
         "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward.",
-        "Drag area 0: no parasite power.",
-        "3.19",
+        "Drag area 0: no parasite power.", source="3.19", title="Fuselage drag",
     ),
-    _switch(
-        "download",
-        "Download",
+    _switch("download",
         "The wake presses on the airframe: in hover the thrust exceeds the weight by what the rotor file states.",
         "Thrust carries the weight alone.",
     ),
-)
+)  # fmt: skip
 
 _CONDITION = (
     Quantity(
@@ -293,9 +265,7 @@ _MODELS = (
         "azimuths", "whole", "stations around the disk (default 120, or 24 of a lifting line)",
         key="azimuths", section="models",
     ),
-    Quantity(
-        "models", "object", "all model choices at once",
-    ),
+    Quantity("models", "object", "all model choices at once"),
     Quantity(
         "trim", "text", "in flight, or on a test stand (the last three)",
         place="models.trim", choices=TRIMS, key="trim", section="models", input="trim", title="Flight or test",

@@ -291,8 +291,7 @@ def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: 
 @cache
 def shipped_twist(name: str) -> TwistLaw:
     """The built-in twist of a shipped rotor as it flies, from its file in `assets/`."""
-    main: dict[str, Any] = tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))["main_rotor"]
-    given = main.get("flown", main)
+    given: dict[str, Any] = tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))["main_rotor"]
     if "linear_twist_deg" in given:
         return LinearTwist(math.radians(given["linear_twist_deg"]))
     return TableTwist(tuple(given["twist_r"]), tuple(math.radians(angle) for angle in given["twist_deg"]), name=name)

@@ -72,18 +72,10 @@ def bending_beam(
     nodes = np.linspace(root, structure.radius, ELEMENTS + 1)
     half = 0.5 * np.diff(nodes)
     r = (nodes[:-1, None] + half[:, None] * (1.0 + _PLACES)).ravel()
-    return BendingBeam(
-        nodes,
-        r,
-        (half[:, None] * _SHARES).ravel(),
-        structure.at(r, structure.mass_per_length),
-        structure.centrifugal_force(r, angular_speed, steps=4000),
-        structure.at(r, structure.flap_stiffness),
-        structure.at(r, structure.lag_stiffness),
-        pitch(r),
-        angular_speed,
-        springs,
-    )
+    weight, mass = (half[:, None] * _SHARES).ravel(), structure.at(r, structure.mass_per_length)
+    tension = structure.centrifugal_force(r, angular_speed, steps=4000)
+    flap, lag = structure.at(r, structure.flap_stiffness), structure.at(r, structure.lag_stiffness)
+    return BendingBeam(nodes, r, weight, mass, tension, flap, lag, pitch(r), angular_speed, springs)
 
 
 def _polynomials(nodes: Array, r: Array) -> tuple[Integers, Array]:

@@ -41,10 +41,6 @@ class TorsionBeam:
     control_stiffness: float = math.inf
     """K_θ at the first node [N m/rad]."""
 
-    @property
-    def centres(self) -> Array:
-        return 0.5 * (self.r[1:] + self.r[:-1])
-
 
 @dataclass(frozen=True)
 class Addition:

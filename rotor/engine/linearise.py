@@ -199,34 +199,30 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
         channels[channel] += added
     if system.nodes is not None:
         channels[system.nodes.channel] += system.nodes.field(y).reshape(channels.shape[1:])
-    return _with_forces(system, grid, x, z, by_roots, phi, channels, slopes, flow)
+    return _with_forces(system, grid, (x, z, by_roots, phi), channels, slopes, flow)
 
 
 def with_data(point: Point, data: Any) -> Point:
     """R(x) with other data of the section: the channels stay, and the slopes of the shapes."""
     grid = replace(point.grid, data=data)
-    return _with_forces(point.system, grid, point.x, point.z, point.by_roots, point.phi, point.channels)
+    return _with_forces(point.system, grid, (point.x, point.z, point.by_roots, point.phi), point.channels)
+
+
+_At = tuple[Array, Array, Array, Array]
+"""`x`, `z`, `by_roots` and `phi` of a point."""
 
 
 def _with_forces(
-    system: System,
-    grid: Grid,
-    x: Array,
-    z: Array,
-    by_roots: Array,
-    phi: Array,
-    channels: Array,
-    slopes: bool = False,
-    flow: bool = False,
+    system: System, grid: Grid, at: _At, channels: Array, slopes: bool = False, flow: bool = False
 ) -> Point:
-    structure, nodes = system.structure, system.nodes
+    (x, z, _, _), structure, nodes = at, system.structure, system.nodes
     forces, balanced, s = system.section(channels, grid.data, slopes, flow)
     q = np.concatenate([[1.0], _means(system, grid, forces)])
     residual = structure.residual.value(z, q)
     if nodes is not None:
         missing = x[structure.given :].reshape(channels.shape[1:]) - forces[nodes.force]
         residual = np.concatenate([residual, missing.ravel()])
-    return Point(system, grid, x, z, by_roots, phi, channels, forces, balanced, s, q, residual)
+    return Point(system, grid, *at, channels, forces, balanced, s, q, residual)
 
 
 def _coefficients(structure: Structure, z: Array) -> Array:

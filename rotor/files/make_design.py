@@ -14,16 +14,7 @@ from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonic
 from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import Design, Models, check_preset, preset_models, with_grid
-from rotor.design.quantities import (
-    ARGUMENTS,
-    HOVER_INFLOWS,
-    LOAD_KEYS,
-    OPTIONS,
-    PRESETS,
-    STAND_TRIMS,
-    SWEPT,
-    Flight,
-)
+from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS, PRESETS, STAND_TRIMS, SWEPT, Flight
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
@@ -105,6 +96,7 @@ def make_design(
     blades = aircraft.rotor_for(name)
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
+    chosen = {"low_speed": low_speed, "loss_on": loss_on, "unsteady": unsteady, "dynamic_stall": dynamic_stall}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -116,19 +108,7 @@ def make_design(
         condition=changed_condition(before, blades.tip_speed, asked, **overrides),
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,
-        models=with_grid(
-            _changed(
-                models,
-                inflow,
-                off,
-                low_speed=low_speed,
-                loss_on=loss_on,
-                unsteady=unsteady,
-                dynamic_stall=dynamic_stall,
-            ),
-            elements,
-            azimuths,
-        ),
+        models=with_grid(_changed(models, inflow, off, chosen), elements, azimuths),
         active_twist=active,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
@@ -160,7 +140,7 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     return rotor
 
 
-def _changed(models: Models, inflow: str | None, off: str | None, **chosen: str | bool | None) -> Models:
+def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
         known = (*INFLOW_MODELS, *HOVER_INFLOWS)

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import msgspec
 
@@ -20,14 +20,7 @@ from rotor.design.aircraft import SEA_LEVEL_DENSITY, Aircraft, Fuselage, RotorFi
 from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.dynamics.structure import uh60a_torsion
 from rotor.files.declared import Place, Refusal, check_bounds, convert, naming, read_toml
-from rotor.files.rotor_tables import (
-    BladeTable,
-    DoubtTable,
-    MainRotorTable,
-    StructureTable,
-    TopTable,
-    angular_speed,
-)
+from rotor.files.rotor_tables import BladeTable, DoubtTable, MainRotorTable, StructureTable, TopTable, angular_speed
 from rotor.files.section_file import OwnSectionTable, check_section_name, read_section
 from rotor.units import GRAVITY
 from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten
@@ -74,24 +67,11 @@ def read_tables(file: str, text: str) -> RotorFile:
     values = read_toml(file, text)
     with naming(file, text):
         top = convert(values, TopTable)
-        main = _main_rotor(top.main_rotor)
+        main = convert(top.main_rotor, MainRotorTable, *_MAIN)
         rotor = RotorFile(top, main, _sections(top, [main, *([main.document] if main.document else [])]))
         if len(rotor.named) > MOST_NAMED:
             raise Refusal(f"the sections in use name {len(rotor.named)} files: {MOST_NAMED} are allowed", "sections")
         return rotor
-
-
-def _main_rotor(given: dict[str, Any]) -> MainRotorTable:
-    """Where a document states another blade, the keys of that which flies may be in a table beside it, `flown`."""
-    flown = given.get("flown")
-    if not isinstance(flown, dict):
-        return convert(given, MainRotorTable, *_MAIN)
-    blade = cast("dict[str, Any]", flown)
-    try:
-        return convert({key: value for key, value in given.items() if key != "flown"} | blade, MainRotorTable, *_MAIN)
-    except Refusal as error:
-        inside = len(error.place) > 1 and error.place[1] in blade
-        raise Refusal(str(error), *_MAIN, *(["flown"] if inside else []), *error.place[1:]) from None
 
 
 def _sections(top: TopTable, blades: list[BladeTable]) -> dict[str, OwnSectionTable]:
@@ -119,7 +99,10 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     with naming(main, texts[main]):
         sections = tuple(read_section(table, name, texts, used, remarks) for name, table in file.sections.items())
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
-        stated = _stated(file.main, rotor, sections)
+        stated, document = None, file.main.document
+        if document is not None:
+            blade = _blade(file.main, document, (*_MAIN, "document"), sections)
+            stated = Stated(replace(rotor, blade=blade), document.twist("document"))
         controls = top.controls.range() if top.controls else None
         doubt = msgspec.structs.asdict(convert(top.doubt, DoubtTable, "doubt"))
         fuselage = (
@@ -167,13 +150,6 @@ def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], tw
         builtin_twist=main.twist(twist_name),
         precone=math.radians(precone or 0.0) if fixed else None,
     )
-
-
-def _stated(main: MainRotorTable, flown: Rotor, sections: tuple[OwnSection, ...]) -> Stated | None:
-    if main.document is None:
-        return None
-    blade = _blade(main, main.document, (*_MAIN, "document"), sections)
-    return Stated(replace(flown, blade=blade), main.document.twist("document"))
 
 
 def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[OwnSection, ...]) -> Blade:

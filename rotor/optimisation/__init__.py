@@ -1,9 +1,9 @@
 """The twist of least power: concepts, objective, limits, search, schedule."""
 
 from rotor.optimisation.concepts import CONCEPTS, Concept, Parameter, find_concept, nearest
-from rotor.optimisation.limits import Limits, even_change_limit
+from rotor.optimisation.limits import even_change_limit
 from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, hover_and_cruise, measure
-from rotor.optimisation.results import Optimum, Progress, SearchStatus
+from rotor.optimisation.results import Progress
 from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.optimisation.search import Search, optimise, run_search
 
@@ -11,15 +11,12 @@ __all__ = (
     "CONCEPTS",
     "Cell",
     "Concept",
-    "Limits",
     "Objective",
-    "Optimum",
     "Parameter",
     "Plan",
     "Progress",
     "Schedule",
     "Search",
-    "SearchStatus",
     "WeightedCondition",
     "at_condition",
     "even_change_limit",

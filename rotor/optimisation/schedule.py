@@ -137,10 +137,7 @@ class Schedule:
 
 
 def run_plan(
-    plan: Plan,
-    keep: Callable[[Cell], None] | None = None,
-    stop: Callable[[], bool] | None = None,
-    processes: int = 1,
+    plan: Plan, keep: Callable[[Cell], None] | None = None, stop: Callable[[], bool] | None = None, processes: int = 1
 ) -> Schedule:
     """Compute a plan; `keep` is called with every cell.
 
@@ -208,19 +205,13 @@ def _searches(
 ) -> Iterator[Cell]:
     """The cells of a condition, or of the fixed blade, added to those known: one model of power serves all."""
     trimmed = TrimmedBlades()
+    objective = Objective(plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],))
     for concept in concepts:
         guesses = guesses_of(concept)
-        search = Search(
-            design=plan.design_at(condition),
-            concept=concept,
-            objective=Objective(plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],)),
-            limits=plan.limits,
-            # The neighbour's minimum need not be the best at a condition, so other starting points are added.
-            starts=1 if condition is None else max(plan.starts, len(guesses) + 1),
-            seed=plan.seed,
-            guesses=tuple(guesses),
-            band=False,
-        )
+        # The neighbour's minimum need not be the best at a condition, so other starting points are added.
+        starts = 1 if condition is None else max(plan.starts, len(guesses) + 1)
+        design = plan.design_at(condition)
+        search = Search(design, concept, objective, plan.limits, starts, plan.seed, tuple(guesses), band=False)
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return

@@ -13,9 +13,9 @@ from rotor.actuator.installation import InstalledActuator, electric_field, free_
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import Host, default_placement
-from rotor.chart import Axis, Chart, Series
+from rotor.chart import Series
 from rotor.files.make_design import uh60a_rotor
-from rotor.reproduce.report import Report, curve, report, table
+from rotor.reproduce.report import Report, curve, panel, report, table
 from rotor.reproduce.runs import CachedFunction, Call, variant
 
 SPEEDS = (0.0, 0.3)
@@ -58,10 +58,8 @@ def figure_5_5() -> Report:
     ends = (f"{way}_{end}_ppm" for way in ("along", "across") for end in ("low", "high"))
     return report(
         "5.5",
-        tables=[
-            table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows),
-        ],
-        panels=[Chart("", Axis("field [kV/mm]"), Axis("free strain along [µε]"), tuple(curves))],
+        tables=[table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows)],
+        panels=[panel("", "field [kV/mm]", "free strain along [µε]", tuple(curves))],
         numbers=numbers,
         each=", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()),
         ratio=numbers["MFC_P1"] / numbers["MFC_P2"],
@@ -83,7 +81,7 @@ def figure_5_7() -> Report:
                 [(id, *ends[id], *fields[id]) for id in ends],
             )
         ],
-        panels=[Chart("", Axis("voltage [V]"), Axis("field [kV/mm]"), lines)],
+        panels=[panel("", "voltage [V]", "field [kV/mm]", lines)],
         numbers={id: float(np.ptp(row)) for id, row in fields.items()},
         each="; ".join(
             f"{id.replace('_', ' ')}: {row[0]:.2f} to {row[1]:.2f} kV/mm for {ends[id][0]:.0f} to {ends[id][1]:.0f} V"
@@ -108,7 +106,7 @@ def figure_5_10() -> Report:
     return report(
         "5.10",
         tables=[table("tip_twist", ("blade", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows)],
-        panels=[Chart("", Axis("r/R"), Axis("twist [°]"), tuple(curves))],
+        panels=[panel("", "r/R", "twist [°]", tuple(curves))],
         numbers=numbers,
         each="; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items()),
     )

@@ -6,14 +6,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from rotor.chart import INK, Axis, Chart, Line, Points
-from rotor.reproduce import (
-    actuation,
-    disk_figures,
-    implementation,
-    ladder,
-    optimum_twist,
-    twist_effect,
-)
+from rotor.reproduce import actuation, disk_figures, implementation, ladder, optimum_twist, twist_effect
 from rotor.reproduce.report import Report, thesis
 from rotor.reproduce.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
 from rotor.validation.trust import TrustRow, TrustSet, description

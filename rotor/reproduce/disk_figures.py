@@ -14,7 +14,7 @@ import numpy as np
 from rotor.aero.switches import with_switches
 from rotor.chart import Axis, Chart, Series
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import Report, curve, judged, report, table
+from rotor.reproduce.report import Report, curve, judged, panel, report, table
 from rotor.reproduce.runs import FLIGHT_LINEAR, variant
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import solve
@@ -53,8 +53,8 @@ def figure_2_7() -> Report:
         judged(good),
         tables=[table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows)],
         panels=[
-            Chart("Induced velocity / ΩR", Axis("r/R"), Axis("λ_i"), tuple(inflow)),
-            Chart("Thrust, the whole rotor as if smeared", Axis("r/R"), Axis("dC_T/dr"), tuple(thrust)),
+            panel("Induced velocity / ΩR", "r/R", "λ_i", tuple(inflow)),
+            panel("Thrust, the whole rotor as if smeared", "r/R", "dC_T/dr", tuple(thrust)),
         ],
         numbers=numbers,
     )
@@ -81,7 +81,7 @@ def figure_2_8() -> Report:
         "2.8",
         judged(good),
         tables=[table("u_t", ("r", "psi_deg", "u_t"), rows)],
-        panels=[Chart("", Axis("r/R"), Axis("U_T / ΩR"), curves)],
+        panels=[panel("", "r/R", "U_T / ΩR", curves)],
         numbers={"reverse_area": ours, "circle_area": expected, "largest": top, "least": low},
     )
 

@@ -9,20 +9,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from rotor.airfoil.polynomial import (
-    DRAG_ORDER,
-    FIT_RANGE_DEG,
-    LIFT_ORDER,
-    THESIS_READING,
-    FitError,
-    fit_error_study,
-    fit_polynomials,
-    thesis_polar,
-)
+from rotor.airfoil import polynomial
 from rotor.chart import Axis, Chart
 from rotor.files.make_design import uh60a_data
 from rotor.reproduce.ladder import built
-from rotor.reproduce.report import Agreement, Report, curve, judged, report, table
+from rotor.reproduce.report import Agreement, Report, curve, judged, panel, report, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
 from rotor.validation.uh60a import SLOWEST, beside_hover_points, beside_model_curve, model_curve_errors
@@ -37,10 +28,10 @@ ATTACHED_DEG = (-4.0, 8.0)
 
 
 FITS: dict[str, tuple[Coefficient, int]] = {
-    "3.3": ("lift", LIFT_ORDER),
-    "3.4": ("drag", DRAG_ORDER),
-    "3.5": ("lift", LIFT_ORDER),
-    "3.6": ("drag", DRAG_ORDER),
+    "3.3": ("lift", polynomial.LIFT_ORDER),
+    "3.4": ("drag", polynomial.DRAG_ORDER),
+    "3.5": ("lift", polynomial.LIFT_ORDER),
+    "3.6": ("drag", polynomial.DRAG_ORDER),
 }
 """By number: the coefficient, and the order of the thesis."""
 
@@ -48,8 +39,8 @@ FITS: dict[str, tuple[Coefficient, int]] = {
 def error_figure(number: str) -> Report:
     """Error of a fit against its order; `number` is 3.3 or 3.4."""
     which, chosen = FITS[number]
-    polar = thesis_polar(THESIS_READING)
-    studies = {low_high: fit_error_study(polar, low_high) for low_high in RANGES}
+    polar = polynomial.thesis_polar(polynomial.THESIS_READING)
+    studies = {low_high: polynomial.fit_error_study(polar, low_high) for low_high in RANGES}
     numbers: dict[str, float] = {}
     for low, high in RANGES:
         errors = {study.order: _rms(study, which) for study in studies[low, high]}
@@ -67,7 +58,7 @@ def error_figure(number: str) -> Report:
         (study.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, study in enumerate(studies[RANGES[0]])
     ]
     symbol = "Cl" if which == "lift" else "Cd"
-    panel = Chart(
+    errors_drawn = Chart(
         "",
         Axis("polynomial order"),
         Axis(f"rms error of {symbol}", log=True),
@@ -84,7 +75,7 @@ def error_figure(number: str) -> Report:
         number,
         judged(knee == chosen),
         tables=[table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows)],
-        panels=[panel],
+        panels=[errors_drawn],
         numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
         mach=polar.mach,
         reynolds=polar.reynolds / 1e6,
@@ -104,9 +95,9 @@ def knee_of(points: Sequence[tuple[int, float]]) -> int:
 def fit_figure(number: str) -> Report:
     """A fit beside its data; `number` is 3.5 or 3.6."""
     which, order = FITS[number]
-    polar = thesis_polar(THESIS_READING)
-    fit = fit_polynomials(polar)
-    low, high = FIT_RANGE_DEG
+    polar = polynomial.thesis_polar(polynomial.THESIS_READING)
+    fit = polynomial.fit_polynomials(polar)
+    low, high = polynomial.FIT_RANGE_DEG
     keep = (polar.alpha_deg >= low) & (polar.alpha_deg <= high)
     alpha_deg = polar.alpha_deg[keep]
     which_one, symbol = (0, "Cl") if which == "lift" else (1, "Cd")
@@ -125,11 +116,8 @@ def fit_figure(number: str) -> Report:
             )
         ],
         panels=[
-            Chart(
-                "",
-                Axis("α [°]"),
-                Axis(symbol),
-                (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth)),
+            panel(
+                "", "α [°]", symbol, (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth))
             )
         ],
         numbers={
@@ -143,14 +131,14 @@ def fit_figure(number: str) -> Report:
     )
 
 
-def _rms(error: FitError, which: Coefficient) -> float:
+def _rms(error: polynomial.FitError, which: Coefficient) -> float:
     return error.cl_rms if which == "lift" else error.cd_rms
 
 
 def _spread(which: Coefficient) -> float:
     """Largest less smallest coefficient over the range of the fit."""
-    polar = thesis_polar(THESIS_READING)
-    low, high = FIT_RANGE_DEG
+    polar = polynomial.thesis_polar(polynomial.THESIS_READING)
+    low, high = polynomial.FIT_RANGE_DEG
     keep = (polar.alpha_deg >= low) & (polar.alpha_deg <= high)
     return float(np.ptp((polar.cl if which == "lift" else polar.cd)[keep]))
 
@@ -159,13 +147,7 @@ SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.3
 TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 """The thesis' hovering, low, medium and high speed; it states no numbers for them."""
 
-DOCUMENT_3_1 = {
-    "radius_m": 1.6764,
-    "angular_speed_rad_s": 124.62,
-    "chord_m": 0.2469,
-    "blades": 4.0,
-    "arm_m": 9.926,
-}
+DOCUMENT_3_1 = {"radius_m": 1.6764, "angular_speed_rad_s": 124.62, "chord_m": 0.2469, "blades": 4.0, "arm_m": 9.926}
 DOCUMENT_3_2 = {
     "radius_m": 8.1788,
     "angular_speed_rad_s": 27.0,
@@ -260,25 +242,25 @@ def figure_3_10() -> Report:
             ),
         ),
         panels=(
-            Chart(
+            panel(
                 "8322.4 kg, sea level",
-                Axis("advance ratio µ"),
-                Axis("total power [kW]"),
+                "advance ratio µ",
+                "total power [kW]",
                 tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS)),
             ),
-            Chart(
+            panel(
                 "7257.5 kg, 1600 m",
-                Axis("advance ratio µ"),
-                Axis("main-rotor power [kW]"),
+                "advance ratio µ",
+                "main-rotor power [kW]",
                 (
                     *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(TWISTS)),
                     curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
                 ),
             ),
-            Chart(
+            panel(
                 "hover",
-                Axis("C_T/σ (σ = 0.0826)"),
-                Axis("C_P/σ"),
+                "C_T/σ (σ = 0.0826)",
+                "C_P/σ",
                 (
                     curve("flight", hover_ct, hover_ours),
                     curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7),

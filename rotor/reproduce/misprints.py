@@ -68,18 +68,8 @@ def _names() -> dict[str, Any]:
         t = (2.0 * alpha - sum(ends)) / (ends[1] - ends[0])
         return float(np.asarray(chebval(t, series.coef), dtype=np.float64))
 
-    helpers: tuple[Callable[..., Any], ...] = (
-        hover_kw,
-        induced_kw,
-        free,
-        glauert_inflow,
-        prandtl,
-        make_design,
-        solve,
-        polynomial_section,
-        polynomial_table,
-        load_section,
-    )
+    theory: tuple[Callable[..., Any], ...] = (hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve)
+    helpers = (*theory, polynomial_section, polynomial_table, load_section)
     return {"np": np, "reading": THESIS_READING, **{helper.__name__: helper for helper in helpers}}
 
 

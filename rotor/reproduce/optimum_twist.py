@@ -6,25 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor.chart import Axis, Chart, Series
+from rotor.chart import Chart, Series
 from rotor.design.twist import shipped_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import POWERS, at_condition
 from rotor.optimisation.search import Search, run_search
+from rotor.reproduce import runs
 from rotor.reproduce.ladder import RUNGS, moving_twist
-from rotor.reproduce.report import Report, by_name, curve, judged, report, table, with_gap
-from rotor.reproduce.runs import (
-    CONCEPTS,
-    FULL,
-    VARIANT_TITLES,
-    VARIANTS,
-    CachedFunction,
-    ConceptOptimum,
-    best,
-    comparable_kw,
-    variant,
-)
+from rotor.reproduce.report import Report, by_name, curve, judged, panel, report, table, with_gap
 from rotor.trim.solve import solve
 from rotor.units import KNOT
 from rotor.validation.uh60a import HORSEPOWER_KW, SLOWEST, public_data
@@ -51,10 +41,10 @@ FIGURES: dict[str, tuple[str, tuple[str, ...]]] = {
 """By number: the concept, and the parameters shown."""
 
 
-def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
+def optimum_figure(number: str, speeds: tuple[float, ...] = runs.FULL) -> Report:
     """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
     concept, shown = FIGURES[number]
-    optima = {name: [best(name, concept, mu, speeds) for mu in speeds] for name in VARIANTS}
+    optima = {name: [runs.best(name, concept, mu, speeds) for mu in speeds] for name in runs.VARIANTS}
     largest = {name: max(optimum.saving for optimum in row) for name, row in optima.items()}
     widths = [high - low for row in optima.values() for optimum in row for low, high in [_band(optimum, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
@@ -74,9 +64,7 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
     ]
     return report(
         number,
-        tables=[
-            table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows),
-        ],
+        tables=[table("optimum", ("variant", "mu", *columns, "total_kw", "saving_percent"), rows)],
         panels=[_panel(name, row, shown) for name, row in optima.items()],
         largest=by_name(largest),
         widest=widest,
@@ -89,12 +77,12 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = FULL) -> Report:
 
 def _by_kind(mu: float) -> dict[str, float]:
     """Best linear twist [°] of the flight preset for each power: the abstract minimises induced power."""
-    linear, design = find_concept("linear"), variant("flight", mu=mu)
+    linear, design = find_concept("linear"), runs.variant("flight", mu=mu)
     optima = {kind: run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS}
     return {kind: math.degrees(optimum.best.parameters[0]) for kind, optimum in optima.items() if optimum.best}
 
 
-def _on_bound(optima: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> str:
+def _on_bound(optima: dict[str, list[runs.ConceptOptimum]], shown: Sequence[str]) -> str:
     """Names the optima that lie on the bound of the search, where the true optimum may lie beyond."""
     places = [
         f"{_word(key)} at {'hover' if optimum.mu == 0.0 else f'µ {optimum.mu:g}'} ({name})"
@@ -108,7 +96,7 @@ def _on_bound(optima: dict[str, list[ConceptOptimum]], shown: Sequence[str]) -> 
     return f" On the bound of the search, {BOUND_DEG:g}° per radius, and so not optima: {', '.join(places)}."
 
 
-def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> Chart:
+def _panel(name: str, row: list[runs.ConceptOptimum], shown: Sequence[str]) -> Chart:
     curves: list[Series] = []
     speeds = [optimum.mu for optimum in row]
     for k, key in enumerate(shown):
@@ -118,18 +106,18 @@ def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> Chart:
             _word(key) if len(shown) > 1 else "optimum", speeds, [_value(optimum, key) for optimum in row], colour=k
         )
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
-    return Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis(y_label), tuple(curves))
+    return panel(runs.VARIANT_TITLES[name], "advance ratio µ", y_label, tuple(curves))
 
 
 def _word(key: str) -> str:
     return NAMES[key].partition(" [")[0]
 
 
-def _value(optimum: ConceptOptimum, key: str) -> float:
+def _value(optimum: runs.ConceptOptimum, key: str) -> float:
     return optimum.values[optimum.names.index(key)]
 
 
-def _band(optimum: ConceptOptimum, key: str) -> tuple[float, float]:
+def _band(optimum: runs.ConceptOptimum, key: str) -> tuple[float, float]:
     return optimum.band[optimum.names.index(key)]
 
 
@@ -146,7 +134,7 @@ def figure_4_11() -> Report:
         "4.11",
         judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
         tables=[table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, line, strict=True))],
-        panels=[Chart("", Axis("r/R"), Axis("twist, zero at 0.75 R [°]"), curves)],
+        panels=[panel("", "r/R", "twist, zero at 0.75 R [°]", curves)],
         numbers={"unweighted": plain, "weighted": weighted},
         unweighted_root_to_tip=(1.0 - r[0]) * plain,
         weighted_root_to_tip=(1.0 - r[0]) * weighted,
@@ -157,7 +145,7 @@ SpeedRow = tuple[float, float, float, float, str]
 """µ; main-rotor power of the public curve, of the built-in twist, of the best three segments [kW]; SPEC of these."""
 
 
-@CachedFunction
+@runs.CachedFunction
 def three_segment_rows(preset: str, most: int | None) -> tuple[SpeedRow, ...]:
     """The rows of a preset at mass and altitude of the public curve; at most so many, from hover on."""
     forward = public_data()["forward"]
@@ -169,7 +157,7 @@ def three_segment_rows(preset: str, most: int | None) -> tuple[SpeedRow, ...]:
         mu = knots * KNOT / tip_speed
         if 0.0 < mu < SLOWEST or len(rows) == most:
             continue
-        design = variant(preset, twist="uh60a", mu=mu, mass=forward["mass_kg"])
+        design = runs.variant(preset, twist="uh60a", mu=mu, mass=forward["mass_kg"])
         design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
         optimum = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
         assert optimum.best is not None, f"{preset}, µ {mu:g}: {optimum.message}"
@@ -194,34 +182,32 @@ def figure_4_12(most: int | None = None) -> Report:
         tables=[
             table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows)
         ],
-        panels=[Chart("", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), curves)],
+        panels=[panel("", "advance ratio µ", "main-rotor power [kW]", curves)],
         numbers={"least_saving": min(savings), "largest_saving": max(savings)},
         least_saving_percent=100.0 * min(savings),
     )
 
 
-def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
+def figure_4_13(speeds: tuple[float, ...] = runs.FULL) -> Report:
     """All concepts side by side."""
     savings = {
         (name, concept): [_percent(name, concept, mu, speeds) for mu in speeds]
-        for name in VARIANTS
-        for concept in CONCEPTS
+        for name in runs.VARIANTS
+        for concept in runs.CONCEPTS
     }
     panels: list[Chart] = []
-    for name in VARIANTS:
+    for name in runs.VARIANTS:
         curves: list[Series] = []
-        for k, concept in enumerate(CONCEPTS):
+        for k, concept in enumerate(runs.CONCEPTS):
             curves += with_gap(concept, speeds, savings[name, concept], colour=k)
-        panels.append(
-            Chart(VARIANT_TITLES[name], Axis("advance ratio µ"), Axis("saving of total power [%]"), tuple(curves))
-        )
-    gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in VARIANTS}
-    largest = [(name, *(f"{max(savings[name, concept]):.1f}" for concept in CONCEPTS)) for name in VARIANTS]
+        panels.append(panel(runs.VARIANT_TITLES[name], "advance ratio µ", "saving of total power [%]", tuple(curves)))
+    gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in runs.VARIANTS}
+    largest = [(name, *(f"{max(savings[name, concept]):.1f}" for concept in runs.CONCEPTS)) for name in runs.VARIANTS]
     heads = ("variant", "concept", *(f"mu_{mu:g}" for mu in speeds))
     return report(
         "4.13",
         tables=[
-            table("largest saving", ("[%]", *CONCEPTS), largest),
+            table("largest saving", ("[%]", *runs.CONCEPTS), largest),
             table("saving_percent", heads, [(*key, *row) for key, row in savings.items()]),
         ],
         panels=panels,
@@ -232,16 +218,16 @@ def figure_4_13(speeds: tuple[float, ...] = FULL) -> Report:
     )
 
 
-def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
+def table_4_1(speeds: tuple[float, ...] = runs.FULL) -> Report:
     """Reduction of power, and how much of it a better fixed blade would have had too."""
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     more: dict[str, float] = {}
-    for name in VARIANTS:
+    for name in runs.VARIANTS:
         variable = moving_twist(tuple(RUNGS) if name == "flight" else (), speeds, None)
         mean = {
-            concept: sum(comparable_kw(name, concept, mu, speeds) for mu in speeds) / len(speeds)
-            for concept in CONCEPTS
+            concept: sum(runs.comparable_kw(name, concept, mu, speeds) for mu in speeds) / len(speeds)
+            for concept in runs.CONCEPTS
         }
         saving = {concept: 1.0 - power / variable.baseline_kw for concept, power in mean.items()}
         fixed, moving = 1.0 - variable.fixed_kw / variable.baseline_kw, 1.0 - mean["linear"] / variable.fixed_kw
@@ -261,10 +247,10 @@ def table_4_1(speeds: tuple[float, ...] = FULL) -> Report:
         "quadratic": more["quadratic"],
         "airfoils": more["two airfoils"] - more["two 50-50"],
     }
-    saved = table("mean_saving_percent", ("variant", *CONCEPTS, "best fixed"), rows)
+    saved = table("mean_saving_percent", ("variant", *runs.CONCEPTS, "best fixed"), rows)
     return report("table 4.1", tables=[saved], numbers=numbers)
 
 
 def _percent(name: str, concept: str, mu: float, speeds: tuple[float, ...]) -> float:
-    baseline = best(name, "linear", mu, speeds).baseline_kw
-    return 100.0 * (1.0 - comparable_kw(name, concept, mu, speeds) / baseline)
+    baseline = runs.best(name, "linear", mu, speeds).baseline_kw
+    return 100.0 * (1.0 - runs.comparable_kw(name, concept, mu, speeds) / baseline)

@@ -75,9 +75,7 @@ def reading_design(section: str, loss_on: LossOn, rate: float, mu: float) -> Des
     """The `thesis` preset with these section data, Prandtl's factors there, and a linear twist [°/R]."""
     design = make_design(preset="thesis", twist=f"linear:{rate:.12g}", mu=mu)
     design = replace(
-        design,
-        rotor=with_airfoils(design.rotor, (section,), ()),
-        models=replace(design.models, loss_on=loss_on),
+        design, rotor=with_airfoils(design.rotor, (section,), ()), models=replace(design.models, loss_on=loss_on)
     )
     if section.startswith(THESIS_NAME):
         return design

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.assets import asset_path
-from rotor.chart import Band, Chart, Line, Points, Series
+from rotor.chart import Axis, Band, Chart, Line, Points, Series
 
 CurveStyle = Literal["line", "points", "dashed", "both", "band"]
 TableCell = str | float | int
@@ -101,6 +101,11 @@ def curve(
     if style == "points":
         return Points(label, across, up, place)
     return Line(label, across, up, place, dashes=style == "dashed", dots=style == "both")
+
+
+def panel(title: str, x: str, y: str, series: Iterable[Series]) -> Chart:
+    """A chart whose axes have labels only."""
+    return Chart(title, Axis(x), Axis(y), tuple(series))
 
 
 def with_gap(

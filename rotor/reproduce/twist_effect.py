@@ -13,20 +13,9 @@ from itertools import pairwise
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Series
+from rotor.chart import Chart, Series
 from rotor.files.make_design import make_design
-from rotor.reproduce.ladder import (
-    FAST,
-    FAST_KMH,
-    HOVER,
-    RUNGS,
-    STRONG,
-    TRIM,
-    WEAK,
-    built,
-    least,
-    strong_over_weak,
-)
+from rotor.reproduce.ladder import FAST, FAST_KMH, HOVER, RUNGS, STRONG, TRIM, WEAK, built, least, strong_over_weak
 from rotor.reproduce.report import (
     TOLERANCE,
     Agreement,
@@ -35,17 +24,11 @@ from rotor.reproduce.report import (
     by_name,
     curve,
     judged,
+    panel,
     report,
     table,
 )
-from rotor.reproduce.runs import (
-    FIVE_RATES,
-    FULL,
-    THESIS_WAKE,
-    VARIANT_TITLES,
-    main_rotor_kw,
-    solved,
-)
+from rotor.reproduce.runs import FIVE_RATES, FULL, THESIS_WAKE, VARIANT_TITLES, main_rotor_kw, solved
 from rotor.trim.solve import solve
 
 MASSES = (4000.0, 5000.0, 6000.0, 7000.0, 8322.4, 9000.0)
@@ -85,11 +68,11 @@ def figure_3_11() -> Report:
         ]
         title = f"{name} preset"
         panels += [
-            Chart(title, Axis("C_T/σ"), Axis("C_P"), _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
-            Chart(
+            panel(title, "C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
+            panel(
                 title,
-                Axis("C_T/σ"),
-                Axis("relative to the best of the five [%]"),
+                "C_T/σ",
+                "relative to the best of the five [%]",
                 _five(loading, lambda rate, k, of=powers, low=least: 100.0 * (of[rate][k].cp / low[k] - 1.0)),
             ),
         ]
@@ -138,15 +121,9 @@ def figure_3_12() -> Report:
     slow, fast = best["thesis"][0], best["thesis"][-1]
     saves = {name: main_rotor_kw(name, 0, LOW[0]) / main_rotor_kw(name, -16, LOW[0]) - 1.0 for name in FIVE_NAMES}
     costs = [mu for mu in LOW if main_rotor_kw("thesis", -16, mu) > (1 + TOLERANCE) * main_rotor_kw("thesis", 0, mu)]
-    return _speeds(
-        "3.12",
-        LOW,
-        judged(not costs),
-        {f"{name}_saving": value for name, value in saves.items()},
-        costs=f", and from µ {costs[0]:g} on it costs power" if costs else "",
-        slow=slow,
-        fast=fast,
-    )
+    numbers = {f"{name}_saving": value for name, value in saves.items()}
+    beyond = f", and from µ {costs[0]:g} on it costs power" if costs else ""
+    return _speeds("3.12", LOW, judged(not costs), numbers, costs=beyond, slow=slow, fast=fast)
 
 
 def figure_3_13() -> Report:
@@ -167,21 +144,13 @@ def figure_3_14() -> Report:
     cost = {name: _cost(name, -4, last) for name in FIVE_NAMES}
     trim, section = (least(on, last, None).rate_deg for on in (TRIM, ("table", "mach")))
     anywhere = max(_cost("thesis", -4, mu) for mu in HIGH)
-    return _speeds(
-        "3.14",
-        HIGH,
-        judged(anywhere <= TOLERANCE),
-        {
-            **{f"{name}_best": float(rates[0]) for name, rates in best.items()},
-            **{f"{name}_cost_of_4": value for name, value in cost.items()},
-            "with_trim": trim,
-            "with_section": section,
-        },
-        best=_best_words(best),
-        cost=by_name(cost, "{:.2f} %"),
-        anywhere=anywhere,
-        thesis_optimum=least((), last, None).rate_deg,
-    )
+    numbers = {f"{name}_best": float(rates[0]) for name, rates in best.items()}
+    numbers |= {f"{name}_cost_of_4": value for name, value in cost.items()}
+    numbers |= {"with_trim": trim, "with_section": section}
+    words = {"best": _best_words(best), "cost": by_name(cost, "{:.2f} %")}
+    optimum = least((), last, None).rate_deg
+    agreement = judged(anywhere <= TOLERANCE)
+    return _speeds("3.14", HIGH, agreement, numbers, **words, anywhere=anywhere, thesis_optimum=optimum)
 
 
 SLOWER = 90.0
@@ -212,18 +181,9 @@ def figure_3_15() -> Report:
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
         "3.15",
-        tables=[
-            table(
-                "flight_kw",
-                ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-                [
-                    (mu, *(main_rotor_kw("flight", rate, mu) for rate in FIVE_RATES), saving)
-                    for mu, saving in zip(FULL, best, strict=True)
-                ],
-            ),
-        ],
+        tables=[_kw_table("flight", FULL)],
         panels=[
-            Chart(title, Axis("advance ratio µ at 100 %"), Axis(label), _five(FULL, partial(_at, kw)))
+            panel(title, "advance ratio µ at 100 %", label, _five(FULL, partial(_at, kw)))
             for title, label, kw in (
                 ("100 % rotor speed", "main-rotor power [kW]", partial(main_rotor_kw, "flight")),
                 (f"{SLOWER:.0f} % rotor speed", "main-rotor power [kW]", slower_kw),
@@ -268,6 +228,12 @@ def best_of_five(name: str, mu: float) -> int:
     return min(FIVE_RATES, key=lambda rate: main_rotor_kw(name, rate, mu))
 
 
+def _kw_table(name: str, speeds: Sequence[float]) -> ReportTable:
+    """The powers of the five twists over speed, and the best of them."""
+    rows = [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds]
+    return table(f"{name}_kw", ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"), rows)
+
+
 def _cost(name: str, rate: float, mu: float) -> float:
     """Part of the power that a twist costs beyond the best of the five."""
     return main_rotor_kw(name, rate, mu) / main_rotor_kw(name, best_of_five(name, mu), mu) - 1.0
@@ -296,10 +262,10 @@ def _speeds(
     number: str, speeds: tuple[float, ...], verdict: Agreement, numbers: dict[str, float], **words: str | float
 ) -> Report:
     panels = tuple(
-        Chart(
+        panel(
             VARIANT_TITLES[name],
-            Axis("advance ratio µ"),
-            Axis(label),
+            "advance ratio µ",
+            label,
             _five(speeds, lambda rate, k, of=of, name=name: of(name, rate, speeds[k])),
         )
         for label, of in (("main-rotor power [kW]", main_rotor_kw), ("relative to the best of the five [%]", _percent))
@@ -313,15 +279,10 @@ def _speeds(
         for first, second in pairwise(FIVE_RATES):
             crossed += [(name, first, second, mu) for mu in crossings(name, first, second, speeds)]
     met = [f"{first}° and {second}° at µ {mu:.3f}" for name, first, second, mu in crossed if name == "thesis"]
-    kw = [
-        table(
-            f"{name}_kw",
-            ("mu", *(f"linear_{rate}" for rate in FIVE_RATES), "best"),
-            [(mu, *(main_rotor_kw(name, rate, mu) for rate in FIVE_RATES), best_of_five(name, mu)) for mu in speeds],
-        )
-        for name in FIVE_NAMES
+    tables = [
+        *(_kw_table(name, speeds) for name in FIVE_NAMES),
+        table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed),
     ]
-    tables = [*kw, table("crossings", ("variant", "first_deg", "second_deg", "mu"), crossed)]
     paths += ". " + (f"Crossings (thesis): {', '.join(met)}." if met else "No crossings (thesis).")
     return report(number, verdict, tables=tables, panels=panels, numbers=numbers, paths=paths, **words)
 
@@ -406,19 +367,19 @@ def keys_1987() -> Report:
             ),
         ),
         panels=(
-            Chart(
+            panel(
                 "",
-                Axis("speed [km/h]"),
-                Axis("power of −17.3° over −11.5° [%]"),
+                "speed [km/h]",
+                "power of −17.3° over −11.5° [%]",
                 (
                     *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
                     curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
                 ),
             ),
-            Chart(
+            panel(
                 "",
-                Axis("X/qd²σ"),
-                Axis("power of −17.3° over −11.5° at 330 km/h [%]"),
+                "X/qd²σ",
+                "power of −17.3° over −11.5° at 330 km/h [%]",
                 (
                     curve("", force, lowest, "band", upper=highest, colour=2),
                     *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),

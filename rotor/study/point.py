@@ -263,16 +263,11 @@ def _search(design: Design, values: Values, searching: OptimumSettings, warm: Wa
         else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
     )
     near = warm.optimum if warm.concept == _name(concept) else ()
-    return Search(
-        design=design,
-        concept=concept,
-        objective=objective,
-        limits=Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index),
-        starts=searching.starts,
-        seed=searching.seed,
-        guesses=(near,) if near else (),
-        band=False,
+    limits, guesses = (
+        Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index),
+        (near,) if near else (),
     )
+    return Search(design, concept, objective, limits, searching.starts, searching.seed, guesses, band=False)
 
 
 def _name(concept: Concept) -> str:

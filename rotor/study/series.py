@@ -30,15 +30,8 @@ from rotor.units import KNOT
 from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
-VIBRATION = (
-    "index_percent",
-    "least_index_percent",
-    "largest_index_percent",
-    *HUB_COLUMNS,
-    "flap_2_per_rev",
-    "lag_1_per_rev",
-    "torsion_1_per_rev",
-)
+_INDICES = ("index_percent", "least_index_percent", "largest_index_percent")
+VIBRATION = (*_INDICES, *HUB_COLUMNS, "flap_2_per_rev", "lag_1_per_rev", "torsion_1_per_rev")
 """Columns beside where blades bend: index of the loads on the hub at N_b per revolution, its band over inflow models,
 their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
@@ -210,15 +203,8 @@ def schedule(
         WeightedCondition(design.at(mu=speed).condition, time)
         for speed, time in sorted(zip(speeds, times, strict=True))
     ]
-    plan = Plan(
-        design,
-        tuple(find_concept(name) for name in concepts),
-        tuple(flights),
-        quantity,
-        limits or Limits(),
-        starts,
-        seed,
-    )
+    blades = tuple(find_concept(name) for name in concepts)
+    plan = Plan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
     return run_plan(plan, processes=processes)
 
 
@@ -281,17 +267,8 @@ def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     names = ("speed_kt", *told(design.condition for design in designs))
     condition = (name for name in SWEPT if name in names)
     powers = (f"{part}_kw" for part in POWERS)
-    columns = (
-        "rotor",
-        "twist",
-        "twist_deg_per_r",
-        "pitch_per_rev",
-        "twist_per_rev",
-        *condition,
-        "status",
-        *powers,
-        "message",
-    )
+    blade = ("rotor", "twist", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev")
+    columns = (*blade, *condition, "status", *powers, "message")
     return (*columns, *VIBRATION) if any(design.models.bending for design in designs) else columns
 
 

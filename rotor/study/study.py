@@ -306,20 +306,9 @@ class Column:
     unit: str
 
 
-_HEAD = (
-    "point",
-    "status",
-    "message",
-    "rotor",
-    "mu",
-    "speed_m_s",
-    "mass_kg",
-    "altitude_m",
-    *(name for name, row in BESIDE.items() if row.told),
-    "preset",
-    "inflow",
-    "twist",
-)
+_BESIDE = tuple(name for name, row in BESIDE.items() if row.told)
+_FLIGHT = ("rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", *_BESIDE, "preset", "inflow", "twist")
+_HEAD = ("point", "status", "message", *_FLIGHT)
 ANSWER = (
     *(f"power_{part}_w" for part in POWERS), "ct", "cp", "ct_over_sigma", "lambda0", "collective_deg", "cyclic_1c_deg",
     "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg", "shaft_tilt_deg", "reverse_flow_area_percent",
@@ -328,15 +317,8 @@ ANSWER = (
 """Results of a trim."""
 _VIBRATION = ("index_percent", *HUB_COLUMNS, *(f"{mode}_per_rev" for mode in FREQUENCIES))
 """Columns with `bending`: amplitudes at N_b/rev, without the band over inflow models, which takes three more trims."""
-_SEARCH = (
-    "mean_power_w",
-    "hover_power_w",
-    "baseline_power_w",
-    "saving_percent",
-    "local_minima",
-    "active",
-    "evaluations",
-)
+_SAVED = ("mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent")
+_SEARCH = (*_SAVED, "local_minima", "active", "evaluations")
 """`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
 _COUNTS = ("point", "passes", "local_minima", "evaluations")
 _WORDS = ("status", "message", "caveats", "active")

@@ -173,18 +173,8 @@ def blade_system(linear: LinearisedTrim, *, shed: bool = False) -> BladeSystem:
         phi = torsion.modes.at(r * rotor.radius)
     mean: Array = elements.theta.mean(axis=1)
     theta: Array = np.interp(r, disk.r, mean)
-    on_blade = _Mass(
-        r,
-        strips,
-        _offset(problem, r),
-        rotor.blade.chord(r) / rotor.radius * (r >= disk.root),
-        theta,
-        along[0],
-        along[1],
-        along[3],
-        along[4],
-        phi,
-    )
+    chord = rotor.blade.chord(r) / rotor.radius * (r >= disk.root)
+    on_blade = _Mass(r, strips, _offset(problem, r), chord, theta, along[0], along[1], along[3], along[4], phi)
     slope, rate = elements.beta, _derivative(elements.beta)
     offset, unit = (_inertia(on_blade, x, slope, rate) for x in (on_blade.x, on_blade.chord))
     none = _inertia(on_blade, np.zeros_like(r), slope, rate)

@@ -1,6 +1,5 @@
 """Lift, coefficients and flow of one blade along its span and around the disk, in SI units, of a solution."""
 
-import importlib
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -53,26 +52,6 @@ class Distribution(ShortRepr):
             "inflow_m_s": self.inflow.tolist(),
         }
 
-    def to_xarray(self) -> Any:
-        """The fields as an xarray Dataset over `r` and `psi_deg`, with names, units and angles in degrees of `to_dict`.
-
-        ImportError with the remedy where xarray is missing.
-        """
-        try:
-            xarray: Any = importlib.import_module("xarray")
-        except ModuleNotFoundError:
-            raise ImportError("xarray is not installed: pip install xarray, or use to_dict()") from None
-        fields = {
-            "lift_n_per_m": (self.lift, "N/m"),
-            "cl": (self.cl, "1"),
-            "cm": (self.cm, "1"),
-            "mach": (self.mach, "1"),
-            "alpha_deg": (np.degrees(self.alpha), "degree"),
-            "inflow_m_s": (self.inflow, "m/s"),
-        }
-        values = {name: (("r", "psi_deg"), value, {"units": unit}) for name, (value, unit) in fields.items()}
-        return xarray.Dataset(values, {"r": self.r, "psi_deg": np.degrees(self.psi)})
-
     def table(self) -> str:
         """Mean and greatest lift [N/m] at a few radii, and where the blade then is."""
         lines = [f"{'r/R':>6}{'mean N/m':>10}{'max N/m':>10}{'at ψ':>7}"]
@@ -92,16 +71,8 @@ def distribution(solution: Solution) -> Distribution:
         raise TypeError(f"solution is {solution!r:.80}: give what rotor.solve returns")
     design, disk = solution.design, solution.require().disk
     rotor = design.rotor
-    return Distribution(
-        r=disk.r,
-        psi=disk.psi,
-        lift=disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)),
-        cl=disk.cl,
-        cm=_moments(design, disk),
-        mach=disk.mach,
-        alpha=disk.alpha,
-        inflow=disk.induced * rotor.tip_speed,
-    )
+    lift, inflow = disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)), disk.induced * rotor.tip_speed
+    return Distribution(disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow)
 
 
 def _moments(design: Design, flow: DiskFields) -> Array:

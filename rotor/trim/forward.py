@@ -181,10 +181,7 @@ def first_guess(problem: Problem) -> Guess:
     collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * flow.axial) / (1.0 + 1.5 * mu**2)
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.droop
     state = TrimState(
-        collective=collective,
-        shaft_tilt=math.atan2(problem.drag, problem.weight),
-        coning=coning,
-        lambda0=flow.lambda0,
+        collective=collective, shaft_tilt=math.atan2(problem.drag, problem.weight), coning=coning, lambda0=flow.lambda0
     )
     stand = design.condition.stand
     if stand is not None:

@@ -84,16 +84,10 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
     index = 100.0 * index_of(design, values)[0]
     others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
-    force, moment = root_loads(problem, point)
-    return HubLoads(
-        per_rev=design.rotor.blades,
-        amplitudes=dict(zip(LOADS, amplitudes, strict=True)),
-        phases=dict(zip(LOADS, phases, strict=True)),
-        index=index,
-        band=(min([index, *others]), max([index, *others])) if band else None,
-        root_force=force,
-        root_moment=moment,
-    )
+    sizes: dict[str, float] = dict(zip(LOADS, amplitudes, strict=True))
+    angles: dict[str, float] = dict(zip(LOADS, phases, strict=True))
+    ends = (min([index, *others]), max([index, *others])) if band else None
+    return HubLoads(design.rotor.blades, sizes, angles, index, ends, *root_loads(problem, point))
 
 
 def _indices(design: Design, solve: Solve) -> list[float]:

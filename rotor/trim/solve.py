@@ -30,6 +30,7 @@ from rotor.trim.validity import (
     MOST_STALLED,
     REDONE,
     REDONE_SHARE,
+    Trimmed,
     caveats,
     failure_sentence,
     implausible,
@@ -283,7 +284,10 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
-    elastic, climb = _elastic(problem, elements, shown), design.condition.climb_speed
+    trimmed = Trimmed(
+        problem, total, fields, stalled, moment, power, _elastic(problem, elements, shown), elements.state
+    )
+    climb = design.condition.climb_speed
     least = 0.0 if climb >= 0.0 else -math.inf
     if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
         converged = False
@@ -295,9 +299,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=tuple(caveats(problem, total, fields, stalled, moment, power, elastic, elements.state))
-        if converged
-        else (),
+        caveats=tuple(caveats(trimmed)) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -311,7 +313,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=elastic,
+        elastic=trimmed.elastic,
         start=result.guess,
         wake_course=course_of(problem),
         linear=result.linear,
@@ -342,22 +344,18 @@ def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, Bl
     )
 
 
+_SHOWN = ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+"""Fields of `DiskFields` that are those of the blade elements."""
+
+
 def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     disk, e = problem.disk, elements
     return DiskFields(
         r=disk.r,
         dr=disk.dr,
         psi=disk.psi,
-        theta=e.theta,
-        u_t=e.u_t,
-        u_p=e.u_p,
-        induced=e.induced,
+        **{name: getattr(e, name) for name in _SHOWN},
         inflow=e.induced + e.flow.mu_z,
-        alpha=e.alpha,
-        mach=e.mach,
-        cl=e.cl,
-        cd=e.cd,
-        cd_mach=e.cd_mach,
         stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
         dct=e.fz,
         dcq=e.fx,

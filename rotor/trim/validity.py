@@ -49,7 +49,7 @@ FAST_PITCH = 0.2
 
 
 @dataclass(frozen=True)
-class _Trim:
+class Trimmed:
     """A converged trim, and what several caveats read of it."""
 
     problem: Problem
@@ -146,8 +146,8 @@ class _Trim:
 @dataclass(frozen=True)
 class _Rule:
     name: str
-    applies: Callable[[_Trim], object]
-    sentence: Callable[[_Trim], str]
+    applies: Callable[[Trimmed], object]
+    sentence: Callable[[Trimmed], str]
 
 
 _RULES = (
@@ -189,9 +189,7 @@ _RULES = (
     ),
     _Rule("switched-off", lambda trim: switched_off(trim.design.models), lambda trim: _switches(trim.design)),
     _Rule(
-        "rigid-blades",
-        lambda trim: not trim.design.models.flapping and trim.mu > 0.0,
-        lambda trim: _rigid(trim.moment),
+        "rigid-blades", lambda trim: not trim.design.models.flapping and trim.mu > 0.0, lambda trim: _rigid(trim.moment)
     ),
     _Rule(
         "rigid-blades-linear-inflow",
@@ -352,26 +350,16 @@ _RULES = (
 """Caveats in the order in which they are listed."""
 
 
-def caveats(
-    problem: Problem,
-    total: DiskSums,
-    fields: DiskFields,
-    stalled: float,
-    moment: HubMoment,
-    power: PowerBudget,
-    elastic: ElasticTwist | None,
-    state: TrimState,
-) -> Iterator[Caveat]:
-    """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
-    for remark in problem.design.aircraft.remarks:
+def caveats(trim: Trimmed) -> Iterator[Caveat]:
+    """The limits of validity that a converged solution exceeds."""
+    for remark in trim.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    trim = _Trim(problem, total, fields, stalled, moment, power, elastic, state)
     for rule in _RULES:
         if rule.applies(trim):
             yield Caveat(rule.name, rule.sentence(trim))
 
 
-def _would_redo(trim: _Trim) -> bool:
+def _would_redo(trim: Trimmed) -> bool:
     """Whether another inflow would have dynamic stall here."""
     return trim.design.models.dynamic_stall == "auto" and trim.stalled > REDONE_SHARE and not trim.by_polynomials
 

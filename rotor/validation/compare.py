@@ -20,19 +20,9 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
 
-SETS = (
-    "xv15-hover",
-    "xv15-forward-15deg",
-    "xv15-forward-0deg",
-    "xv15-forward-figure-18",
-    "pca2",
-    "knight-hefner-3",
-    "knight-hefner-4",
-    "castles-gray",
-    "castles-gray-twisted",
-    "castles-gray-twist-effect",
-    "uh60a-hover",
-)
+_XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
+_CASTLES_GRAY = ("castles-gray", "castles-gray-twisted", "castles-gray-twist-effect")
+SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CASTLES_GRAY, "uh60a-hover")
 """Names of the sets, in the order in which they are shown."""
 FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
@@ -241,16 +231,9 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
     ours = {name: quantity_of(name, solution, measured) for name in targets}
     value = ours[measured.quantity]
-    return ComparedPoint(
-        given=given,
-        measured=targets,
-        ours=ours,
-        message="",
-        error_percent=100.0 * (value / wanted - 1.0),
-        within_scatter=abs(value - wanted) <= measured.scatter_of(wanted),
-        judged=judged,
-        passed=not judged or measured.allows(wanted, value),
-    )
+    error, within = 100.0 * (value / wanted - 1.0), abs(value - wanted) <= measured.scatter_of(wanted)
+    passed = not judged or measured.allows(wanted, value)
+    return ComparedPoint(given, targets, ours, "", error, within, judged, passed)
 
 
 def measured_set(name: str) -> TrustSet:

@@ -21,16 +21,7 @@ from rotor.files.make_design import make_design
 from rotor.study.series import between_drag_areas
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.airloads import (
-    CASES,
-    CurveAgreement,
-    MeasuredCurve,
-    agreement,
-    azimuth_chart,
-    closed,
-    measured_curves,
-    our_curve,
-)
+from rotor.validation import airloads
 from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
 POWERS = "flown-power"
@@ -145,16 +136,10 @@ def flown_powers() -> Iterator[FlownPower]:
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         ends, controls = between_drag_areas(solution), solution.controls
         ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
-        yield FlownPower(
-            rotor=power.rotor,
-            case=power.case,
-            mu=power.mu,
-            measured=power.power,
-            ours=solution.power.main_rotor if solution.converged else None,
-            band=None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor),
-            measured_angles=power.angles,
-            angles=tuple(map(math.degrees, ours)) if solution.converged else None,
-        )
+        main = solution.power.main_rotor if solution.converged else None
+        band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
+        angles = tuple(map(math.degrees, ours)) if solution.converged else None
+        yield FlownPower(power.rotor, power.case, power.mu, power.power, main, band, power.angles, angles)
 
 
 def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[float, float]:
@@ -301,9 +286,9 @@ def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple
 
 def gazelle_set() -> TrustSet:
     """For the trust page: c_l as measured, and with the dynamic pressure."""
-    solutions = {case.name: solve(case.design()).require() for case in CASES if case.test == AIRLOADS}
-    curves = [curve for curve in measured_curves() if curve.case.test == AIRLOADS]
-    agreements = [agreement(curve, solutions[curve.case.name]) for curve in curves]
+    solutions = {case.name: solve(case.design()).require() for case in airloads.CASES if case.test == AIRLOADS}
+    curves = [curve for curve in airloads.measured_curves() if curve.case.test == AIRLOADS]
+    agreements = [airloads.agreement(curve, solutions[curve.case.name]) for curve in curves]
     lift = [beside.correlation for beside in agreements if beside.quantity == "cl"]
     return description(AIRLOADS).page(
         f"correlation {min(lift):.2f} to {max(lift):.2f}",
@@ -314,7 +299,7 @@ def gazelle_set() -> TrustSet:
     )  # fmt: skip
 
 
-def _lift_row(name: str, quantity: str, agreements: Sequence[CurveAgreement]) -> TrustRow:
+def _lift_row(name: str, quantity: str, agreements: Sequence[airloads.CurveAgreement]) -> TrustRow:
     mine = [curve for curve in agreements if (curve.case.name, curve.quantity) == (name, quantity)]
     least, judged = min(curve.correlation for curve in mine), quantity == "cl"
     return description(AIRLOADS).row(
@@ -327,18 +312,18 @@ def _lift_row(name: str, quantity: str, agreements: Sequence[CurveAgreement]) ->
     )
 
 
-def _lift_chart(solution: Solution, curves: Sequence[MeasuredCurve]) -> Chart:
+def _lift_chart(solution: Solution, curves: Sequence[airloads.MeasuredCurve]) -> Chart:
     """c_l at the radii."""
     series: list[Series] = []
     for k, measured in enumerate(curves, start=1):
         series.append(Points(f"measured, {measured.r:g} R", np.degrees(measured.psi), measured.values, k))
-        series.append(Line("computed", *closed(*our_curve(measured, solution)), k))
+        series.append(Line("computed", *airloads.closed(*airloads.our_curve(measured, solution)), k))
     case = curves[0].case
     title = f"Section lift coefficient, {case.name}, µ {case.conditions['mu']:g}"
-    return azimuth_chart(title, f"c_l, {case.name}", series)
+    return airloads.azimuth_chart(title, f"c_l, {case.name}", series)
 
 
-def _lift_points(agreements: Sequence[CurveAgreement]) -> tuple[tuple[str, ...], ...]:
+def _lift_points(agreements: Sequence[airloads.CurveAgreement]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [
         ("Flight", "r/R", "Quantity", "Correlation", "rms error", "Measured rms", "Mean", "Measured mean")
     ]

@@ -11,18 +11,7 @@ from rotor.assets import asset_path, csv_rows
 from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.airloads import (
-    CASES,
-    CurveAgreement,
-    FlownCase,
-    MeasuredCurve,
-    agreement,
-    azimuth_chart,
-    closed,
-    columns,
-    measured_curves,
-    our_curve,
-)
+from rotor.validation import airloads
 from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
 SET = "hart2-airloads"
@@ -41,7 +30,7 @@ QUANTITIES = {
 def measured_vortices(case: str) -> tuple[Array, Array, Array]:
     """Centres of tip vortices of `BL` or `MN` over R: x aft, y to starboard, z up from the hub; (points,) each."""
     rows = [row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case]
-    x, y, z = columns(rows, *"xyz")
+    x, y, z = airloads.columns(rows, *"xyz")
     return x, y, z
 
 
@@ -58,21 +47,21 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
     return heights
 
 
-def cases() -> tuple[FlownCase, FlownCase]:
+def cases() -> tuple[airloads.FlownCase, airloads.FlownCase]:
     """BL and MN."""
-    baseline, moved = (case for case in CASES if case.test == SET)
+    baseline, moved = (case for case in airloads.CASES if case.test == SET)
     return baseline, moved
 
 
-def curves() -> dict[tuple[str, str], MeasuredCurve]:
+def curves() -> dict[tuple[str, str], airloads.MeasuredCurve]:
     """What was measured, by case and quantity."""
-    return {(curve.case.name, curve.quantity): curve for curve in measured_curves() if curve.case.test == SET}
+    return {(curve.case.name, curve.quantity): curve for curve in airloads.measured_curves() if curve.case.test == SET}
 
 
 def hart2_set() -> TrustSet:
     """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
-    agreements = {key: agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
+    agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
     return description(SET).page(
         f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}",
@@ -82,7 +71,7 @@ def hart2_set() -> TrustSet:
     )
 
 
-_Agreements = Mapping[tuple[str, str], CurveAgreement]
+_Agreements = Mapping[tuple[str, str], airloads.CurveAgreement]
 
 
 def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterator[TrustRow]:
@@ -140,18 +129,20 @@ def _charts(solutions: Mapping[str, Solution]) -> Iterator[Chart]:
     for quantity in ("cn_m2", "cm_m2"):
         for name, solution in solutions.items():
             measured = beside[name, quantity]
-            psi, values = our_curve(measured, solution)
+            psi, values = airloads.our_curve(measured, solution)
             theirs = measured.values - measured.values.mean()
             label = f"{QUANTITIES[quantity]}, {name}, without mean"
             points = Points("measured", np.degrees(measured.psi[::2]), theirs[::2])
-            yield azimuth_chart(label, label, (points, Line("computed", *closed(psi, values - values.mean()), 1)))
+            yield airloads.azimuth_chart(
+                label, label, (points, Line("computed", *airloads.closed(psi, values - values.mean()), 1))
+            )
     for quantity in ("tip_twist_deg", "tip_flap"):
         series: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
             measured = beside[name, quantity]
             series.append(Points(f"{name}, measured", np.degrees(measured.psi), measured.values, k))
-            series.append(Line("computed", *closed(*our_curve(measured, solution)), k))
-        yield azimuth_chart(QUANTITIES[quantity], QUANTITIES[quantity], series)
+            series.append(Line("computed", *airloads.closed(*airloads.our_curve(measured, solution)), k))
+        yield airloads.azimuth_chart(QUANTITIES[quantity], QUANTITIES[quantity], series)
 
 
 def _vortex_chart(solution: Solution) -> Chart:

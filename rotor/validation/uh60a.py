@@ -25,15 +25,6 @@ from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 from rotor.units import KNOT
 from rotor.validation import airloads
-from rotor.validation.airloads import (
-    PITCH_LINK,
-    CurveAgreement,
-    MeasuredCurve,
-    azimuth_chart,
-    closed,
-    measured_curves,
-    our_curve,
-)
 from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
 HORSEPOWER_KW = 0.745700
@@ -165,10 +156,7 @@ def _drag_rise() -> Chart:
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = np.arange(mach[0], mach[-1], 0.01)
-    series = (
-        Points("RANS and net, kept aside", mach, drag),
-        Line("section table", fine, table(alpha, fine).cd, 1),
-    )
+    series = (Points("RANS and net, kept aside", mach, drag), Line("section table", fine, table(alpha, fine).cd, 1))
     return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 
@@ -204,14 +192,14 @@ class PitchLinkLoad:
     """One advance ratio."""
 
     mu: float
-    measured: MeasuredCurve
+    measured: airloads.MeasuredCurve
     psi: Array
     """[rad], (azimuths,)"""
     ours: Array
     """[N], (azimuths,)"""
     torsion_alone: Array
     """Ours of a blade that twists but does not bend."""
-    beside: CurveAgreement
+    beside: airloads.CurveAgreement
 
     @property
     def half_peaks(self) -> tuple[float, float, float]:
@@ -224,14 +212,14 @@ class PitchLinkLoad:
 
 def pitch_link_loads() -> Iterator[PitchLinkLoad]:
     """All measured advance ratios; RuntimeError where the rotor does not trim."""
-    for measured in measured_curves():
-        if measured.case.test == PITCH_LINK:
+    for measured in airloads.measured_curves():
+        if measured.case.test == airloads.PITCH_LINK:
             design = measured.case.design()
             solution = solve(design).require()
             rigid = solve(replace(design, models=replace(design.models, bending=False))).require()
-            psi, ours = our_curve(measured, solution)
+            psi, ours = airloads.our_curve(measured, solution)
             yield PitchLinkLoad(
-                design.condition.advance_ratio, measured, psi, ours, our_curve(measured, rigid)[1],
+                design.condition.advance_ratio, measured, psi, ours, airloads.our_curve(measured, rigid)[1],
                 airloads.agreement(measured, solution),
             )  # fmt: skip
 
@@ -240,7 +228,7 @@ def pitch_link_set() -> TrustSet:
     """For the trust page."""
     loads = list(pitch_link_loads())
     errors = [ours / measured - 1.0 for measured, ours, _ in (load.half_peaks for load in loads)]
-    return description(PITCH_LINK).page(
+    return description(airloads.PITCH_LINK).page(
         f"half peak to peak {100 * min(errors):+.0f} to {100 * max(errors):+.0f} %",
         _load_rows(loads),
         (_peak_chart(loads), _amplitude_chart(loads), *map(_load_chart, loads)),
@@ -249,7 +237,7 @@ def pitch_link_set() -> TrustSet:
 
 
 def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
-    words = description(PITCH_LINK)
+    words = description(airloads.PITCH_LINK)
     for load in loads:
         measured, ours, _ = load.half_peaks
         yield words.share(f"Half peak to peak, µ {load.mu:g}", ours / measured - 1.0, 0.02, digits=0)
@@ -288,10 +276,10 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
     title = f"Pitch-link load, µ {load.mu:g}"
     series = (
         Points("measured", np.degrees(load.measured.psi), 1e-3 * load.measured.values),
-        Line("computed", *closed(load.psi, 1e-3 * load.ours), 1),
-        Line("without bending", *closed(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
+        Line("computed", *airloads.closed(load.psi, 1e-3 * load.ours), 1),
+        Line("without bending", *airloads.closed(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
     )
-    return azimuth_chart(title, f"{title} [kN]", series)
+    return airloads.azimuth_chart(title, f"{title} [kN]", series)
 
 
 def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:

@@ -37,43 +37,7 @@ def theory() -> TrustSet:
     """The equations as solved against what they must satisfy."""
     words, (marched, balanced, second) = description("theory"), marched_flapping("thesis", 0.15)
     flapping = math.degrees(np.abs(marched - balanced).max())
-    bounds = (
-        words.bound(
-            "Uniform inflow of the ideal twist, eqs. (1.1), (2.28)",
-            "momentum theory",
-            _ideal_twist(),
-            1e-12,
-            "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow",
-        ),
-        words.bound(
-            "Closed form (3.3) satisfies the annulus balance, F included",
-            "4Fλ²r = ½σC_lα(θr² − λr)",
-            _closes(),
-            1e-12,
-            "rotor/trim/test_hover.py::test_closed_form_closes_the_balance",
-        ),
-        words.bound(
-            "Shaft power is the sum of its parts, three inflow models",
-            "identity",
-            _energy(),
-            1e-8,
-            "rotor/trim/test_power.py::test_energy_identity",
-        ),
-        words.bound(
-            "Gradient of power by linear twist, lifting line",
-            "central differences",
-            _gradient(),
-            1e-6,
-            "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences",
-        ),
-        words.bound(
-            "Profile power with reverse flow, (3.15) corrected",
-            "quadrature of |U_T|³",
-            _profile(),
-            1e-5,
-            "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected",
-        ),
-    )
+    bounds = tuple(words.bound(*texts, error(), below, test) for texts, error, below, test in _IDENTITIES)
     rest = f"The rest is the neglected 2/rev motion ({math.degrees(second):.2f}°)."
     motion = words.row(
         "First-harmonic flapping, µ 0.15, free flapping",
@@ -189,6 +153,31 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
 
 def _with_inflow(design: Design, inflow: str) -> Design:
     return replace(design, models=replace(design.models, inflow=inflow))
+
+
+_IDENTITIES = (
+    (
+        ("Uniform inflow of the ideal twist, eqs. (1.1), (2.28)", "momentum theory"), _ideal_twist, 1e-12,
+        "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow",
+    ),
+    (
+        ("Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)"), _closes, 1e-12,
+        "rotor/trim/test_hover.py::test_closed_form_closes_the_balance",
+    ),
+    (
+        ("Shaft power is the sum of its parts, three inflow models", "identity"), _energy, 1e-8,
+        "rotor/trim/test_power.py::test_energy_identity",
+    ),
+    (
+        ("Gradient of power by linear twist, lifting line", "central differences"), _gradient, 1e-6,
+        "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences",
+    ),
+    (
+        ("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³"), _profile, 1e-5,
+        "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected",
+    ),
+)  # fmt: skip
+"""What and against what, the error, its bound, and the test."""
 
 
 def dynbem() -> TrustSet:

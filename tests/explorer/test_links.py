@@ -11,15 +11,7 @@ import pytest
 
 from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
 from explorer.model.stand import StandInputs
-from explorer.sharing.share import (
-    DESIGN,
-    Address,
-    code_of,
-    design_from,
-    inputs_from,
-    parameter,
-    with_parameter,
-)
+from explorer.sharing.share import DESIGN, Address, code_of, design_from, inputs_from, parameter, with_parameter
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design

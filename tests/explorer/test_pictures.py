@@ -14,14 +14,7 @@ from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cover, View, fit
 from explorer.picture.fields import FIELDS
-from explorer.picture.picture import (
-    DISK_DROP,
-    blade_pose,
-    disk_png,
-    make_picture,
-    rotate,
-    tip_path_pose,
-)
+from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_picture, rotate, tip_path_pose
 from explorer.picture.polar import Drawn, PolarGrid, polar_grid, refined
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design

@@ -1,9 +1,8 @@
-"""What notebooks and tables get of results: rotor files by path, twist as numbers, xarray, short representations."""
+"""What notebooks and tables get of results: rotor files by path, twist as numbers, short representations."""
 
 import re
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -57,18 +56,6 @@ def test_gradient_along_a_twist_law():
     slope = power_gradient(rotor.solve(design)).along(parse_twist("linear:1"))
     ends = [rotor.solve(design.with_twist(f"linear:{rate}")).power.total for rate in (-4.05, -3.95)]
     assert_allclose(slope, (ends[1] - ends[0]) / 0.1, rtol=1e-3)
-
-
-def test_a_distribution_as_an_xarray_dataset(monkeypatch: pytest.MonkeyPatch):
-    found = rotor.distribution(rotor.solve(rotor.make_design(**QUICK)))
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(ImportError, match="pip install xarray"):
-        found.to_xarray()
-    monkeypatch.setitem(sys.modules, "xarray", SimpleNamespace(Dataset=lambda values, coords: (values, coords)))
-    values, coords = found.to_xarray()
-    assert {*values, *coords} == set(found.to_dict())
-    for dims, array, _ in values.values():
-        assert array.shape == tuple(len(coords[name]) for name in dims)
 
 
 def test_representations_are_short():

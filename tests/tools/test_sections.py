@@ -11,13 +11,7 @@ from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars
 from rotor.assets import asset_path
 from tests.tools.sections import __main__ as command
-from tests.tools.sections.recipes import (
-    NATIVE_MACHS,
-    RECIPES,
-    TRIP,
-    compare_decks,
-    make_deck,
-)
+from tests.tools.sections.recipes import NATIVE_MACHS, RECIPES, TRIP, compare_decks, make_deck
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, require_xfoil, run_polar
 
 CASE = XfoilCase(mach=0.3, reynolds=3.681e6, n_crit=9.0, trip=0.05)

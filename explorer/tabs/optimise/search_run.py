@@ -130,10 +130,7 @@ class SearchRequest:
         if self.index is not None and not design.models.bending:
             raise ValueError("A limit on vibration needs blades that bend: switch Blade bending on, under Model.")
         return Search(
-            design=design,
-            concept=self.known_concept(),
-            objective=self.wanted(design, legs),
-            limits=self.limits(design),
+            design=design, concept=self.known_concept(), objective=self.wanted(design, legs), limits=self.limits(design)
         )
 
     def limits(self, design: Design) -> Limits:

@@ -50,10 +50,7 @@ def concept_picture(concept: Concept) -> Markup:
     if isinstance(law, PiecewiseLinearTwist):
         marks += [tag("circle", cx=_x(place), cy=y(place), r=3, fill=THIS) for place in law.breaks]
     root, tip = _x(_ROOT), _x(1.0)
-    ends = (
-        tag("text", "root", x=root, y=_HEIGHT - 2),
-        tag("text", "tip", x=tip, y=_HEIGHT - 2, text_anchor="end"),
-    )
+    ends = (tag("text", "root", x=root, y=_HEIGHT - 2), tag("text", "tip", x=tip, y=_HEIGHT - 2, text_anchor="end"))
     return tag(
         "svg",
         svg.line((root, _MIDDLE), (tip, _MIDDLE), opacity=0.25),

@@ -33,6 +33,11 @@ LOSS_AZIMUTHS = 24
 _COS, _SIN = np.cos(azimuths_of(LOSS_AZIMUTHS)), np.sin(azimuths_of(LOSS_AZIMUTHS))
 
 
+def _zero(flow: DiskFlow) -> Gradient:
+    del flow
+    return 0.0, 0.0, 0.0
+
+
 @dataclass(frozen=True)
 class LinearInflow(InflowModel):
     """A first-harmonic inflow model."""
@@ -42,7 +47,7 @@ class LinearInflow(InflowModel):
     explanation: str
     longitudinal: Callable[[DiskFlow], Gradient]
     """k_x"""
-    lateral: Callable[[DiskFlow], Gradient]
+    lateral: Callable[[DiskFlow], Gradient] = _zero
     """k_y"""
 
     load_dependent = False
@@ -153,11 +158,6 @@ class LossyInflowTerms(LinearTerms):
         return Followed(self._model.strengths(flow), live)
 
 
-def _zero(flow: DiskFlow) -> Gradient:
-    del flow
-    return 0.0, 0.0, 0.0
-
-
 def half_skew(flow: DiskFlow) -> Gradient:
     """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow.
 
@@ -203,13 +203,12 @@ def _white_blake(flow: DiskFlow) -> Gradient:
 
 
 LINEAR_MODELS = (
-    LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, _zero),
+    LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero),
     LinearInflow(
         "coleman",
         "Coleman",
         "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
         scaled_half_skew(1.0),
-        _zero,
     ),
     LinearInflow(
         "drees",
@@ -218,19 +217,17 @@ LINEAR_MODELS = (
         _drees_longitudinal,
         _drees_lateral,
     ),
-    LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake, _zero),
+    LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake),
     LinearInflow(
         "pitt-peters",
         "Pitt–Peters (15π/32)",
         "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
         scaled_half_skew(15.0 * math.pi / 32.0),
-        _zero,
     ),
     LinearInflow(
         "pitt-peters-15pi/23",
         "Pitt–Peters (15π/23 as printed)",
         "kx = 15π/23 tan(χ/2), eq. (2.32) as the document prints it; closer to measured gradients.",
         scaled_half_skew(15.0 * math.pi / 23.0),
-        _zero,
     ),
 )

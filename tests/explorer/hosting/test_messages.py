@@ -10,28 +10,16 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
+from tests.tools.soak import wire
+from tests.tools.soak.visitor import _CAMERA, BRIDGE, Visitor, ran
 from viser import _messages
 
 from explorer import web
 from explorer.app import App
 from explorer.hosting.messages import LONGEST_TEXT, PRESSES, PageFacts, Sent, checked_press, message_fault, read_facts
 from explorer.session import Session
-from tests.tools.soak import wire
-from tests.tools.soak.visitor import _CAMERA, BRIDGE, Visitor, ran
 
-SCRIPTS = (
-    "frame",
-    "cards",
-    "charts",
-    "plan",
-    "rubber",
-    "flight",
-    "dial",
-    "lecture",
-    "story",
-    "keys",
-    "inset",
-)
+SCRIPTS = ("frame", "cards", "charts", "plan", "rubber", "flight", "dial", "lecture", "story", "keys", "inset")
 GOOD: dict[str, list[Any]] = {
     "azimuth": [65, 0.5],
     "fly": [1.25],

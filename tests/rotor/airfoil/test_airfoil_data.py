@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.decks import (
-    DECK_MACH,
-    smooth_cap,
-    wave_drag,
-    with_lost_suction,
-)
+from rotor.airfoil.decks import DECK_MACH, smooth_cap, wave_drag, with_lost_suction
 from rotor.airfoil.public_points import agreement, points_near
 from rotor.airfoil.sections import load_installed, load_section
 

@@ -167,7 +167,7 @@ def test_ctrl_c_on_a_schedule_prints_the_results_so_far(
     def bar(*_: object) -> Iterator[Callable[[str], None]]:
         yield lambda words: signal.raise_signal(signal.SIGINT) if words == "linear condition 2" else None
 
-    monkeypatch.setattr("rotor.command.schedule.bar", bar)
+    monkeypatch.setattr("rotor.command.common.bar", bar)
     flags = ("--mu", "0.1:0.3:0.1", "--inflow", "uniform", "--starts", "1", "--processes", "1", "--json")
     code, out, err = run(capsys, "schedule", "--concept", "linear", *flags)
     answer = json.loads(out, parse_constant=no_constant)

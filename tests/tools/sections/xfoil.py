@@ -148,10 +148,7 @@ def _gaps(missing: Sequence[float], step: float) -> list[tuple[float, float]]:
 
 
 def run_polar(
-    contour: Contour,
-    case: XfoilCase,
-    alpha_deg: Array,
-    report: Callable[[str], None] = lambda _message: None,
+    contour: Contour, case: XfoilCase, alpha_deg: Array, report: Callable[[str], None] = lambda _message: None
 ) -> Polar:
     """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; angles that never converge are left out.
 
