@@ -79,7 +79,7 @@ def test_pictures_are_drawn_from_the_same_numbers(name: str):
 def test_every_link_of_the_pages_has_a_target():
     """Links of theory, trust pages, developers' pages, README and CONTRIBUTING point to existing files."""
     top = (DOCS.parent / name for name in ("README.md", "CONTRIBUTING.md"))
-    for text in (*DOCS.glob("*.md"), *DOCS.glob("developers/**/*.md"), *PAGES[1:], *top):
+    for text in (*DOCS.glob("*.md"), *DOCS.glob("[dgt]*/**/*.md"), *PAGES[1:], *top):
         links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
         # The site builds docs/_made/notebooks from docs/notebooks.
         written = [link.removesuffix("/index").replace("_made/", "") if "_made/" in link else link for link in links]
