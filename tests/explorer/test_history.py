@@ -37,7 +37,6 @@ VIEWS = st.builds(
     units=st.sampled_from(tuple(UNITS)),
     wake=st.booleans(),
     arrows=st.booleans(),
-    beside=st.booleans(),
 )
 FIRST = Inputs(law="linear", linear=-8.0)
 DRAG = 0.05
