@@ -65,7 +65,7 @@ format: setup-dev     ## repair formatting and lint
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: setup-dev      ## time the solver beside its baselines; ARGS="--against DIR" beside another checkout too
+bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too
 	$(BIN)/python -m tests.tools.bench $(ARGS)
 
 docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk

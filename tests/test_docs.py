@@ -5,10 +5,7 @@ The site itself is built by `make docs`; here a page with a chart is, and its pi
 
 import ast
 import inspect
-import io
 import re
-import subprocess
-import sys
 import types
 import typing
 from pathlib import Path
@@ -16,7 +13,6 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
-from PIL import Image
 
 import explorer
 import rotor
@@ -66,31 +62,6 @@ def test_each_public_type_has_an_entry():
     needed = {*described}.union(*map(types_of, described))
     missing = {f"{one.__module__}.{one.__name__}" for one in needed if one.__name__ not in entries}
     assert not missing, "add to docs/reference/api.md: " + ", ".join(sorted(missing))
-
-
-PUBLIC = {
-    "rotor": rotor.__all__,
-    "rotor.actuator": rotor.actuator.__all__,
-    "rotor.validation": rotor.validation.__all__,
-    "rotor.reproduce": ["ladder", "readings"],
-    "explorer": explorer.__all__,
-}
-"""Names that a notebook may import, by module."""
-
-
-@pytest.mark.parametrize("path", sorted((DOCS / "notebooks").glob("*.py")), ids=lambda path: path.stem)
-def test_notebooks_import_nothing_private(path: Path):
-    """They import of ours only what is public."""
-    for node in ast.walk(ast.parse(text(path))):
-        if isinstance(node, ast.Import):
-            ours = {name.name for name in node.names if name.name.split(".")[0] in ("rotor", "explorer")}
-            assert ours <= PUBLIC.keys()
-        if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] in ("rotor", "explorer"):
-            assert {name.name for name in node.names} <= set(PUBLIC[str(node.module)])
-        if isinstance(node, ast.Attribute):
-            assert not node.attr.startswith("_"), node.attr
-            if isinstance(node.value, ast.Name) and node.value.id == "rotor":
-                assert node.attr in rotor.__all__, f"rotor.{node.attr}"
 
 
 def names_of_the_page() -> set[str]:
@@ -178,38 +149,3 @@ def test_examples_of_the_guides_run(path: Path, tmp_path: Path, monkeypatch: pyt
     monkeypatch.chdir(tmp_path)
     for code in examples(text(path).partition("\n## Three tasks\n")[0]):
         exec(code, {})
-
-
-CHART = "# Chart\n\n```{picture} momentum\nAxial climb.\n```\n"
-
-
-@pytest.fixture(scope="module")
-def page_with_a_chart(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A site of one page by the configuration of the real one, without its notebooks and its API."""
-    folder = tmp_path_factory.mktemp("site")
-    (folder / "in").mkdir()
-    (folder / "in" / "index.md").write_text(CHART, encoding="utf-8")
-    extensions = "extensions=myst_parser,sphinx.ext.autodoc,sphinxcontrib.programoutput"
-    places = str(folder / "in"), str(folder / "out")
-    command = (sys.executable, "-m", "sphinx", "-q", "-b", "html", "-c", str(DOCS), "-D", extensions, *places)
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return folder / "out" / "index.html"
-
-
-@pytest.mark.browser
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_chart_of_the_site_is_lines_on_its_page(scheme, page_with_a_chart: Path, browser: typing.Any):
-    """Grid and axes once were filled, which covered half of every chart with a black triangle."""
-    page = browser.new_page(color_scheme=scheme, viewport={"width": 1200, "height": 800})
-    page.goto(page_with_a_chart.as_uri())
-    drawn = Image.open(io.BytesIO(page.locator(".drawn svg").screenshot())).convert("RGB")
-    page.close()
-    pixels = np.asarray(drawn, dtype=float)
-    ground = np.median(pixels.reshape(-1, 3), axis=0)
-    assert (ground.mean() > 200.0) == (scheme == "light")
-    inked = np.abs(pixels - ground).max(axis=2) > 60.0
-    assert 0.003 < inked.mean() < 0.06
-    curve = np.abs(pixels - (0x1C, 0x7E, 0xD6)).max(axis=2) < 40.0
-    assert curve.any(axis=0).mean() > 0.6, "the line of the ideal rotor runs across the chart"

@@ -1,7 +1,7 @@
 """The helicopter without blades: hub, cuffs, swashplate, pitch links and mast, and the airframe below them.
 
-The airframe is read from `assets/airframe.glb`, a UH-60A or a generic one; `tests/tools/airframe.py` makes the file
-from published dimensions. Metres, hub at the origin, level attitude: x aft, y starboard, z up.
+The airframe is read from `assets/airframe.glb`, a UH-60A by its published dimensions or a generic
+one. Metres, hub at the origin, level attitude: x aft, y starboard, z up.
 """
 
 import math

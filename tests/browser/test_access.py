@@ -61,20 +61,6 @@ def test_every_control_has_a_spoken_name(watched: Watched):
         assert [role for role, name in listed if not name] == [], drawer
 
 
-def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
-    page = watched.page
-    head = page.locator("[data-dock-region=right] [role=button]", has_text="Model")
-    assert head.get_attribute("aria-expanded") == "false"
-    head.focus()
-    page.keyboard.press("Enter")
-    watched.until_changed(lambda: head.get_attribute("aria-expanded"), "false")
-    watched.until(lambda: "checkbox" in {role for role, _ in spoken(watched)})
-    listed = watched.at_rest(lambda: spoken(watched))
-    assert [role for role, name in listed if not name] == []
-    page.keyboard.press("Enter")
-    watched.until_changed(lambda: head.get_attribute("aria-expanded"), "true")
-
-
 @pytest.mark.slow
 def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
     page = watched.page

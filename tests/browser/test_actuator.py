@@ -35,26 +35,6 @@ def seen(watched: Watched, name: str) -> bool:
     return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 
 
-def test_the_first_verdict_comes_by_itself(watched: Watched):
-    """Nobody has moved anything: worked out in another process once the page was still."""
-    watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
-    watched.page.wait_for_function("() => RX.state.dial?.settled", timeout=VERDICT)
-    assert watched.text("mission") == watched.page.evaluate("() => RX.state.earns.mission")
-    words, ((power, *_), (index, *_)) = (
-        watched.text("verdict"),
-        watched.page.evaluate("() => Object.values(RX.state.dial.settled)"),
-    )
-    assert ("more" if power > 0.0 else "saves") in words
-    assert f"{abs(index):.0f}" in words
-
-
-def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
-    blade = watched.node("/rotor/blade_0")
-    watched.press("Voltage", "End")
-    watched.reads("actuator-now", r"\+\d\.\d\d°")
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-
-
 TIP = """() => {
     const client = window.__viserMutable, box = client.canvas.getBoundingClientRect();
     let mesh = null;
@@ -87,22 +67,6 @@ def test_the_lifted_blade_is_pulled_by_its_voltage_and_the_camera_stays(watched:
     page.mouse.up()
     watched.answered()
     assert page.evaluate(camera) == pytest.approx(stood, abs=0.01)
-
-
-@pytest.mark.slow
-def test_another_actuator_gets_another_verdict(watched: Watched):
-    unfold(watched, "Placement and blade")
-    unfold(watched, "Reach and limits")
-    watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
-    watched.reads("verdict-details", "Macro fibre composite P1")
-    watched.choose("Actuator", "AFC: d33 fibres")
-    watched.page.wait_for_function(
-        """() => document.querySelector('[data-explorer=verdict-details]')
-            ?.innerText.includes('Active fibre composite')""",
-        timeout=VERDICT,
-    )
-    watched.until(lambda: "recalled" in watched.text("limits"))
-    watched.choose("Actuator", "MFC P1: d33 fibres")
 
 
 def angle(watched: Watched) -> float:
@@ -155,52 +119,6 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     watched.mode("actuate")
     watched.reads("actuator-now", "at rest")  # What the flight drove is at rest again.
     labels.get_by_text("Drive electronics").wait_for()
-
-
-@pytest.mark.slow
-def test_an_actuator_that_stops_has_one_twist_everywhere(watched: Watched):
-    """Ticked in hover and flown on, the bar, the rail and the blade say the twist that stays."""
-    page = watched.page
-    page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
-    bar, box = page.locator(".rxf-fly-bar input"), page.get_by_label("Actuator stops here")
-    bar.fill("0")
-    watched.answered()
-    box.evaluate("box => box.click()")
-    page.wait_for_function("() => RX.state.flight.frozen !== null")
-    bar.fill("3")
-    watched.until(lambda: "mu=0.33" in page.url)
-    watched.answered()
-    frozen = watched.reads("tip-twist", "^−0")
-    assert frozen in watched.text("actuator-twist")
-    assert f"{frozen} at the tip" in page.locator('[data-explorer="labels"]').inner_text()
-    box.evaluate("box => box.click()")
-    watched.reads("tip-twist", r"^\+1")
-
-
-@pytest.mark.slow
-def test_the_flight_is_played_and_another_view_lets_the_blade_fly_back(watched: Watched):
-    watched.page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
-    before = watched.page.evaluate("() => RX.state.flight.at")
-    watched.page.locator("[data-fly=play]").click()
-    watched.page.wait_for_function("at => RX.state.flight.at > at + 0.2", arg=before)
-    watched.page.locator("[data-fly=play]").click()
-    watched.answered()
-    watched.page.locator("[data-do=view][data-value=side]").click()
-    watched.until(lambda: not seen(watched, "/lifted"))
-    watched.page.locator("[data-do=view][data-value=actuator]").click()
-    watched.until(lambda: seen(watched, "/lifted"))
-
-
-def test_twist_at_n_per_rev_moves_power_link_and_blades(watched: Watched):
-    """By the dial; undone in one step."""
-    page, power, blade = watched.page, watched.text("total-power"), watched.node("/rotor/blade_0")
-    for change in ("start", [[3, 1.0, 30.0]], "end"):
-        page.evaluate("change => RX.send('dial', change)", change)
-    watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    watched.until(lambda: "twist_per_rev=3:1:30" in page.url)
-    page.keyboard.press("Control+z")
-    watched.until(lambda: page.evaluate("() => RX.state.dial.now") == [])
 
 
 @pytest.mark.slow

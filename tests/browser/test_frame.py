@@ -120,83 +120,10 @@ def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(
     assert "grabbed" not in watched.text("since")
 
 
-@pytest.mark.slow
-def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
-    page = watched.page
-    watched.press("Δ outboard [°/R]", "PageUp", 2)
-    watched.reads("since", "since grabbed")
-    watched.answered()
-    page.evaluate("() => document.activeElement.blur()")
-    page.keyboard.press("t")
-    page.wait_for_selector(".rxs-column", state="visible")
-    watched.answered()
-    for _ in range(3):
-        assert "grabbed" not in watched.text("since")
-        page.locator(".rxs-foot [data-value=next]").click()
-        watched.answered()
-    page.locator(".rxs-foot [data-value=end]").click()
-    page.wait_for_selector(".rxs-column", state="hidden")
-    watched.answered()
-    assert "grabbed" not in watched.text("since")
-
-
-@pytest.mark.slow
-def test_the_handles_of_the_curve_have_keys(watched: Watched):
-    page = watched.page
-    outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
-    watched.answered()
-    page.locator('[data-knot="2"]').focus()
-
-    def shown() -> tuple[str, float]:
-        """The slider's number and the handle's angle: a busy page learns the second a moment later."""
-        return outer.input_value(), page.evaluate("() => RX.state.twist.knots.at(-1).theta")
-
-    for _ in range(6):
-        before = shown()
-        page.keyboard.press("ArrowUp")
-        watched.until(lambda before=before: all(a != b for a, b in zip(shown(), before, strict=True)))
-    page.wait_for_function("() => Number(RX.state.twist.knots.at(-1).theta) > -1")
-    watched.answered()
-    assert page.evaluate("() => document.activeElement.dataset.knot") == "2"
-    assert float(outer.input_value()) > 0.5
-
-
-@pytest.mark.slow
-def test_each_slider_says_what_a_step_is_worth(watched: Watched):
-    page = watched.page
-    watched.unfold("Load factor")
-    watched.answered(wholly=True)
-    assert len(page.evaluate("() => Object.keys(RX.state.worth)")) == 9
-    twist, flight = ("inner", "outer", "division"), ("advance_ratio", "mass_t", "altitude_m", "climb_m_s")
-    for name in (*(f"built_{one}" for one in twist), *flight, "rotor_speed_percent", "load_factor"):
-        place = page.locator(f'[data-worth="{name}"]')
-        # viser may be mounting the place anew: what stands there counts once something does.
-        watched.until(place.inner_text)
-        assert re.search(r"[+−]\d+\.\d\s*(kW|hp)(/| per )|no effect", place.inner_text()), name
-        assert "changes power by" in (place.get_attribute("title") or "")
-    mass = page.locator('[data-worth="mass_t"]').inner_text()
-    assert re.fullmatch(r"saves\s*\+\d+\.\d\s*kW/100 kg", mass)  # A heavier aircraft needs more power.
-
-
 def test_why_names_the_cause(watched: Watched):
     watched.press("Δ inboard", "PageUp", 3)
     watched.reads("why", r"^Lift (moved|hardly moved)")
     watched.reads("why", r"induced [+−]\d")
-
-
-def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
-    page = watched.page
-    level = watched.text("total-power")
-    watched.type("Climb", 5.0)
-    page.wait_for_function("() => RX.state.power.parts.some(one => one.part === 'climb')")
-    climbing = watched.at_rest(lambda: watched.text("total-power"))
-    assert climbing != level
-    page.wait_for_function("() => location.search.includes('climb=')")
-    apart = """() => {
-        const places = [...document.querySelectorAll('.rxf-parts dl > div')].map(e => e.getBoundingClientRect());
-        return places.slice(1).every((place, k) => place.left >= places[k].right);
-    }"""
-    assert page.evaluate(apart)
 
 
 @pytest.mark.slow
@@ -233,28 +160,3 @@ def test_in_a_narrow_window_the_rail_is_a_drawer(watched: Watched):
     page.wait_for_function(f"() => ({width})() === 1000")
     page.set_viewport_size({"width": SIZE[0], "height": SIZE[1]})
     rail.wait_for(state="visible")
-
-
-def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(watched: Watched):
-    """Two curves with their key and a band; handles on the jig curve; the inset flown, with the jig as its ghost."""
-    page = watched.page
-    watched.answered()
-    words = " ".join(page.locator("[data-curve] [data-key] text").all_text_contents())
-    assert words == "jig flown, band over azimuth"
-    assert page.locator("[data-curve] [data-band]").count() == 1
-    knots = page.evaluate("() => RX.state.twist.knots.map(k => k.theta)")
-    jig = page.evaluate("() => { const own = RX.state.twist.series.at(-1); return [own.y[0], own.y.at(-1)]; }")
-    assert knots[0] == pytest.approx(jig[0], abs=0.1)
-    assert knots[-1] == pytest.approx(jig[1], abs=0.1)
-    page.wait_for_function("() => RX.state.inset.name_hint.includes('ψ 65°')")
-    assert page.evaluate("() => RX.state.inset.ghost_name") == "jig"
-    before = page.evaluate("() => RX.state.inset.cuts.at(-1).theta")
-    page.evaluate("() => RX.send('azimuth', 245)")
-    page.wait_for_function(f"() => Math.abs(RX.state.inset.cuts.at(-1).theta - {before}) > 0.3")
-    page.evaluate("() => RX.send('azimuth', 65)")
-    page.wait_for_function("() => RX.state.inset.name_hint.includes('ψ 65°')")
-    page.get_by_text("Model", exact=True).click()
-    page.get_by_label("Elastic twist").click()  # A rigid blade has one curve.
-    page.wait_for_function("() => RX.state.twist.series.length === 2 && RX.state.inset.name === 'this blade'")
-    page.wait_for_function("() => !document.querySelector('[data-curve] [data-band]')")
-    page.get_by_text("Model", exact=True).click()

@@ -51,19 +51,3 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     # As earlier versions wrote it.
     watched.open(app.address, f"{COARSE}&d=1;uh60a%2Bsegments:-2,1.5@0.6;mu=0.25;mass=8320")
     watched.until(lambda: holds(app, watched, BUILT))
-
-
-@pytest.mark.slow
-def test_a_link_that_cannot_be_read_is_said_and_stays(visit: Visit):
-    watched = visit(COARSE + "&d=1;uh60a~bends:3;mu=0.3")
-    page = watched.page
-    said = page.get_by_text("'uh60a+bends:3' is not known")
-    said.wait_for()
-    watched.answered()
-    assert watched.text("against") == "UH-60A as built"
-    assert watched.text("change") == "0.0 %"  # The usual design.
-    page.wait_for_timeout(7000)  # Other notices are gone by then.
-    assert said.is_visible()
-    assert "d=1;uh60a~bends:3;mu=0.3" in page.url
-    watched.press("Δ outboard [°/R]", "ArrowLeft")
-    page.wait_for_function("() => location.search.includes('uh60a~segments:0,-0.1@0.5')")

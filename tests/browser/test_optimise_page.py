@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -184,45 +183,6 @@ def gap(words: str) -> float:
     return float(re.split(r"yours | ±", words)[1])
 
 
-def test_the_best_linear_twist_has_its_ranges_in_flight_and_in_hover(page: tuple[Watched, Session]):
-    """Looked for after rest; nobody presses anything."""
-    watched, _ = page
-    ranges = watched.page.locator("[data-explorer=twist-ranges]")
-    ranges.filter(has_text="drag area").wait_for(timeout=4 * WAIT)
-    watched.mode("explore")
-    watched.type("Adv. ratio", 0.0)
-    watched.mode("optimise")
-    ranges.filter(has_text="annuli … lifting line").wait_for(timeout=4 * WAIT)
-    assert ranges.filter(has_text="drag area").count() == 0
-
-
-@pytest.mark.slow
-def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Session], browser: "Browser", app: App):
-    watched, session = page
-    other, others = arrive(browser, app)
-    before = other.text("total-power")
-    watched.choose("Concept", SLOW)
-    optimise(watched, session)
-    until(watched, "running")
-    other.mode("optimise")
-    assert 'data-kind="idle"' in others.page.optimise._standing.content
-    assert other.text("total-power") == before
-    other.choose("Concept", "Linear")
-    optimise(other, others)
-    until(other, "done")
-    mine, theirs = run_of(session), run_of(others)
-    assert theirs.concept.name == "linear"
-    assert mine.concept.name == "three-segment-free"
-    assert theirs.optimum.best.power >= solve(theirs.optimum.design).power.total * (1.0 - 1e-9)
-    optimise(other, others)
-    other.close()  # It leaves with a search under way: the search ends with it.
-    watched.until(lambda: (job := others.page.optimise._job) is not None and job.over)
-    if run_of(session).under_way:
-        press(watched, "Stop")
-    until(watched, "stopped", "done")
-    assert other.complaints == []
-
-
 @pytest.mark.slow
 def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Watched, Session]):
     watched, session = page
@@ -242,25 +202,3 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
     watched.until(lambda: session.page.map.map is not first and not session.page.map.running)
-
-
-@pytest.mark.slow
-def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
-    watched, _ = page
-    watched.choose("Concept", "Linear")
-    watched.section("Schedule")
-    text = watched.row("Legs, µ:hours").locator("textarea")
-    text.fill("0:1, fast:2")
-    watched.reads("mission", "The mission has 'fast:2'")
-    press(watched, "Compute schedule")
-    watched.reads("schedule-state", "The mission has 'fast:2'")
-    text.fill("0:1, 0.2:2")
-    watched.reads("mission", "^2 legs, 3 h$")
-    press(watched, "Compute schedule")
-    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]')
-    watched.reads("schedule", r"Additional saving from variable twist\s+\d")
-    with watched.page.expect_download() as download:
-        press(watched, "Save CSV")
-    download.value.save_as(tmp_path / "schedule.csv")
-    lines = (tmp_path / "schedule.csv").read_text().splitlines()
-    assert len(lines) == 1 + 2 + 1

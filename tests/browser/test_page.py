@@ -15,35 +15,6 @@ def kilowatts(text: str) -> float:
     return float(re.sub(r"[^\d.]", "", text))
 
 
-def test_first_page_is_the_trimmed_uh60a(watched: Watched):
-    assert 650 < kilowatts(watched.text("total-power")) < 950
-    assert watched.text("change") == "0.0 %"
-    assert watched.text("speed").startswith("159 km/h")
-    assert re.fullmatch(r"trimmed\s+no test data at this condition", watched.text("status"))
-    assert watched.text("against") == "UH-60A as built"
-    assert watched.page.evaluate("() => RX.state.bar.mode") == "explore"
-
-
-def test_the_name_of_a_point_at_the_foot_of_a_chart_stands_above_it(watched: Watched):
-    """Where it stands in the middle it is below."""
-    places = """() => {
-        const {x, y} = RX.state.strip[0], middle = ([low, high]) => (low + high) / 2;
-        const at = share => y.range[0] + share * (y.range[1] - y.range[0]);
-        const points = {kind: 'points', x: [0, 0, 0].fill(middle(x.range)), y: [0, .18, .5].map(at),
-            colour: 'red', mark: 'ring', names: ['foot', 'range', 'middle'], beside: 'below'};
-        const div = document.createElement('div');
-        document.body.append(div);
-        Charts.fill(div, {...RX.state.strip[0], rules: [], series: [points]}, {width: 400, height: 120});
-        const {place} = div.drawn, names = [...div.querySelectorAll('[data-name]')].map(name => name.getBBox());
-        div.remove();
-        return names.map((box, k) => [place.Y(points.y[k]), box.y, box.y + box.height, place.base]);
-    }"""
-    (foot, _, bottom, base), (near, _, end, _), (dot, top, low, _) = watched.page.evaluate(places)
-    assert bottom < foot == base
-    assert end < near < base - 16.0  # There is room for the name, but not for what its letters have below the line.
-    assert dot < top < low < base
-
-
 @pytest.mark.slow
 def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.answered(wholly=True)
@@ -85,25 +56,6 @@ def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
         page.evaluate("() => { RX.again('field'); return new Promise(done => setTimeout(done, 100)); }")
         page.mouse.up()
         before = watched.until_changed(lambda: button.get_attribute("aria-pressed"), before)
-
-
-def test_sliders_of_twist_and_speed_move_power_blade_and_disk(watched: Watched):
-    def shown() -> tuple[str, str, str]:
-        return watched.text("total-power"), watched.node("/rotor/blade_0"), watched.node("/rotor/disk/field")
-
-    watched.choose("Twist concept", "Linear")
-    watched.answered()
-    assert watched.text("change") != "0.0 %"
-    before = shown()
-    watched.press("Rate", "PageUp", 3)
-    watched.press("Rate", "ArrowRight", 25)
-    watched.answered()
-    twisted = shown()
-    assert all(a != b for a, b in zip(before, twisted, strict=True))
-    watched.press("Adv. ratio", "ArrowRight", 10)
-    watched.answered()
-    assert all(a != b for a, b in zip(twisted, shown(), strict=True))  # The elastic twist follows the loads.
-    assert not watched.text("speed").startswith("159 km/h")
 
 
 @pytest.mark.slow

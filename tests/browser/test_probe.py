@@ -142,39 +142,6 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
     assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
 
 
-WATCH_PLAY = """seconds => new Promise(done => {
-    const client = window.__viserMutable, end = performance.now() + 1000 * seconds, apart = [];
-    const look = now => {
-        const box = client.canvas.getBoundingClientRect(), [{node: name, at}] = RX.state.probe_label;
-        const node = client.nodeRefFromName[name];
-        const label = [...document.querySelectorAll('.rxf-label')].find(one => one.textContent.startsWith('α'));
-        const place = node.position.clone().set(...at).applyMatrix4(node.matrixWorld).project(client.camera);
-        const x = (place.x + 1) / 2 * box.width;
-        const [left] = label.style.transform.match(/[-.0-9]+/);
-        if (label.style.visibility !== 'hidden') apart.push(Math.abs(Number(left) + label.offsetWidth / 2 - x));
-        now < end ? requestAnimationFrame(look) : done(apart);
-    };
-    requestAnimationFrame(look);
-})"""
-"""Pixels across the screen between the label and the probe on the blade as it was drawn last, in each frame."""
-
-
-@pytest.mark.slow
-def test_the_label_stays_by_its_ring_while_the_rotor_plays(watched: Watched):
-    page = watched.page
-    click_disk(watched, 0.8, 200.0)
-    page.wait_for_selector(".rxf-label", state="visible")
-    watched.answered()
-    stood = pose(watched, "/rotor/blade_0")
-    page.evaluate("() => RX.send('play')")
-    watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), stood)
-    played = page.evaluate(WATCH_PLAY, 3.0)
-    page.evaluate("() => RX.send('play')")
-    page.wait_for_function("() => !RX.state.turn.playing")
-    assert len(played) > 3
-    assert np.percentile(played, 90) < 4.0
-
-
 ON_MESH = """r => {
     const client = window.__viserMutable, blade = client.nodeRefFromName['/rotor/blade_0'];
     const box = client.canvas.getBoundingClientRect();
@@ -256,34 +223,6 @@ def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page.get_by_role("button", name="Turn the rotor").wait_for()
 
 
-def test_views_have_keys(watched: Watched):
-    views: dict[str, View] = {"1": "3d", "2": "top", "4": "side"}
-    for key, view in views.items():
-        watched.page.keyboard.press(key)
-        watched.until(lambda view=view: stands(watched, view))
-
-
-@pytest.mark.slow
-def test_the_view_along_the_blade_rides_with_it(watched: Watched):
-    page = watched.page
-    elsewhere = eye(watched).round(3).tolist()
-    page.keyboard.press("3")
-    watched.until_changed(lambda: eye(watched).round(3).tolist(), elsewhere)
-    before = watched.at_rest(lambda: eye(watched).round(3).tolist())
-    psi = number(watched, "Azimuth")
-    for _ in range(2):
-        page.keyboard.press("Shift+ArrowRight")
-        psi = watched.until_changed(lambda: number(watched, "Azimuth"), psi)
-
-    def turned() -> float:
-        now = eye(watched)
-        return math.degrees(math.atan2(now[1], now[0]) - math.atan2(before[1], before[0])) % 360
-
-    watched.until(lambda: turned() == pytest.approx(20.0, abs=1.0))
-    assert eye(watched)[2] == pytest.approx(before[2], abs=0.05)
-    page.keyboard.press("1")
-
-
 @pytest.mark.slow
 def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched):
     page = watched.page
@@ -321,16 +260,3 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     watched.answered()
     page.keyboard.press("k")
     page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText.includes('191 km/h')")
-
-
-@pytest.mark.slow
-def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
-    page = watched.page
-    page.keyboard.press("Space")
-    watched.choose("Twist concept", "Three segments")
-    watched.type("Break 2", 0.3)
-    page.wait_for_selector(".rx-faded [data-explorer=probe]")
-    watched.reads("problem", r"break points at 0\.4 and 0\.3 R are out of order")
-    page.get_by_role("button", name="Turn the rotor").wait_for()
-    watched.reset()
-    page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached")

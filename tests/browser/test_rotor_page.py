@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 from watched import WAIT, Watched
 
-from explorer.app import App
 from explorer.model.inputs import Inputs
 from rotor.assets import asset_path
 
@@ -24,11 +23,6 @@ def shown(watched: Watched, part: str, text: str) -> None:
     )
 
 
-def choose(watched: Watched, rotor: str) -> None:
-    """Another rotor from the menu of the bar."""
-    watched.page.locator(".rxf-rotor").select_option(label=rotor)
-
-
 def load(watched: Watched, file: Path) -> None:
     """As a user picks a file."""
     watched.drawer("open")
@@ -36,29 +30,6 @@ def load(watched: Watched, file: Path) -> None:
     with watched.page.expect_file_chooser() as chooser:
         watched.page.get_by_role("button", name="Load rotor file").click()
     chooser.value.set_files(file)
-
-
-def test_other_rotors_are_flown_and_optimised(watched: Watched, app: App):
-    watched.drawer("trust")
-    heavy = watched.text("total-power")
-    assert watched.page.evaluate(BLADES) == 4
-    choose(watched, "Sikorsky S-61")
-    shown(watched, "provenance", "NACA 0012")
-    watched.until(lambda: watched.page.evaluate(BLADES) == 5)
-    choose(watched, "Robinson R22")
-    shown(watched, "provenance", "NACA 63-015A")
-    shown(watched, "against", "Robinson R22 as built")
-    watched.answered()
-    assert watched.page.evaluate(BLADES) == 2
-    assert float(watched.text("total-power").split()[0]) < 100.0
-    watched.mode("optimise")
-    watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
-    watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
-    assert "Robinson R22 as built" in watched.page.inner_text("body")
-    watched.reads("best", r"^\d\d(\.\d+)?\s")  # [kW]
-    watched.reset()
-    shown(watched, "total-power", heavy)
-    assert watched.page.evaluate(BLADES) == 4
 
 
 @pytest.mark.slow

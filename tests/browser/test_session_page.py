@@ -9,7 +9,6 @@ from watched import COARSE, Visit, Watched
 from explorer.model.inputs import Inputs
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
 
 pytestmark = pytest.mark.browser
 START = Inputs()
@@ -52,30 +51,6 @@ def test_undo_redo_and_history(visit: Visit):
     design_in_address(watched, "segments:-14.4,-8@0.5;mu=0.22")
     page.locator('[data-explorer="kept"] a').click()
     page.locator('[data-explorer="kept"]').wait_for(state="detached")
-
-
-@pytest.mark.slow
-def test_the_address_is_the_design(visit: Visit):
-    watched = visit(COARSE + "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
-    design = Inputs(law="linear", linear=-9.5, advance_ratio=0.3, mass_t=9.0, inflow="drees").design()
-    power = f"{solve(design).power.total / 1e3:,.0f}".replace(",", "\u2009")
-    assert shown_kw(watched) == power
-    watched.press("Rate", "ArrowLeft", 3)
-    design_in_address(watched, "linear:-9.8;mu=0.3")
-    assert "fixedDpr=0.5" in watched.page.url
-    watched.answered()
-    shown = shown_kw(watched)
-    watched.show("Mach number")
-    watched.page.locator("[data-do=region][data-value=stall]").click()
-    design_in_address(watched, "&v=1;field=mach;stall=off")
-    watched.page.get_by_role("button", name="Pin A").click()
-    design_in_address(watched, "&a=1;linear:-9.8;mu=0.3")
-    watched.page.reload()
-    watched.ready()
-    watched.until(lambda: shown_kw(watched) == shown)
-    watched.page.wait_for_function("() => RX.state.bar.pinned")
-    watched.until(lambda: watched.page.locator(".rxf-field select").input_value() == "Mach number")
-    watched.page.wait_for_selector("[data-do=region][data-value=stall][aria-pressed=false]")
 
 
 @pytest.mark.slow

@@ -8,10 +8,9 @@ import trimesh
 
 from explorer.picture.airframe import airframe, mast, rotor_head
 from explorer.picture.blade_mesh import Mesh
-from rotor.assets import SHIPPED_ROTORS, asset_path
+from rotor.assets import SHIPPED_ROTORS
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
-from tests.tools import airframe as script
 
 
 def rotor_named(name: str) -> Rotor:
@@ -52,24 +51,8 @@ class TestEveryRotor:
         assert len(arms) == rotor.blades
 
 
-def test_the_file_is_what_its_script_makes():
-    """Triangle by triangle, to the rounding of its 32-bit numbers: processors differ in the last bit of a sine."""
-    path = asset_path("airframe.glb")
-    assert path.stat().st_size < 300_000
-    shipped = trimesh.load_scene(path, process=False)
-    assert shipped.metadata["source"] == script.SOURCE
-    assert shipped.metadata["ground_m"] == script.GROUND
-    made = script.parts()
-    assert set(shipped.geometry) == set(made)
-    for name, mesh in made.items():
-        held = shipped.geometry[name]
-        assert isinstance(held, trimesh.Trimesh)
-        assert np.array_equal(held.faces, mesh.faces)
-        np.testing.assert_allclose(held.vertices, mesh.vertices, rtol=0, atol=1e-6 * np.abs(mesh.vertices).max())
-
-
 class TestBlackHawk:
-    """Against the dimensions in Jane's, which the docstring of `tests/tools/airframe.py` lists."""
+    """Against the dimensions in Jane's All the World's Aircraft."""
 
     CRAFT = airframe(rotor_named("uh60a"))
 

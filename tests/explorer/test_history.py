@@ -226,13 +226,10 @@ def test_only_what_differs_is_written():
     ("code", "said"),
     [
         ("", "version 1"),
-        ("2;field=mach", "version 1"),
         ("1;colour=red", "'colour=red'"),
-        ("1;dark=on", "'dark=on'"),
         ("1;field=" + "x" * 90, "choose angle, induced"),
         ("1;stall=1", "choose on, off"),
         ("1;exaggeration=nan", "from 1 to 6"),
-        ("1;exaggeration=50", "from 1 to 6"),
     ],
 )
 def test_a_bad_view_is_one_sentence(code: str, said: str):

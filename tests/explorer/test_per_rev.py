@@ -1,9 +1,6 @@
 """Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words; the dial."""
 
-import json
 import math
-import shutil
-import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
@@ -14,7 +11,6 @@ import pytest
 import viser
 from numpy.testing import assert_allclose
 
-from explorer import web
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
 from explorer.model.session_state import Pinned
@@ -215,17 +211,6 @@ def test_what_is_foreseen_is_what_a_trim_gives(answer: dict[str, object]):
     assert_allclose(foreseen(answer, ()), 0.0, atol=1e-3)
     with pytest.raises(ValueError, match="bend"):
         dial_answer(with_harmonics(make_design(mu=0.3), WAVES), STILL, LOSSES, 1.0)
-
-
-def test_the_page_foresees_by_the_same_formula(answer: dict[str, object]):
-    node = shutil.which("node")
-    if node is None:
-        pytest.skip("no node to run the page's script")
-    script = web.text("dial.js")
-    begin, end = script.index("function values"), script.index("RX.foresee = foresee")
-    program = f"{script[begin:end]};console.log(JSON.stringify(foresee({json.dumps(answer)},{vector(WAVES).tolist()})))"
-    out = subprocess.run([node, "-e", program], capture_output=True, text=True, check=True).stdout
-    assert_allclose(json.loads(out), foreseen(answer, WAVES), rtol=1e-9)
 
 
 def test_the_front_is_near_its_trims(whole: DialAnswer, answer: dict[str, object]):

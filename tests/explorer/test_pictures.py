@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer.colours import VOID, colour_map
+from explorer.colours import VOID
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cover, View, fit
@@ -117,17 +117,6 @@ class TestFields:
         same = refined(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
-
-
-class TestColours:
-    def test_equal_steps_of_data_look_equal(self):
-        """Steps in CIE Lab between neighbouring colours of the sequential map differ by less than half."""
-        srgb = colour_map("sequential", 41) / 255.0
-        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-        xyz = linear @ np.array([[0.4339, 0.2126, 0.0178], [0.3762, 0.7152, 0.1095], [0.1899, 0.0722, 0.8727]])
-        x, y, z = np.cbrt(xyz).T
-        steps = np.linalg.norm(np.diff(np.stack((116.0 * y, 500.0 * (x - y), 200.0 * (y - z))), axis=1), axis=0)
-        assert steps.max() < 2.0 * steps.min()
 
 
 class TestPoses:

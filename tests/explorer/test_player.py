@@ -3,8 +3,6 @@
 import threading
 import time
 
-import pytest
-
 from explorer.tabs.context import BEAT, Player
 
 
@@ -39,16 +37,3 @@ def test_it_gives_the_time_that_has_gone_and_ends_with_pause():
     assert playing("walk") == 0
     assert len(steps) <= count + 1  # One may have been under way.
     player.pause()  # Nothing plays: nothing happens.
-
-
-def test_it_ends_without_a_page(caplog: pytest.LogCaptureFixture):
-    def step(seconds: float) -> None:
-        raise RuntimeError(f"gone after {seconds:g} s")
-
-    player = Player(step, "lost")
-    player.play()
-    deadline = time.monotonic() + 60.0
-    while player.playing and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert not player.playing
-    assert "gone after" in caplog.text

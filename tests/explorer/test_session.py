@@ -222,3 +222,11 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     assert session._update() is None
     next(steps)
     assert page.states[-1].view.azimuth_deg == 75.0
+
+
+def test_nothing_of_an_update_that_failed_is_used_by_the_next(session: Session):
+    update(session)
+    assert session._good is not None
+    session._failed(ZeroDivisionError("made to fail"))
+    assert (session._good, session._latest) == (None, None)
+    assert update(session).states[-1].solution.converged

@@ -11,7 +11,7 @@ from explorer.picture import blade_mesh
 from explorer.picture.blade_mesh import blade_axes_outline
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.sections import load_installed
-from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
+from rotor.design.twist import LinearTwist
 from rotor.files.make_design import uh60a_rotor
 from rotor.files.rotor_file import shipped_aircraft
 
@@ -79,26 +79,3 @@ class TestSweptTip:
     @pytest.mark.parametrize("name", ["r22", "s61"])
     def test_other_rotors_have_straight_blades(self, name: str):
         assert blade_mesh.swept_back(shipped_aircraft(name).rotor_for("flight"), [0.5, 0.95, 1.0]).max() == 0.0
-
-
-class TestGhost:
-    """Inboard half of the blade twisted by 2° more than the ghost."""
-
-    HERE = PiecewiseLinearTwist((math.radians(-4.0), math.radians(-8.0)), (0.6,))
-    GHOST = PiecewiseLinearTwist((math.radians(-8.0), math.radians(-8.0)), (0.6,))
-
-    def test_it_is_whole_where_it_differs_and_nothing_where_it_does_not(self):
-        made = blade_mesh.ghost_vertices(SHAPE, self.GHOST, self.HERE, 4.0, math.radians(0.25))
-        whole = blade_mesh.blade_vertices(SHAPE, self.GHOST, 4.0)
-        points = SHAPE.rings.shape[1]
-        rings = made[: len(SHAPE.r) * points].reshape(-1, points, 3)
-        same = whole[: len(SHAPE.r) * points].reshape(-1, points, 3)
-        outboard, inboard = SHAPE.r > 0.62, SHAPE.r < 0.4
-        assert np.ptp(rings[outboard], axis=1).max() < 1e-12
-        assert_allclose(rings[inboard], same[inboard], atol=1e-12)
-
-    def test_its_lines_end_where_the_twists_meet(self):
-        lines = blade_mesh.ghost_segments(ROTOR, self.GHOST, self.HERE, 4.0, math.radians(0.25))
-        hinge = ROTOR.blade.flap_hinge
-        assert lines[..., 0].max() < (0.62 - hinge) * ROTOR.radius
-        assert len(blade_mesh.ghost_segments(ROTOR, self.HERE, self.HERE, 4.0, math.radians(0.25))) == 0

@@ -1,18 +1,11 @@
-"""The picture of the view: the scene between title and scale."""
+"""The picture of the view: the font of its words."""
 
-import io
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
-from PIL import Image, ImageFont
+from PIL import ImageFont
 
-from explorer.export.view_picture import font_path, view_png
-from explorer.model.units import SI
-from explorer.picture.fields import FIELDS
-from rotor import make_design, solve
-
-FIELD = FIELDS["Angle of attack"]
+from explorer.export.view_picture import font_path
 
 
 def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatch):
@@ -32,23 +25,3 @@ def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatc
     with pytest.raises(ValueError, match="install DejaVu Sans, or pip install"):
         font_path.__wrapped__()
     assert asked[0] == "DejaVuSans.ttf"
-
-
-def test_the_view_stands_between_title_and_scale():
-    """The scene is in it as it was; a stage without the disk has no scale."""
-    solution, scene = solve(make_design(mu=0.3)), np.random.default_rng(1).integers(0, 255, (400, 1920, 4), np.uint8)
-    scene[..., 3] = 255
-    scene[:100, :, 3] = 0  # The sky.
-    for scale, dark, paper in (((FIELD, (-4.0, 14.0)), False, 255), (None, True, 17)):
-        png = view_png(scene, solution, scale, SI, dark)
-        pixels = np.asarray(Image.open(io.BytesIO(png))).astype(int)
-        below = pixels[512:]
-        assert np.array_equal(pixels[212:512], scene[100:, :, :3])
-        assert np.ptp(pixels[112:212], axis=(0, 1)).max() == 0
-        assert pixels[0, 0, 0] == paper
-        assert len(below) == (0 if scale is None else 112)
-        assert len(np.unique(below.reshape(-1, 3), axis=0)) > 200 or scale is None
-        # Words left and right above it, and nothing at the edges.
-        inked = np.nonzero((pixels[:112] != pixels[0, 0]).any(axis=(0, 2)))[0]
-        assert 40 <= inked.min() < 300
-        assert 1600 < inked.max() <= 1880

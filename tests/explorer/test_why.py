@@ -71,7 +71,7 @@ def test_a_region_is_told_by_where_it_came(r: float, psi_deg: float, said: str):
 
 
 def test_another_test_or_flight_is_named():
-    stands = [{"ct_over_sigma": load, "shaft_tilt_deg": 0.0} for load in (0.07, 0.08)]
+    stands: list[dict[str, Any]] = [{"ct_over_sigma": load, "shaft_tilt_deg": 0.0} for load in (0.07, 0.08)]
     first, second = (solved(make_design(mu=0.2, trim="wind-tunnel", stand=one)) for one in stands)
     assert why(flown(), first).startswith("The rotor alone, on a test stand: ")
     assert why(first, flown()).startswith("Flight instead of a test: ")

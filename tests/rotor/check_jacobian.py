@@ -33,19 +33,6 @@ def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     return DiskSums(float(lift.sum()), float(drag), float(disk.r * width @ elements.fx.sum(axis=1)))
 
 
-def check_jacobian(problem: Problem, state: TrimState) -> None:
-    """Every column by central differences; the step of the inflow is smaller, as the inflow itself is."""
-    point = point_at(problem, state)
-    system, exact = point.system, jacobian(point)[0]
-    free = system.structure.free
-    assert exact.shape == (len(free), len(free))
-    for k, atom in enumerate(free):
-        step = np.zeros_like(point.x)
-        step[atom] = 1e-6 * (0.1 if atom == system.structure.states["lambda0"] else 1.0)
-        ahead, behind = (evaluate(system, system.grid, point.x + sign * step).residual for sign in (1.0, -1.0))
-        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[atom]), rtol=2e-5, atol=2e-7)
-
-
 def check_along(point: Point, along: Array, tolerance: float) -> None:
     """The Jacobian along a change of all unknowns against differences of fourth order; and its transpose."""
     system, exact = point.system, jacobian(point)[0]

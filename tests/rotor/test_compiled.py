@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import numba
 import pytest
 from numba.core import caching, config
 
@@ -101,8 +100,6 @@ def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
 
 def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
-    with pytest.raises(RuntimeError, match="no locator"):
-        numba.njit(cache=True)(module(source).plain)
     kernel = module(source).kernel
     assert (kernel(1.0), hits(kernel)) == (2.0, 0)
 
@@ -113,9 +110,6 @@ def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.Monkey
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(caching.IndexDataCacheFile, method, full)
-    plain = numba.njit(cache=True)(module(source).plain)
-    with pytest.raises(OSError, match="No space"):
-        plain(1.0)
     assert module(source).kernel(1.0) == 2.0
     monkeypatch.undo()
     assert module(source).kernel(1.0) == 2.0

@@ -200,25 +200,15 @@ def test_a_shutdown_ends_calls_at_once_where_asked():
     process, _ = pool.submit(settings).result(PATIENCE)
     begun = time.monotonic()
     calls = [pool.submit(time.sleep, 3600.0) for _ in range(2)]
+    _, waiting = begin(pool, Count(1))
     pool.shutdown(cancel_futures=True)
     assert time.monotonic() - begun < PATIENCE
     assert not lives(process)
+    assert pids_of(pool) == ()
+    assert waiting.until(JobEnded) == JobEnded(None, stopped=True)
     assert all(call.done() for call in calls)
     _, after = begin(pool, Count(1))
     assert "shut down" in after.until(JobFailed).message
-
-
-def test_a_shutdown_ends_what_is_under_way_and_leaves_no_process():
-    pool = Processes(1)
-    _, running = begin(pool, Count(10_000, 0.01))
-    running.until(JobProgress)
-    _, waiting = begin(pool, Count(1))
-    pids = pids_of(pool)
-    pool.shutdown(wait=False, cancel_futures=True)
-    assert pids
-    assert pids_of(pool) == ()
-    assert waiting.until(JobEnded) == JobEnded(None, stopped=True)
-    assert running.until(JobFailed)
 
 
 def test_a_call_that_was_cancelled_in_the_queue_is_not_made(tmp_path: Path):
@@ -259,12 +249,6 @@ def pool() -> Iterator[Processes]:
     pool.warm()
     yield pool
     pool.shutdown(cancel_futures=True)
-
-
-def test_reports_in_order_and_returns(pool: Processes):
-    _, heard = begin(pool, Count(5))
-    assert heard.until(JobEnded) == JobEnded(5)
-    assert heard.items == [1, 2, 3, 4, 5]
 
 
 def stopped(pool: Processes, task: Any) -> tuple[float, JobEnded, Heard]:
@@ -327,6 +311,9 @@ def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Processes):
     before = pids_of(pool)
     _, heard = begin(pool, Failing())
     assert "a value that nobody wants" in heard.until(JobFailed).message
+    _, heard = begin(pool, Count(5))
+    assert heard.until(JobEnded) == JobEnded(5)
+    assert heard.items == [1, 2, 3, 4, 5]
     assert pids_of(pool) == before
 
 
@@ -428,40 +415,3 @@ def until(true: Callable[[], bool]) -> None:
     while not true():
         assert time.monotonic() - begin < PATIENCE, "waited too long"
         time.sleep(0.05)
-
-
-COMMANDS = {
-    "schedule": ["--starts", "100", "--processes", "2"],
-    "reproduce": ["OUT", "--processes", "2"],
-    "study": ["two_segment.toml", "--workers", "2", "--out", "OUT"],
-}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-@pytest.mark.parametrize("name", COMMANDS)
-def test_a_command_that_is_ended_leaves_no_process(name: str, number: int, tmp_path: Path):
-    """While its processes are at work."""
-    words = [str(tmp_path / "out") if word == "OUT" else word for word in COMMANDS[name]]
-    run = subprocess.Popen(
-        [sys.executable, "-m", "rotor", name, *words], cwd=ROOT, text=True, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-    )  # fmt: skip
-    try:
-
-        def at_work() -> bool:
-            assert run.poll() is None
-            children = psutil.Process(run.pid).children(recursive=True)
-            return sum(child.cpu_times().user > 2.0 for child in children) == 2
-
-        until(at_work)
-        family = psutil.Process(run.pid).children(recursive=True)
-        os.killpg(run.pid, number) if number == signal.SIGINT else run.send_signal(number)
-        _, said = run.communicate(timeout=PATIENCE)
-        assert run.returncode == (130 if number == signal.SIGINT else -number)
-        assert "semaphore" not in said
-        assert "Traceback" not in said
-        until(lambda: not any(lives(child.pid) for child in family))
-    finally:
-        run.kill()
-        run.communicate()

@@ -4,7 +4,6 @@
 """
 
 import json
-import os
 import subprocess
 import sys
 import threading
@@ -59,19 +58,6 @@ def test_in_two_orders_in_threads_and_each_alone() -> None:
     first = answers(ALL)
     for other in (answers(ALL[::-1], 4), *(answers([number]) for number in ALL)):
         assert [number for number in other if first[number] != other[number]] == []
-
-
-@pytest.mark.slow
-def test_the_run_that_compiles_has_the_bits_of_those_that_read_kept_code(tmp_path: Path) -> None:
-    stalling = "rotor.make_design(mu=0.3, inflow='drees', bending=True, dynamic_stall='on')"
-    line = f"import rotor; print(rotor.solve({stalling}).linear.point.x.tobytes().hex())"
-    kept = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
-    first, second = (
-        subprocess.run([sys.executable, "-c", line], cwd=ROOT, env=kept, capture_output=True, text=True, check=True)
-        for _ in range(2)
-    )
-    assert len(first.stdout) > 1000
-    assert first.stdout == second.stdout
 
 
 @pytest.mark.parametrize("inflow", ["lifting-line", "pitt-peters"])

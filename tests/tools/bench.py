@@ -1,10 +1,9 @@
-"""Processor times of evaluations, trims, searches and studies, beside their targets and other codes.
+"""Processor times of evaluations, trims, searches and studies, beside their targets.
 
 `python -m tests.tools.bench [--long] [--json] [--against DIR]`
 """
 
 import argparse
-import importlib
 import json
 import os
 import statistics
@@ -12,17 +11,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import starmap
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numpy as np
-from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
-
-from rotor.aero.problem import Problem, build_problem
-from rotor.columns.flight import flight_system
+from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
@@ -35,11 +30,10 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import Adjoint, power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import first_point, newton
+from rotor.trim.newton import newton
 from rotor.trim.power_changes import power_changes
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from tests.tools.cross_codes import dynbem_case, moment_trimmed
 
 T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
@@ -111,16 +105,13 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
     args = parser.parse_args(argv)
-    ms, baselines, notes = measure()
     answer: dict[str, Any] = {
-        "ms": ms,
+        "ms": measure(),
         "targets_ms": TARGETS_MS,
         "seconds": measure_searches(long=args.long),
         "targets_s": TARGETS_S,
         "trims_per_second_and_core": measure_batch(),
         "target_per_second": TARGET_PER_SECOND,
-        "baselines": [asdict(baseline) | {"ratio": baseline.ratio} for baseline in baselines],
-        "notes": notes,
     }
     if args.against is not None:
         answer["time_over_theirs"] = time_ratios(answer, measured_in(args.against, long=args.long))
@@ -140,12 +131,6 @@ def report(answer: dict[str, Any]) -> str:
         "\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n",
         *(_line(name, value, "10.0f", answer["target_per_second"], "≥") for name, value in batch.items()),
         _line("10⁵ of them on two cores [minutes]", minutes, "10.1f", 30.0, "≤"),
-        "\nother codes [ms], and how often ours runs in that time\n",
-        *(
-            f"{other['name']:<44}{other['ms']:10.3f}   {other['ratio']:8.2g} × {other['ours']}; {other['physics']}"
-            for other in answer["baselines"]
-        ),
-        *(f"note: {note}" for note in answer["notes"]),
     ]
     if ratios := answer.get("time_over_theirs"):
         lines += ["\ntime here over time in the other checkout\n"]
@@ -182,24 +167,6 @@ def _line(name: str, value: float, form: str, target: float | None, sign: str) -
     return f"{name:<44}{value:{form}}{beside}"
 
 
-@dataclass(frozen=True)
-class OtherCode:
-    """Another code's time beside ours for the nearest task."""
-
-    name: str
-    ms: float
-    ours: str
-    """Our task."""
-    ours_ms: float
-    physics: str
-    """What one unit of each computes."""
-
-    @property
-    def ratio(self) -> float:
-        """Time of the other code over ours."""
-        return self.ms / self.ours_ms
-
-
 _CASES: dict[str, dict[str, Any]] = {
     "": {"inflow": "lifting-line", "elastic_twist": True, "bending": False},
     "linear inflow, ": {"inflow": "pitt-peters", "elastic_twist": False, "bending": False},
@@ -209,8 +176,8 @@ _CASES: dict[str, dict[str, Any]] = {
 """Models, by what a figure is called after."""
 
 
-def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
-    """Figures [ms] by name, other codes, and notes on what could not be measured."""
+def measure() -> dict[str, float]:
+    """Figures [ms] by name."""
     figures: dict[str, float] = {}
     for beside, models in _CASES.items():
         designs = _designs(0.0, "linear:-16", models)
@@ -229,20 +196,7 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
         figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
         figures[f"{beside}doubt"] = _mean(power_changes, [Adjoint(solution) for solution in solutions], 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
-    cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
-    linear = _designs(0.0, "linear:-16", _CASES["linear inflow, "])
-    hybr = _mean(_hybr, [build_problem(design) for design in linear], 3)
-    baselines = [OtherCode("scipy root, hybr, without Jacobian", hybr, "cold trim", cold, "the same equations")]
-    notes: list[str] = []
-    try:
-        baselines += _dynbem(evaluation, cold)
-    except ImportError:
-        notes.append("dynbem is not installed: pip install 'rotor-explorer[test]' adds that baseline")
-    try:
-        baselines.append(_ccblade(evaluation))
-    except ImportError:
-        notes.append("wisdem is not installed: pip install 'rotor-explorer[crosscheck]' adds its CCBlade")
-    return figures, baselines, notes
+    return figures
 
 
 def _designs(faster: float, twist: str, models: dict[str, Any]) -> list[Design]:
@@ -260,63 +214,6 @@ def _gradient(nearby: Design, start: Solution) -> float:
         power_gradient(solution)
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times[1:])
-
-
-def _hybr(problem: Problem) -> None:
-    """Our residual through scipy's Powell hybrid method with finite differences."""
-    system = flight_system(problem)
-    first, free = first_point(problem, system, first_guess(problem)), system.structure.free
-
-    def residual(states: Any) -> Any:
-        x = first.copy()
-        x[free] = states
-        return evaluate(system, system.grid, x).residual
-
-    root(residual, first[free], method="hybr", tol=1e-10)
-
-
-def _dynbem(evaluation: float, cold: float) -> list[OtherCode]:
-    """dynbem (MIT, Rust): one evaluation of its Pitt–Peters model, and its trim of the hub moments by cyclic."""
-    model, inputs, state = dynbem_case(moment_trimmed(_ADVANCE_RATIOS[2]))
-    dynbem: Any = importlib.import_module("dynbem")
-    evaluated = _time(lambda: model.compute_forces(inputs, state), 50)
-    trimmed = _time(lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0), 3)
-    return [
-        OtherCode(
-            "dynbem evaluation",
-            evaluated,
-            "evaluation",
-            evaluation,
-            "40 × 120 elements both; theirs without derivatives, Mach number, sweep and radial friction",
-        ),
-        OtherCode("dynbem trim", trimmed, "cold trim", cold, "theirs of two hub moments, ours of six equations"),
-    ]
-
-
-def _ccblade(evaluation: float) -> OtherCode:
-    """CCBlade of WISDEM (Fortran): the 40 elements of one blade in axial flow, each with its own inflow."""
-    ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
-    rotor = make_design(preset="thesis", mu=0.0).rotor
-    root = rotor.blade.root_cutout
-    r = root + (np.arange(40) + 0.5) / 40.0 * (1.0 - root)
-    alpha = np.arange(-180.0, 181.0, 2.0)
-    polar = ccblade.CCAirfoil(
-        alpha, [1e6], 1.1 * np.sin(2.0 * np.radians(alpha)), 0.01 + 1.2 * np.sin(np.radians(alpha)) ** 2
-    )
-    code = ccblade.CCBlade(
-        rotor.radius * r,
-        np.full(40, rotor.reference_chord),
-        -16.0 * (r - 0.75),
-        [polar] * 40,
-        rotor.radius * root,
-        rotor.radius,
-        B=rotor.blades,
-        shearExp=0.0,
-    )
-    rpm = rotor.angular_speed * 30.0 / np.pi
-    ms = _time(lambda: code.distributedAeroLoads(8.0, rpm, 8.0, 0.0), 10)
-    words = "theirs of 40 elements at one azimuth, ours of 40 × 120"
-    return OtherCode("CCBlade evaluation", ms, "evaluation", evaluation, words)
 
 
 def _mean(call: Callable[[T], Any], cases: list[T], runs: int) -> float:

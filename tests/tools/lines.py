@@ -1,4 +1,4 @@
-"""Random command lines of every command that computes: `python -m tests.tools.lines --count 1000 --seed 1`.
+"""Random command lines of every command that computes.
 
 Each must end with exit code 0, 1 or 2 within its time, without a traceback or a warning, and with one line where it is
 refused.
@@ -9,7 +9,6 @@ import contextlib
 import io
 import os
 import shlex
-import sys
 import tempfile
 import time
 import warnings
@@ -103,17 +102,3 @@ def run(count: int, seed: int, commands: Sequence[str] = COMMANDS) -> tuple[Coun
         finally:
             os.chdir(before)
     return codes, wrong
-
-
-def _main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    args = parser.parse_args()
-    codes, wrong = run(args.count, args.seed)
-    print(f"{args.count} command lines: exit codes {dict(codes)}, {len(wrong)} wrong")
-    return 1 if wrong else 0
-
-
-if __name__ == "__main__":
-    sys.exit(_main())

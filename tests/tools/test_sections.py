@@ -60,9 +60,6 @@ def test_command_builds_and_verifies(
     assert "DIFFERS" in capsys.readouterr().out
 
 
-# As XFOIL prints them: a NaN row, a cut row and a negative drag must not come through.
-
-
 @pytest.mark.xfoil
 def test_one_real_polar_is_close_to_thin_airfoil_theory(real_xfoil: None) -> None:
     """cl slope of a thin section: 2 pi / beta, plus some 10 % for thickness, less the boundary layer."""

@@ -13,11 +13,8 @@ PORT = "127.0.0.1:8080"
 FOREIGN_PAGES = (
     "http://evil.example",
     "https://127.0.0.1.evil.example:8080",
-    "https://127.0.0.1",
     "null",
-    "file://",
     "",
-    "chrome-extension://abcdef",
     "http://127.0.0.1:9999",
     "http://localhost:8080",  # Other origins to the browser, too.
 )

@@ -18,6 +18,8 @@ from explorer import web
 from explorer.app import App
 from explorer.hosting.messages import LONGEST_TEXT, PRESSES, PageFacts, Sent, checked_press, message_fault, read_facts
 from explorer.session import Session
+from tests.tools import wire
+from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
 
 SCRIPTS = ("frame", "cards", "charts", "plan", "rubber", "flight", "dial", "lecture", "story", "keys", "inset")
 GOOD: dict[str, list[Any]] = {
@@ -185,24 +187,18 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
 @pytest.mark.parametrize(
     ("kind", "fields", "field", "said"),
     [
-        # These three once gave tracebacks.
         ("GuiUpdateMessage", edit(1.0, [1]), "uuid is [1]", "Expected `str`"),
         ("FileTransferStartUpload", {**UPLOAD, "source_component_uuid": [1]}, "source_component_uuid is [1]", "`str`"),
         ("ViewerCameraMessage", {**_CAMERA, "position": ()}, "position is []", "length 3"),
         ("ViewerCameraMessage", {**_CAMERA, "wxyz": (1.0, 0.0, 0.0, math.nan)}, "wxyz is [1.0, 0.0, 0.0, nan]", "[3]"),
-        ("ViewerCameraMessage", {**_CAMERA, "fov": math.inf}, "fov is inf", "Expected `float` <"),
         ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 0"),
         ("GuiUpdateMessage", edit([math.nan]), "updates is {'value': [nan]}", "at updates.value[0]"),
-        ("GuiUpdateMessage", edit(1e308), "updates is {'value': 1e+308}", "Expected `float` <"),
         ("GuiUpdateMessage", edit("x" * (LONGEST_TEXT + 1)), "updates is 20011 bytes", "length <= 20000"),
         ("GuiUpdateMessage", edit([0.0] * 20_000), "bytes", "length <= 1000"),
         ("GuiUpdateMessage", edit([[[[[[[1]]]]]]]), "[[[[[[[1]]]]]]]", "Expected `float`, got `array`"),
-        ("GuiUpdateMessage", edit({}), "updates is {'value': {}}", "got `object`"),
         ("GuiUpdateMessage", {"uuid": "a", "updates": {"max": 1.0}}, "{'max': 1.0}", "unknown field `max`"),
         ("GuiUpdateMessage", edit(1.0, "x" * 1000), "uuid is 1003 bytes", "length <= 300"),
-        ("FileTransferStartUpload", {**UPLOAD, "size_bytes": -1}, "size_bytes is -1", ">= 0"),
         ("FileTransferPart", {**PART, "content": "text"}, "content is 'text'", "Expected `bytes`, got `str`"),
-        ("SceneNodeDragMessage", {**DRAG, "phase": "stop"}, "phase is 'stop'", "expected one of start, update, end"),
         ("ScenePointerMessage", {**CLICK, "screen_pos": []}, "screen_pos is []", "length >= 1"),
     ],
 )
@@ -259,25 +255,6 @@ def test_facts_of_a_page_are_read():
     assert read_facts("{}") == PageFacts()
 
 
-def test_messages_that_once_gave_tracebacks_leave_the_page_as_it_was(app: App, caplog: pytest.LogCaptureFixture):
-    async def visit() -> None:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
-        await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))
-        await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": [1]})
-        await visitor.send("ViewerCameraMessage", **{**_CAMERA, "position": ()})
-        await visitor.idle()
-        assert visitor.gone is None
-        await visitor.close()
-
-    with caplog.at_level(logging.WARNING):
-        ran(visit)
-    assert not [record for record in caplog.records if record.exc_info]
-    kinds = [record.getMessage().split(": ")[1] for record in caplog.records]
-    assert kinds == ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
-
-
 def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.LogCaptureFixture):
     """2,500 such presses once gave a thousand tracebacks, and NaN as the azimuth ended the page for good."""
     app, chance = App("127.0.0.1", 0), random.Random(54)
@@ -288,6 +265,10 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         await visitor.open(app.address)
         await visitor.until(lambda: visitor.text("status") == "converged")
         power = visitor.text("total-power")
+        # These three once gave tracebacks.
+        await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))
+        await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": [1]})
+        await visitor.send("ViewerCameraMessage", **{**_CAMERA, "position": ()})
         uuid = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("label") == BRIDGE)
         for k in range(1500):
             name, value = chance.choice([*names, "constructor", 7]), chance.choice(HOSTILE)
@@ -309,6 +290,8 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         app.stop()
     assert before == after
     assert not [record for record in caplog.records if record.exc_info]
+    kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:3]]
+    assert kinds == ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
 
 
 def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch):
@@ -334,42 +317,3 @@ def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture,
     assert "ZeroDivisionError" in said
     assert "not a busy server" in said
     assert sum(record.exc_info is not None for record in caplog.records) == 1
-
-
-def test_an_update_after_one_that_failed_begins_clean(monkeypatch: pytest.MonkeyPatch):
-    app = App("127.0.0.1", 0)
-    began: list[object] = []
-
-    async def visit() -> tuple[str, str]:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
-        await visitor.idle()
-        power, (session,) = visitor.text("total-power"), app.sessions
-        patched: Any = session
-        draw, solve = session._draw, session._solve
-
-        def fail(*_: Any, **__: Any) -> None:
-            patched._draw = draw
-            raise ZeroDivisionError("made to fail")
-
-        def watched(reading: Any) -> Any:
-            began.append(session._good)
-            return solve(reading)
-
-        patched._draw, patched._solve = fail, watched
-        label = "Δ inboard [°/R]"
-        await visitor.move(label, -3.0)
-        await visitor.until(lambda: "failed" in json.dumps(visitor.frame["power"]))
-        await visitor.move(label, 0.0)
-        await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)
-        await visitor.close()
-        return power, visitor.text("total-power")
-
-    try:
-        before, after = ran(visit)
-    finally:
-        app.stop()
-    assert before == after
-    assert began[0] is not None
-    assert began[1] is None  # Nothing of the failed update is used.

@@ -244,47 +244,6 @@ class TestUploads:
 
 @pytest.mark.slow
 class TestPlaces:
-    def test_a_third_page_is_turned_away_until_one_leaves(self, app: App):
-        async def work() -> None:
-            first, second, third = await arrive(app), await arrive(app), Visitor()
-            await third.open(app.address)
-            await third.until(lambda: "All 2 places are taken." in words(third))
-            assert len(app.sessions) == 2
-            assert asks(app) == "taken"
-            await first.close()
-            async with asyncio.timeout(60.0):
-                while asks(app) == "taken":
-                    await asyncio.sleep(0.05)
-            await third.close()
-            fourth = await arrive(app)  # As the page does when it loads again.
-            assert asks(app) == "taken"
-            for visitor in (second, fourth):
-                await visitor.close()
-
-        ran(work)
-        until_all_have_left(app)
-        assert asks(app) == "free"
-
-    def test_a_page_is_sent_in_one_piece_with_its_first_solution(self, app: App):
-        async def work() -> None:
-            visitor = await arrive(app)
-            assert visitor.frames <= 6  # What the server says to all, what it asks, and the page; not four hundred.
-            assert visitor.blade
-            assert visitor.text("total-power").endswith("kW")
-            await visitor.close()
-
-        ran(work)
-
-    def test_leaving_during_the_welcome_frees_everything(self, app: App):
-        async def work() -> None:
-            for _ in range(3):
-                visitor = Visitor()
-                await visitor.open(app.address)
-                await visitor.close()
-
-        ran(work)
-        until_all_have_left(app)
-
     def test_too_many_connections_are_refused(self):
         server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
         try:
@@ -337,25 +296,6 @@ async def cut(app: App, message: bytes | str) -> int | None:
                 await socket.recv()
         except ConnectionClosed as closed:
             return None if closed.rcvd is None else closed.rcvd.code
-
-
-def asks(app: App) -> str:
-    """What a page that was turned away hears."""
-    return fetch(app.address + "/place")[1].decode().strip()
-
-
-def words(visitor: Visitor) -> str:
-    """All text of a page that was turned away."""
-    return " ".join(str(w.get("content")) for w in visitor.widgets.values() if "rx-lobby" in str(w.get("content")))
-
-
-def until_all_have_left(app: App) -> None:
-    """Until the server has noticed that all have left."""
-    for _ in range(3000):
-        if not app._connections and not app._seated:
-            return
-        time.sleep(0.02)
-    raise AssertionError("sessions stay behind")
 
 
 def _handshake(app: App, source: str = "127.0.0.1") -> socket.socket:

@@ -157,26 +157,6 @@ class TestSteps:
 
 
 class TestCrowd:
-    def test_only_the_given_number_runs_at_once(self):
-        pool, lock, now, most = UpdatePool(2), threading.Lock(), 0, 0
-        pair = threading.Barrier(2, timeout=LONG)
-        done = list[int]()
-
-        def update() -> None:
-            nonlocal now, most
-            with lock:
-                now += 1
-                most = max(most, now)
-            pair.wait()  # Two do run at once, however slowly threads start.
-            with lock:
-                now -= 1
-                done.append(1)
-
-        for _ in range(12):
-            NewestWins(update, fail, pool).wake()
-        until(lambda: len(done) == 12)
-        assert most == 2
-
     def test_twenty_busy_pages_get_equal_shares(self):
         """All want to work all the time: the rounds done by each differ by one or two."""
         pool, rounds = UpdatePool(1), [0] * 20

@@ -296,14 +296,6 @@ def test_command_json(capsys: pytest.CaptureFixture[str]):
     assert answer["net_saving_w"] < answer["gross_saving_w"]
 
 
-@pytest.mark.slow
-def test_command_text(capsys: pytest.CaptureFixture[str]):
-    assert main(["actuator", "--preset", "thesis", "--blade", "new"]) == 0
-    out, _ = capsys.readouterr()
-    assert "twist attainable" in out
-    assert "best fixed blade" in out
-
-
 def test_table_5_1_as_text_and_json(capsys: pytest.CaptureFixture[str]):
     assert main(["actuator", "--table", "5.1"]) == 0
     assert "MFC_P1" in capsys.readouterr().out
@@ -324,20 +316,15 @@ def test_exit_code_is_1_if_nothing_trims(capsys: pytest.CaptureFixture[str]):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--actuator", "glue"], "actuator 'glue' is not known: use one of MFC_P1"),
         (["--actuator", "MFC_P"], "actuator 'MFC_P' is not known; did you mean 'MFC_P2'? use one of MFC_P1"),
-        (["--concept", "wavy"], "concept 'wavy' is not known"),
         (["--concept", "two-segment", "--division", "1.5"], "division 1.5 of concept two-segment is outside"),
         (["--plies", "0"], "0 plies"),
         (["--from-mu", "0.3"], "both conditions have advance ratio 0.3"),
-        (["--to-mu", "2"], "advance ratio 2 is outside"),
         (["--span", "0.2"], "active span '0.2' is not understood"),
         (["--chord", "0.5:0.1"], "active chord 0.5…0.1"),
-        (["--span", "0.9:0.3"], "active span 0.9…0.3"),
         (["--blade", "retrofit", "--stiffness", "0.5"], "retrofit keeps the blade"),
         (["--blade", "new", "--stiffness", "5"], "stiffness 5"),
         (["--angle-deg", "0"], "fibre angle 0"),
-        (["--share", "1"], "time share 1"),
     ],
 )
 def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]):

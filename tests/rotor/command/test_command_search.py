@@ -57,20 +57,6 @@ def test_least_vibration(capsys: pytest.CaptureFixture[str]):
         assert words in out
 
 
-def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str]):
-    flags = ("--mu", "0.2", "--mass-kg", "7800")
-    code, out, _ = run(
-        capsys, "optimise", "--concept", "two-segment-two-airfoils", "--division", "0.6", *flags, "--starts", "1",
-        "--no-band", "--json",
-    )  # fmt: skip
-    assert code == 0
-    answer = json.loads(out)
-    assert answer["airfoils"] == "sc1094r8,sc1095@0.6"
-    assert answer["band"] == {}
-    code, out, _ = run(capsys, "solve", *flags, "--twist", answer["twist"], "--airfoils", answer["airfoils"], "--json")
-    assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
-
-
 @pytest.mark.slow
 def test_two_airfoils_are_also_compared_on_their_own_sections(capsys: pytest.CaptureFixture[str]):
     flags = ("--preset", "thesis", "--mu", "0.2", "--starts", "1", "--no-band", "--json")

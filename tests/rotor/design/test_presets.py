@@ -98,7 +98,7 @@ def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
 
 
 def test_a_thesis_design_comes_back_with_what_is_not_written():
-    record = {"preset": "thesis", "twist": "linear:-8"}
+    record: dict[str, Any] = {"preset": "thesis", "twist": "linear:-8"}
     design = design_from_record(record)
     assert design == make_design(**record)
     assert design_from_record(design.to_dict()) == design

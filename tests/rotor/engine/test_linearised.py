@@ -86,6 +86,9 @@ CASES = {
     "thesis propulsive": Case(preset="thesis", trim="propulsive"),
     "tunnel thrust": stand("wind-tunnel", ct_over_sigma=0.075, shaft_tilt=TILT),
     "tunnel thrust, free flapping": stand("wind-tunnel", ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03),
+    "tunnel hub moments": stand(
+        "wind-tunnel", ct_over_sigma=0.06, flapping="hub-moments", hub_roll=2e4, hub_pitch=-1e4
+    ),
     "tunnel collective": stand("wind-tunnel", collective=0.12, elastic=False, shaft_tilt=TILT),
     "tunnel collective, free flapping": stand("wind-tunnel", collective=0.12, flapping="free", precone=0.03),
     "free rotor": stand("free-rotor", ct_over_sigma=0.06, flapping="free"),

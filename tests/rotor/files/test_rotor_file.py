@@ -80,14 +80,11 @@ def test_a_minimal_file_is_enough():
 
 BAD = [
     ("name = \n", "", "my.toml, line 1: this is not TOML"),
-    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is not TOML"),
     ('name = "Test rotor"', 'name = "<b>"', "my.toml, line 1: name is '<b>': use 1 to 40 letters"),
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
-    ("radius_m = 5.0", "radius_m = nan", "my.toml, line 5: radius_m is nan, outside"),
     ("radius_m = 5.0", "radius = 5.0", "my.toml, line 5: unknown key 'radius'; did you mean 'radius_m'?"),
     ("radius_m = 5.0", "", "my.toml, line 3: [main_rotor] has no radius_m: add radius_m = 1.0"),
-    ("blades = 3", "blades = 1", "my.toml, line 4: blades is 1, outside 2…12"),
     ("blades = 3", "blades = 3.5", "my.toml, line 4: blades is 3.5, not a whole number"),
     ("blades = 3", 'blades = 3\nhub = "teetering"', "my.toml, line 5: hub is 'teetering' with 3 blades"),
     (
@@ -100,15 +97,12 @@ BAD = [
     ("chord_r = [0.2, 1.0]", "chord_r = [1.0, 0.2]", "my.toml, line 8: chord_r goes from 1 to 0.2"),
     ('section = "naca0012"', 'section = "naca9999x"', "my.toml, line 10: section 'naca9999x' is not known"),
     ("twist_deg = [6.0, 0.0, -3.0]", "twist_deg = [6.0, true, -3.0]", "my.toml, line 12: twist_deg holds True, not a"),
-    ("flap_hinge_m = 0.2", "flap_hinge_mm = 200.0", "unknown key 'flap_hinge_mm'; did you mean 'flap_hinge_m'?"),
-    ("[airframe]", "[air_frame]", "my.toml, line 16: unknown key 'air_frame'; did you mean 'airframe'?"),
     ("mass_kg = 1500.0", "mass_kg = 1500.0\ncolour = 3", "my.toml, line 19: unknown key 'colour': the keys are"),
     (
         "mass_kg = 1500.0",
         "mass_kg = 1500.0\n[controls]\nlateral_deg = [9, 1]\ncollective_deg = [0, 1]\nlongitudinal_deg = [0, 1]",
         "line 20: lateral_deg is [9.0, 1.0]: write both",
     ),
-    ("mass_kg = 1500.0", "mass_kg = 1500.0\n[tail]\na = 1", "my.toml, line 19: unknown key 'tail'"),
 ]
 
 

@@ -62,12 +62,6 @@ def test_the_r22_hovers_and_cruises_within_engine_power():
     assert 100.0 < fastest * 1.05 < 124.0
 
 
-@pytest.mark.parametrize("key", OTHERS)
-def test_shaft_power_is_the_sum_of_its_parts(key: str):
-    solution = solve(make_design(rotor=key).at(mu=0.2)).require()
-    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
-
-
 def test_the_thesis_preset_on_another_rotor_has_a_caveat():
     solution = solve(make_design(preset="thesis", rotor="r22", mu=0.2)).require()
     assert solution.design.twist == shipped_aircraft("r22").rotor.builtin_twist

@@ -37,4 +37,4 @@ def test_linear_inflow_does_not_respond_to_twist_and_the_wake_does():
 
 
 def test_all_stand_in_the_table():
-    assert [row[3].splitlines()[1] for row in misprint_table().rows] == [one.showing for one in MISPRINTS]
+    assert [str(row[3]).splitlines()[1] for row in misprint_table().rows] == [one.showing for one in MISPRINTS]

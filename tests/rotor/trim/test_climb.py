@@ -10,7 +10,6 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import loss_factor
@@ -18,13 +17,11 @@ from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vort
 from rotor.aero.problem import build_problem
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.design import Design
-from rotor.design.quantities import HOVER_INFLOWS
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import check_jacobian
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 
@@ -105,13 +102,6 @@ def test_energy_closes_and_the_climb_has_its_part(inflow: str, mu: float, climb:
     assert abs(power.shaft - power.main_rotor) < 1e-9 * (power.induced + power.profile + abs(power.climb))
     assert_allclose(power.climb, found.design.condition.weight * climb, rtol=1e-13)
     assert_allclose(power.main_rotor, power.induced + power.profile + power.parasite + power.climb, rtol=1e-14)
-
-
-@pytest.mark.parametrize("hover_inflow", HOVER_INFLOWS)
-@pytest.mark.parametrize(("mu", "climb"), [(0.0, -2.0), (0.0, 5.0), (0.02, 5.0)])
-def test_energy_closes_in_axial_flight_and_close_to_it(hover_inflow: str, mu: float, climb: float):
-    found = solve(design(mu, climb, hover_inflow=hover_inflow)).require()
-    assert_allclose(found.power.shaft, found.power.main_rotor, rtol=1e-9)
 
 
 @pytest.mark.parametrize("climb", [-7.0, 6.0])
@@ -205,13 +195,6 @@ def test_power_is_continuous_in_the_rate_of_climb_where_hover_is_held_at_the_edg
     power = [solve(design(0.08, rate), None, TIGHT).require().power.total for rate in rates]
     assert abs(float(np.diff(power, 2)[0])) < 0.02 * np.ptp(power)
     assert np.ptp(power) < 2e-3 * 1.5 * design(0.08, 0.0).condition.weight
-
-
-@pytest.mark.parametrize("climb", [-9.0, 9.0])
-@pytest.mark.parametrize("models", [{"inflow": "drees"}, {"inflow": "uniform", "trim": "thrust"}])
-def test_jacobian_against_differences(climb: float, models: dict[str, Any]):
-    problem = build_problem(design(0.15, climb, **models))
-    check_jacobian(problem, TrimState(0.14, 0.06, -0.06, 0.05, 0.06, -0.02, 0.01, 0.02))
 
 
 @pytest.mark.parametrize(

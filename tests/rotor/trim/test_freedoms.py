@@ -13,7 +13,6 @@ from numpy.testing import assert_allclose
 import rotor
 from rotor.aero.problem import Problem
 from rotor.aero.section import FX, TH, UR, UT
-from rotor.engine.linearise import evaluate, jacobian
 from rotor.engine.terms import Addend, Structure
 from rotor.engine.waves import COS, SIN, rate_of, times_wave
 from rotor.trim.adjoint import power_gradient
@@ -106,27 +105,6 @@ def test_the_first_harmonic_is_that_of_an_oscillator() -> None:
     driving = problem.flap.load_gain * (problem.arm * problem.disk.dr @ point.forces[FX]) - 2.0 * beta * rate
     amplitude = 2.0 * np.mean(driving * np.exp(-1j * psi)) / (problem.flap.frequency_squared - 2.0 + 0.3j)
     assert_allclose(states["lag_1c"] - 1j * states["lag_1s"], amplitude, rtol=1e-8)
-
-
-def test_the_jacobian_is_exact() -> None:
-    """Every state's column against differences of sixth order; section data bend from one table cell to the next."""
-    found = lagging(rotor.make_design(mu=0.15, inflow="pitt-peters")).linear
-    assert found is not None
-    point, system = found.point, found.point.system
-    exact = jacobian(point)[0]
-    for k, atom in enumerate(system.structure.free):
-
-        def residual(step: float, atom: int = int(atom)) -> Any:
-            x = point.x.copy()
-            x[atom] += step
-            return evaluate(system, point.grid, x).residual
-
-        errors = list[float]()
-        for step in 10.0 ** -np.arange(4.0, 8.1, 0.5):
-            pairs = [residual(n * step) - residual(-n * step) for n in (1, 2, 3)]
-            slope = (45.0 * pairs[0] - 9.0 * pairs[1] + pairs[2]) / (60.0 * step)
-            errors.append(float(np.abs(slope - exact[:, k]).max() / np.abs(exact[:, k]).max()))
-        assert min(errors) < 1e-9, (k, errors)
 
 
 def test_the_gradient_of_power_follows_the_lag() -> None:

@@ -98,15 +98,6 @@ def test_mission(name: str):
     check(design, name, Objective("total", legs), every=False)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("quantity", POWERS)
-@pytest.mark.parametrize("mu", [0.1, 0.2, 0.35])
-@pytest.mark.parametrize("name", CONCEPTS)
-def test_full_grid(name: str, mu: float, quantity):
-    design = make_design(mu=mu)
-    check(design, name, at_condition(design, quantity))
-
-
 CLOSED = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-11, torsion_tolerance=1e-13)
 NAMES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
 

@@ -89,20 +89,6 @@ def test_elements_converge(preset: str, mu: float):
     assert errors[2] < errors[0]
 
 
-def test_reverse_flow_area_is_the_circle():
-    """The region r < −µ sin ψ is a circle of diameter µ, area µ²/4 of the disk; the cut-out's part is not blade."""
-    design = make_design(mu=0.4)
-    fine = solve(
-        replace(design, models=replace(design.models, inflow="uniform", swirl=False, elements=400, azimuths=720))
-    ).require()
-    mu_x = 0.4 * math.cos(fine.controls.shaft_tilt)
-    r0 = design.rotor.blade.root_cutout
-    psi = math.pi + (np.arange(20_000) + 0.5) * math.pi / 20_000
-    edge = np.clip(-mu_x * np.sin(psi), r0, None)
-    expected = 0.5 * (edge**2 - r0**2).mean()
-    assert_allclose(fine.reverse_flow_area, expected, rtol=5e-3)
-
-
 @pytest.mark.parametrize("mu", [0.1, 0.35])
 @pytest.mark.parametrize("inflow", ["pitt-peters", "local-momentum"])
 def test_few_azimuths_stand_for_all(inflow: str, mu: float):

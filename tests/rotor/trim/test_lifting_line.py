@@ -185,19 +185,6 @@ def test_a_wake_has_one_circulation(mu: float):
     assert by_inflow.max() < 0.02  # Where lift is held, what grows is U.
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("count", [100, pytest.param(500, marks=pytest.mark.nightly)])
-def test_random_designs_trim(count: int):
-    """98 % at least."""
-    random, converged = np.random.default_rng(1), 0
-    for _ in range(count):
-        rates, inner = random.uniform(-24.0, 2.0, 3), random.uniform(0.25, 0.9)
-        outer = min(inner + random.uniform(0.03, 0.5), 0.97)
-        twist = f"segments:{rates[0]:.2f},{rates[1]:.2f},{rates[2]:.2f}@{inner:.3f},{outer:.3f}"
-        converged += solve(line(random.uniform(0.06, 0.38), twist, random.uniform(0.7, 1.1))).converged
-    assert converged >= 0.98 * count
-
-
 def autogiro() -> Design:
     """The PCA-2 at µ 0.42, where linear inflow finds a tilt that is 2° off."""
     measured = load_set("pca2")

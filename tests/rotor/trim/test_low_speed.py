@@ -10,7 +10,6 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design
 from rotor.design.quantities import LowSpeed
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import Objective, power_gradient
 from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
@@ -67,25 +66,6 @@ def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed():
     before = hover_difference.cache_info()
     assert watts(with_.at(mu=0.15)) == watts(without.at(mu=0.15))
     assert hover_difference.cache_info() == before
-
-
-@pytest.mark.parametrize("station", [0.4, 0.9])
-@pytest.mark.parametrize("objective", ["total", "induced"])
-@pytest.mark.parametrize("elastic", [True, False])
-def test_gradient_by_pitch_agrees_with_differences(objective: Objective, station: float, elastic: bool):
-    at = design(elastic_twist=elastic).at(mu=0.02)
-    stations, bend = np.array([0.13, station, 1.0]), 0.01
-    gradient = power_gradient(solve(at).require(), objective)
-
-    def power(sign: float) -> float:
-        angles = -12.0 * (stations - 0.75) + sign * bend * np.array([0.0, 1.0, 0.0])
-        twist = f"points:{','.join(map(repr, angles.tolist()))}@{','.join(map(repr, stations.tolist()))}"
-        found = solve(at.with_twist(twist)).require().power
-        return found.total if objective == "total" else found.induced
-
-    slope = (power(1.0) - power(-1.0)) / (2.0 * math.radians(bend))
-    change = np.interp(gradient.r, stations, [0.0, 1.0, 0.0])
-    assert slope == pytest.approx(float(gradient.by_element @ change), rel=1e-4)
 
 
 def test_where_hover_has_no_answer_a_caveat_says_so(patch: Patch):

@@ -30,14 +30,6 @@ def test_energy_identity(inflow: str, mu: float, twist: str):
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
-def test_energy_identity_with_given_flapping():
-    """Flapping moves air, but over a revolution its work on a periodic blade is nothing."""
-    design = make_design(mu=0.25)
-    design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
-    solution = solve(design).require()
-    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
-
-
 def test_section_identity():
     """U_T dF_x = U_P dF_z + U dD at every element: lift does no work on its own stream."""
     design = make_design(mu=0.35)

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import TrimState
 from rotor.aero.inflow import DiskFlow
 from rotor.aero.inflow.linear import LINEAR_MODELS, half_skew
 from rotor.aero.lifting_line import WakeCourse
-from rotor.aero.problem import build_problem
 from rotor.design.aircraft import Stand, read_stand
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
@@ -20,7 +18,6 @@ from rotor.files.make_design import make_design
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import check_jacobian, elements_at
 
 TRIMS = {
     "tunnel-thrust": ("wind-tunnel", Stand(shaft_tilt=math.radians(5.0), ct_over_sigma=0.075)),
@@ -44,17 +41,6 @@ def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: floa
     design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand)
     models = replace(design.models, elements=20, azimuths=48)
     return replace(design, models=models, rotor=replace(design.rotor, precone=precone))
-
-
-@pytest.mark.parametrize("precone", [None, 0.03])
-@pytest.mark.parametrize("name", TRIMS)
-def test_jacobian_against_differences(name: str, precone: float | None):
-    problem = build_problem(bench(name, 0.25, "drees", precone))
-    state = TrimState(0.14, 0.02, -0.06, 0.05, 0.06, -0.02, 0.01, 0.012)
-    if name.startswith("free"):
-        state = replace(state, shaft_tilt=-0.15)  # Air flows up through the disk.
-        assert elements_at(problem, state).flow.axial < 0.0
-    check_jacobian(problem, state)
 
 
 @pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
