@@ -10,8 +10,6 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from tests.tools.soak import wire
-from tests.tools.soak.visitor import _CAMERA, BRIDGE, Visitor, ran
 from viser import _messages
 
 from explorer import web
