@@ -7,11 +7,13 @@ contents of chapter 5 is known, so its numbers are not compared.
 
 from rotor.actuator.catalogue import (
     Actuator,
+    Engines,
     ExtensionTwist,
     PiezoPly,
     Programme,
     TorqueTube,
     actuators,
+    engines_of,
     find_actuator,
     programmes,
 )
@@ -32,6 +34,7 @@ __all__ = (
     "BreakEven",
     "ConditionPair",
     "EffectInFlight",
+    "Engines",
     "ExtensionTwist",
     "FlightLeg",
     "Host",
@@ -47,6 +50,7 @@ __all__ = (
     "break_even",
     "default_placement",
     "effect",
+    "engines_of",
     "failure",
     "find_actuator",
     "fly",

@@ -131,12 +131,14 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "actuator": args.actuator,
         "plies": args.plies,
         "concept": args.concept,
+        **dict.fromkeys(("required_twist_deg", "attainable_twist_deg", "feasible")),
+        "voltages_v": [],
+        **dict.fromkeys(("added_mass_kg", "torsion_frequency_per_rev")),
         "against": args.against,
-        **dict.fromkeys(("feasible", "added_mass_kg", "torsion_frequency_per_rev", "fuel_saving_kg_h")),
-        **dict.fromkeys(f"{twist}_twist_deg" for twist in ("required", "attainable")),
-        **dict.fromkeys(f"{part}_saving_w" for part in ("ideal", "gross", "net")),
-        **dict.fromkeys(f"{part}_w" for part in ("stiffness_cost", "mass_cost", "drive_cost", "net_saving_band")),
-        **{name: [] for name in ("voltages_v", "limits", "caveats")},
+        **dict.fromkeys(("ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w")),
+        **dict.fromkeys(("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h")),
+        "limits": [],
+        "caveats": [],
     }
 
 
