@@ -48,6 +48,3 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     page.go_back()
     watched.ready()
     watched.until(lambda: holds(app, watched, by_hand))
-    # As earlier versions wrote it.
-    watched.open(app.address, f"{COARSE}&d=1;uh60a%2Bsegments:-2,1.5@0.6;mu=0.25;mass=8320")
-    watched.until(lambda: holds(app, watched, BUILT))
