@@ -31,7 +31,6 @@ from rotor.design.quantities import CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.trim import at_rest
 from rotor.units import KNOT
 
 OWN = "own"
@@ -75,8 +74,6 @@ INFLOW_MENUS = {
     "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
     "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
     "loss_on": {"lift": "On the lift", "inflow": "On the inflow, eq. (3.3)"},
-    "dynamic_stall": {"auto": "Beyond 5 % of the disk stalled", "on": "On", "off": "Off"},
-    "unsteady": {"auto": "Where pitch or loads follow the azimuth", "on": "On", "off": "Off"},
 }
 """Inputs that choose the inflow: name → title of each choice."""
 
@@ -387,9 +384,10 @@ def preset_inflow(preset: str) -> dict[str, Any]:
 
 
 def baseline_of(design: Design) -> Design:
-    """A flight and models with the preset's rotor and its baseline twist, without n/rev but in the flow that has it."""
+    """A flight and models with the preset's rotor and its baseline twist, without n/rev."""
     craft, preset = design.aircraft, design.preset
-    return replace(at_rest(design), twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
+    still = replace(design, active_twist=None, pitch_per_rev=())
+    return replace(still, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
 
 
 def baseline_title(design: Design) -> str:

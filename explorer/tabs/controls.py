@@ -32,7 +32,7 @@ from explorer.text import readout
 from explorer.text.glossary import hint
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
-from rotor.design.quantities import CHOSEN, OPTIONS
+from rotor.design.quantities import OPTIONS
 from rotor.markup import Markup, tag
 
 
@@ -76,16 +76,13 @@ class DesignControls:
         self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
-                if name not in CHOSEN:
-                    self._menu(name)
+                self._menu(name)
                 if name == "inflow":
                     self._explanation = gui.add_html("")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
             for name in (*SWITCHES, *OPTIONS):
                 form.box(name, ROWS[name].title, getattr(start, name))
                 self._costs[name] = gui.add_html("")
-            for name in CHOSEN:
-                self._menu(name)
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         bridge.on("rotor", self._choose_rotor)

@@ -224,10 +224,9 @@ def _status(state: SessionState) -> dict[str, str]:
         words = "autorotation"
     elif (installed := _exceeded(state.solution)) is not None:
         words = f"engines give only {UNITS[state.view.units].watts(installed)}"
-    elif state.solution.redone or max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
+    elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
         words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
-        words = f"dynamic stall: {words}" if state.solution.redone else words
     elif reasons:
         words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
     else:

@@ -21,7 +21,7 @@ from rotor.design import (
     TableTwist,
     TwistLaw,
 )
-from rotor.design.quantities import BESIDE, CHOSEN, OPTIONS, QUANTITIES
+from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
 from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
@@ -155,11 +155,6 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     off += "".join(f", {QUANTITIES[name].short}" for name in OPTIONS if getattr(inputs, name))
     beside = [units.said(row, getattr(inputs, row.input)) for row in BESIDE.values() if inputs.counts(row)]
     speed = ", ".join(filter(None, (speed, *beside)))
-    off += "".join(
-        f", {QUANTITIES[name].title.lower()} {getattr(inputs, name)}"
-        for name in CHOSEN
-        if getattr(inputs, name) != "auto"
-    )
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""

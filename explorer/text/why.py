@@ -15,7 +15,7 @@ from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.arrays import Array, Booleans
-from rotor.design.quantities import BESIDE, CHOSEN, OPTIONS, QUANTITIES
+from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
@@ -71,13 +71,11 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.preset != b.preset:
         return f"Preset {b.preset} instead of {a.preset}"
     causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
-    automatic = [] if causes else _automatic_causes(before, after)
     if a.pitch_per_rev != b.pitch_per_rev:
         orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in b.pitch_per_rev)
         causes.append(
             f"{'other ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
         )
-    causes += automatic
     if (a.twist, a.active_twist) != (b.twist, b.active_twist):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
@@ -106,9 +104,6 @@ def _model_causes(a: Design, b: Design) -> list[str]:
     for row in (QUANTITIES[name] for name in OPTIONS):
         if row.of(a) != row.of(b):
             causes.append(f"{'with' if row.of(b) else 'without'} {row.title.lower()}")
-    for row in (QUANTITIES[name] for name in CHOSEN):
-        if row.of(a) != row.of(b):
-            causes.append(f"{row.title.lower()} {row.of(b)}")
     if a.models.inflow != b.models.inflow:
         causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
     if a.models.hover_inflow != b.models.hover_inflow:
@@ -119,14 +114,6 @@ def _model_causes(a: Design, b: Design) -> list[str]:
     if a.models.loss_on != b.models.loss_on:
         causes.append(f"tip and root loss on the {b.models.loss_on}")
     return causes
-
-
-def _automatic_causes(before: Solution, after: Solution) -> list[str]:
-    """Models that came or went by themselves, while what was asked of them stayed."""
-    if before.redone != after.redone:
-        return [f"{'with' if after.redone else 'without'} dynamic stall"]
-    steady = before.disk.apparent is None, after.disk.apparent is None
-    return [f"{'without' if steady[1] else 'with'} unsteady flow"] if steady[0] != steady[1] else []
 
 
 def _flight_causes(a: Design, b: Design) -> list[str]:

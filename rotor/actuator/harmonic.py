@@ -16,7 +16,7 @@ from rotor.design.design import Design
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import in_flow_of, solve_alike
+from rotor.trim.solve import solve
 
 
 def tip_amplitude(installed: InstalledActuator) -> float:
@@ -62,8 +62,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     shaken = design.models.bending and why_no_hub_loads(design) is None
     for inflow in dict.fromkeys((design.models.inflow, *BAND)):
         flown = replace(design, models=replace(design.models, inflow=inflow))
-        still = in_flow_of(flown, replace(reference, models=flown.models))
-        one, other = (solve_alike(each, None, like=still) for each in (flown, still))
+        one, other = solve(flown), solve(replace(reference, models=flown.models))
         if inflow == design.models.inflow:
             one.require()
             other.require()

@@ -153,11 +153,11 @@ def areas(
     return reversed_area, area, float(lift[stalled].sum()) / thrust if thrust else 0.0
 
 
-def stalled_area(problem: Problem, elements: BladeElements) -> float:
-    """Stalled part of πR², on the azimuths of the problem."""
+def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
+    """Stalled parts of πR² and of the thrust, on the azimuths of the problem."""
     disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
-    return areas(disk, e, margin, unsteady_part(problem, e))[1]
+    return areas(disk, e, margin, unsteady_part(problem, e))[1:]
 
 
 @lru_cache(maxsize=16)

@@ -186,7 +186,7 @@ def build_problem(design: Design) -> Problem:
         torsion=torsion,
         bending=bending,
         stall=stall,
-        unsteady=is_unsteady(design, disk, follows=bending is not None or stall is not None),
+        unsteady=models.has("unsteady") and not design.hovering,
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
@@ -195,24 +195,11 @@ def build_problem(design: Design) -> Problem:
 def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | None:
     """What dynamic stall needs, where the models have it."""
     rotor, models = design.rotor, design.models
-    if models.dynamic_stall != "on" or design.hovering or not inflow.pointwise:
+    if not models.has("dynamic_stall") or design.hovering or not inflow.pointwise:
         return None
     onset = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
     chord = rotor.blade.chord(disk.r) / rotor.radius
     return StallData(*onset, disk.section, disk.weight, 0.5 * chord, design.tip_mach)
-
-
-def is_unsteady(design: Design, disk: Disk, *, follows: bool) -> bool:
-    """Whether attached flow is unsteady: as the models say, and where they leave it open, where pitch or loads follow
-    the azimuth at 2/rev and more, and section data are not polynomials of one Mach number.
-
-    follows: whether they do so without n/rev being given, in bending and dynamic stall.
-    """
-    models = design.models
-    if design.hovering or models.unsteady != "auto":
-        return models.unsteady == "on" and not design.hovering
-    fast = any(harmonic.per_rev > 1 for wave in design.pitch_waves for harmonic in wave.harmonics)
-    return (follows or fast) and not models.document_losses and disk.fit_range is None
 
 
 def grid_of(design: Design) -> tuple[int, int]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from rotor.aero.inflow import inflow_model
 from rotor.design.design import BEYOND_DOCUMENT, Design, Models
-from rotor.design.quantities import CHOSEN, OPTIONS, QUANTITIES, SWITCHES
+from rotor.design.quantities import OPTIONS, QUANTITIES, SWITCHES
 from rotor.design.quantity import Quantity
 from rotor.user_input import did_you_mean
 
@@ -25,7 +25,7 @@ def with_switches(design: Design, off: Collection[str]) -> Design:
 def parse_switches(text: str) -> tuple[str, ...]:
     """Field names from `tip-loss,reverse-flow`; ValueError for a name that is not known."""
     names = tuple(part.strip() for part in text.split(",") if part.strip())
-    flags = {QUANTITIES[name].flag: name for name in (*SWITCHES, *OPTIONS, *CHOSEN)}
+    flags = {QUANTITIES[name].flag: name for name in (*SWITCHES, *OPTIONS)}
     for name in names:
         if name.replace("_", "-") not in flags:
             hint = did_you_mean(name, flags) or ":"
@@ -42,8 +42,10 @@ def no_effect(design: Design, name: str) -> str:
     if name in ("fuselage", "download") and design.condition.stand is not None:
         return "there is no airframe on a test stand"
     match name:
-        case "flapping" if hovering:
+        case "flapping" | "unsteady" | "dynamic_stall" if hovering:
             return "hover is the same at every azimuth"
+        case "dynamic_stall" if not inflow.pointwise:
+            return "this inflow balances each point by itself, without lags"
         case "fuselage" if design.flight_speed == 0.0:
             return "no drag in hover"
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:

@@ -24,7 +24,7 @@ from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve_alike
+from rotor.trim.solve import solve
 
 
 def add_sweep(commands: Any) -> None:
@@ -126,7 +126,7 @@ def run_front(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         print(json.dumps({"status": "not-converged", "message": str(error)}, indent=2) if args.json else str(error))
         return 1
-    start = solve_alike(front.start.design, None)
+    start = solve(front.start.design)
     found = table(FRONT_COLUMNS, (front_row(point, front.start, start) for point in (front.start, *front.points)))
     if args.csv:
         found.write(args.csv)
@@ -136,7 +136,7 @@ def run_front(args: argparse.Namespace) -> int:
 
 def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[CellValue, ...]:
     """A point by `FRONT_COLUMNS`; None for what it does not have. trimmed: the solution of the start."""
-    sure = None if point is start else doubt(solve_alike(point.design, trimmed), trimmed).change_band_percent
+    sure = None if point is start else doubt(solve(point.design, trimmed), trimmed).change_band_percent
     active, none = point.design.active_twist, (None, None)
     harmonics = () if active is None else active.harmonics
     twist = point.design.twist.spec()

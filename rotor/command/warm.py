@@ -35,4 +35,4 @@ def compile_all() -> None:
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
     power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
     power_gradient(solve(make_design(mu=0.2, bending=True)))
-    power_gradient(solve(make_design(mu=0.2, bending=True, dynamic_stall="on")))
+    power_gradient(solve(make_design(mu=0.2, bending=True)))

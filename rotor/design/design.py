@@ -53,8 +53,19 @@ FORMAT = "rotor-explorer design"
 VERSION = 2
 
 
-BEYOND_DOCUMENT = ("elastic_twist", "surface_drag", "swept_tip", "radial_friction", "swirl", "download")
-"""Switches of `Models` for losses that the document does not have."""
+BEYOND_DOCUMENT = (
+    *(
+        "elastic_twist",
+        "unsteady",
+        "dynamic_stall",
+        "surface_drag",
+        "swept_tip",
+        "radial_friction",
+        "swirl",
+        "download",
+    ),
+)
+"""Switches of `Models` for effects that the document does not have."""
 
 
 FLIGHT_INFLOW = "lifting-line"
@@ -107,12 +118,11 @@ class Models:
     """Whether the blade twists under its loads. Off: rigid in torsion."""
     bending: bool = False
     """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
-    dynamic_stall: quantities.When = "auto"
-    """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall.
-    `auto`: where with steady ones more than 5 % of the disk is stalled, but for polynomials of one Mach number."""
-    unsteady: quantities.When = "auto"
-    """Whether attached flow is unsteady. `auto`: where blades bend or pitch follows the azimuth at n/rev, but for the
-    document's models and polynomials of one Mach number."""
+    unsteady: bool = True
+    """Whether attached flow is unsteady, see `rotor.aero.unsteady_section`. Off: steady."""
+    dynamic_stall: bool = True
+    """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall. Off:
+    they stall as the steady data say."""
     low_speed: quantities.LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
@@ -135,9 +145,7 @@ class Models:
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        for name in quantities.CHOSEN:
-            object.__setattr__(self, name, quantities.QUANTITIES[name].chosen(getattr(self, name)))
-        for name in ("hover_inflow", "low_speed", "loss_on", *quantities.CHOSEN):
+        for name in ("hover_inflow", "low_speed", "loss_on"):
             quantities.QUANTITIES[name].check_choice(getattr(self, name))
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
@@ -260,7 +268,7 @@ class Design:
             "inflow": self.models.inflow,
             **{
                 name: getattr(self.models, name)
-                for name in ("hover_inflow", "low_speed", "loss_on", *quantities.CHOSEN, *switches, *quantities.OPTIONS)
+                for name in ("hover_inflow", "low_speed", "loss_on", *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
             **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
@@ -401,7 +409,6 @@ THESIS_MODELS = Models(
     tail_rotor_solved=False,
     loss_on="inflow",
     document_losses=True,
-    dynamic_stall="off",
 )
 
 

@@ -48,8 +48,6 @@ LOSS_ON: tuple[LossOn, ...] = get_args(LossOn)
 STAND_TRIMS: tuple[StandTrim, ...] = get_args(StandTrim)
 TRIMS: tuple[FlightTrim | StandTrim, ...] = (*get_args(FlightTrim), *STAND_TRIMS)
 PRESETS = ("flight", "thesis")
-When = Literal["auto", "on", "off"]
-WHEN: tuple[When, ...] = get_args(When)
 
 
 def _switch(name: str, on: str, off: str, *, source: str = "section 5", title: str = "") -> Quantity:
@@ -97,6 +95,14 @@ _SWITCHES = (
     _switch("elastic_twist",
         "The blade twists under its own loads: the air meets the flown twist, not the jig twist that is built.",
         "The blade is rigid in torsion: flown and jig twist are the same.",
+    ),
+    _switch("unsteady",
+        "Attached flow is unsteady: lift by the flow at three quarters of the chord, and the mass of air that moves.",
+        "Attached flow is steady.", title="Unsteady flow",
+    ),
+    _switch("dynamic_stall",
+        "Separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and Beddoes).",
+        "Sections stall as the steady data say.",
     ),
     _switch("swirl",
         "The rotor turns the air it works in, which takes power and meets the blade more slowly.",
@@ -240,24 +246,6 @@ _MODELS = (
         "vibratory loads. Off: they flap as rigid blades. | section 10",
     ),
     Quantity(
-        "dynamic_stall", "choice",
-        "sections that stall with the lags and the vortex of Leishman and Beddoes: auto (flight), where with steady "
-        "ones more than a twentieth of the disk is stalled; on, as the flag alone says; off (thesis)",
-        place="models.dynamic_stall", choices=WHEN, key="dynamic_stall", section="models", input="dynamic_stall",
-        title="Dynamic stall",
-        hint="Separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and Beddoes). By "
-        "itself where steady sections have more than 5 % of the disk stalled; or always, or never. | section 5",
-    ),
-    Quantity(
-        "unsteady", "choice",
-        "auto (default): attached flow is unsteady, with apparent mass and the flow at three quarters of the chord, "
-        "where blades bend or pitch follows the azimuth at n/rev; on; off",
-        place="models.unsteady", choices=WHEN, default="auto", key="unsteady", section="models", input="unsteady",
-        title="Unsteady flow",
-        hint="Lift by the flow at three quarters of the chord, and the mass of air that a section moves. By itself "
-        "where blades bend or pitch follows the azimuth at n/rev; or always, or never. | section 5",
-    ),
-    Quantity(
         "elements", "whole", "blade elements (default 40, or 24 panels of a lifting line)",
         key="elements", section="models",
     ),
@@ -366,8 +354,6 @@ SWITCHES = {row.name: row for row in _SWITCHES}
 """Effects that can be switched off, in the order in which a waterfall adds them."""
 OPTIONS = ("bending",)
 """Effects that are off unless they are asked for."""
-CHOSEN = ("unsteady", "dynamic_stall")
-"""Effects that are on by themselves where they count, and may be asked for or taken away."""
 STAND = {row.name: row for row in _STAND}
 """Keys of a test stand. In a study `stand_` stands before the name."""
 LOAD_KEYS = ("thrust_n", "ct_over_sigma", "collective_deg")

@@ -196,10 +196,6 @@ class Quantity:
             words, unit = (self.what, self.symbol and f" {self.symbol}") if self.what else (self.name, "")
             raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: choose a value inside")
 
-    def chosen(self, value: Any) -> Any:
-        """The choice that a value is: true and false are on and off, where these are choices."""
-        return ("on" if value else "off") if isinstance(value, bool) and "on" in self.choices else value
-
     def check_choice(self, value: Any) -> None:
         """ValueError with one sentence for what is none of the choices."""
         if value not in self.choices:

@@ -53,8 +53,6 @@ def make_design(
     airfoils: str | None = None,
     off: str | None = None,
     bending: bool = False,
-    dynamic_stall: str | bool | None = None,
-    unsteady: str | None = None,
     elements: int | None = None,
     azimuths: int | None = None,
     models: Models | None = None,
@@ -84,7 +82,7 @@ def make_design(
         >>> high.condition.altitude, high.twist == design.twist
         (1500.0, True)
     """
-    asked = {"mu": mu, "hover": hover, "bending": bending, "dynamic_stall": dynamic_stall, **flight}
+    asked = {"mu": mu, "hover": hover, "bending": bending, **flight}
     name = preset or (case.preset if case else PRESETS[0])
     check_preset(name)
     aircraft = _aircraft(rotor, case)
@@ -96,7 +94,7 @@ def make_design(
     blades = aircraft.rotor_for(name)
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
-    chosen = {"low_speed": low_speed, "loss_on": loss_on, "unsteady": unsteady, "dynamic_stall": dynamic_stall}
+    chosen = {"low_speed": low_speed, "loss_on": loss_on}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)

@@ -21,7 +21,7 @@ from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve_alike
+from rotor.trim.solve import solve
 from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
@@ -170,7 +170,7 @@ def measure(
     power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
-        solution = solve_alike(replace(design, condition=condition.flight), start, options)
+        solution = solve(replace(design, condition=condition.flight), start, options)
         solutions.append(solution)
         if not solution.converged:
             return Measured(None, tuple(solutions))

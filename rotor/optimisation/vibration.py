@@ -38,7 +38,7 @@ from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.hub_loads import BAND, hub_index, index_of, load_terms, scaled_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve_alike
+from rotor.trim.solve import solve
 
 STEP = math.radians(0.5)
 """Amplitude of the trims that give the second order. Our choice, half of what actuators reach."""
@@ -128,12 +128,12 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
     waves = read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics")
     shaped = with_harmonics(design, waves)
-    base = solve_alike(replace(design, active_twist=None), None).require()
+    base = solve(replace(design, active_twist=None)).require()
     numbers = tuple(wave.per_rev for wave in waves)
     matrix = TMatrix(base, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1)))
     second = np.zeros((*matrix.slopes.shape, matrix.slopes.shape[1]))
     for k, step in enumerate(STEP * np.eye(matrix.slopes.shape[1])):
-        moved = solve_alike(with_harmonics(shaped, matrix.twist(step)), base).require()
+        moved = solve(with_harmonics(shaped, matrix.twist(step)), base).require()
         second[:, :, k] = (_measured(moved, shaped)[1] - matrix.slopes) / STEP
     return replace(matrix, second=0.5 * (second + second.transpose(0, 2, 1)))
 
@@ -253,7 +253,7 @@ def vibration_front(
     matrix = t_matrix(design, harmonics)
     start, front, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
     for x in front_twists(matrix, math.radians(reach_deg), points):
-        solution = solve_alike(with_harmonics(design, matrix.twist(x)), matrix.solution)
+        solution = solve(with_harmonics(design, matrix.twist(x)), matrix.solution)
         power, index = matrix.power_and_index(x)[0].tolist()
         front += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
         lost += not solution.converged
@@ -286,7 +286,7 @@ def _index_with(point: FrontPoint, inflow: str) -> float:
     models = point.design.models
     if inflow == models.inflow:
         return point.index
-    other = solve_alike(replace(point.design, models=replace(models, inflow=inflow)), None)
+    other = solve(replace(point.design, models=replace(models, inflow=inflow)))
     return hub_index(Adjoint(other)) if other.converged else math.nan
 
 
@@ -345,7 +345,7 @@ def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
 def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     """Front of static twist, by searches."""
     here, family = (WeightedCondition(design.condition),), find_concept(concept)
-    start = _trimmed(solve_alike(design, None))
+    start = _trimmed(solve(design))
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
     least = run_search(replace(plain, limits=Limits(index=_ANY)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
@@ -356,7 +356,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
         searches.append(run_search(held, trimmed=trimmed))
         front.append(_best(searches[-1]))
-    trims = [solve_alike(family.apply(design, point.parameters), None) for point in (*front, _best(calm))]
+    trims = [solve(family.apply(design, point.parameters)) for point in (*front, _best(calm))]
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
     words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""

@@ -1,8 +1,8 @@
 """The flight envelope of a rotor: largest load factor and mass over speed, top speed and ceiling, by stall and engines.
 
-A limit by stall is where the solver refuses: nothing balances, or more of the disk is stalled than on any rotor that
-was measured (`rotor.trim.validity.MOST_STALLED`). A limit by engines is where the power of all rotors is that of the
-rotor file, which is of sea level, gearboxes and accessories left out; so it is an upper bound.
+A limit by stall is where the solver refuses: nothing balances, or stalled sections carry more of the thrust than on any
+rotor that was measured (`rotor.trim.validity.MOST_STALLED`). A limit by engines is where the power of all rotors is
+that of the rotor file, which is of sea level, gearboxes and accessories left out; so it is an upper bound.
 
 The largest mass needs no search: n times the weight of one mass is the weight of n times the mass, at the same drag.
 """
@@ -237,8 +237,8 @@ def reach(
         return known[value]
 
     def stall(value: float) -> float:
-        """Part of the disk that may stall before the solver refuses, never zero."""
-        here, left = trim(value), MOST_STALLED - trim(value).stalled_area
+        """Part of the thrust that may stall before the solver refuses, never zero."""
+        here, left = trim(value), MOST_STALLED - trim(value).stalled_thrust
         return max(left, _EDGE) if here.converged else left if left < -_EDGE else _NO_TRIM
 
     def power(value: float) -> float:

@@ -23,7 +23,7 @@ from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft, told
 from rotor.design.design import Design, check_preset, preset_models
-from rotor.design.quantities import ARGUMENTS, CHOSEN, OPTIONS, STAND, SWITCHES
+from rotor.design.quantities import ARGUMENTS, OPTIONS, STAND, SWITCHES
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation.concepts import Concept, restrict
@@ -145,7 +145,7 @@ def _weights(steps: Array) -> Array:
 
 
 _GRID = ("elements", "azimuths")
-_MODELS = ("inflow", *SWITCHES, *OPTIONS, *CHOSEN, *_GRID)
+_MODELS = ("inflow", *SWITCHES, *OPTIONS, *_GRID)
 """Quantities that are fields of `Models`."""
 _ARGUMENTS = tuple(name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS))
 """Quantities that are arguments of `make_design`."""

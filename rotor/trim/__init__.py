@@ -5,7 +5,6 @@ from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import deflections, hub_loads, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess
 from rotor.trim.solution import DiskFields, HubLoads
-from rotor.trim.solve import at_rest
 from rotor.trim.stability import stability_boundary
 
 __all__ = (
@@ -15,7 +14,6 @@ __all__ = (
     "Guess",
     "HubLoads",
     "PitchGradient",
-    "at_rest",
     "deflections",
     "hub_loads",
     "power_gradient",

@@ -233,7 +233,7 @@ def _nothing_else(measure: Measure) -> bool:
 
 def _linearised(solution: Solution) -> LinearisedTrim:
     """The equations at a solution that came without them, from another process."""
-    problem = trim_problem(solution.trimmed_design, solution.freedoms)
+    problem = trim_problem(solution.design, solution.freedoms)
     if solution.design.hovering:
         return hover(problem, solution.start).linear
     system = flight_system(problem)

@@ -8,7 +8,6 @@ Inputs are wrong independently of one another, so their changes are summed as sq
 import math
 from dataclasses import dataclass, replace
 
-from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
 from rotor.trim.analysis import Analysis, analysed
@@ -220,7 +219,6 @@ def other_models(design: Design) -> dict[str, Design]:
     if structure is not None and structure.bends and models.flapping:
         name = "rigid in bending" if models.bending else "bending"
         designs[name] = replace(design, models=replace(models, bending=not models.bending))
-    if not models.document_losses:
-        turned = "off" if build_problem(design).unsteady else "on"
-        designs[f"unsteady flow {turned}"] = replace(design, models=replace(models, unsteady=turned))
+    if models.has("unsteady"):
+        designs["unsteady flow off"] = replace(design, models=replace(models, unsteady=False))
     return designs

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
 
-from rotor.aero.display import stalled_area
+from rotor.aero.display import stalled_parts
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
@@ -109,8 +109,8 @@ def trim(
 ) -> TrimResult:
     """Trim a forward-flight problem from a guess, or from simple estimates.
 
-    Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as no more than
-    `most_stalled` of the disk is stalled.
+    Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as stalled sections
+    carry no more than `most_stalled` of the thrust.
     """
     passes = 0
     best: TrimResult | None = None
@@ -144,7 +144,7 @@ def trim_along(
 
 def linear_problem(design: Design) -> Problem:
     """The design with a linear inflow and steady sections."""
-    models = replace(design.models, inflow=LINEAR, dynamic_stall="off", unsteady="off")
+    models = replace(design.models, inflow=LINEAR, dynamic_stall=False, unsteady=False)
     return build_problem(replace(design, models=models))
 
 
@@ -258,7 +258,7 @@ def _continue(
         result = newton(near, replace(latest[1].guess, state=state, factors=None), following)
         passes += result.passes
         follows = result.converged and not _hangs_under_its_wake(near, result)
-        if follows and (ahead == 1.0 or stalled_area(near, result.linear.elements) <= most_stalled):
+        if follows and (ahead == 1.0 or stalled_parts(near, result.linear.elements)[1] <= most_stalled):
             before, latest, t = latest, (ahead, result), ahead
             step *= 1.7
         else:

@@ -231,8 +231,6 @@ class Solution:
     """None for a blade that is rigid in torsion."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
-    redone: bool = False
-    """Whether the trim was redone with dynamic stall, for with steady sections too much of the disk was stalled."""
     wake_course: WakeCourse | None = None
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
@@ -246,12 +244,6 @@ class Solution:
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None, structure=None)}
-
-    @property
-    def trimmed_design(self) -> Design:
-        """The design with dynamic stall on where the trim was redone with it: what was trimmed."""
-        models = self.design.models
-        return replace(self.design, models=replace(models, dynamic_stall="on")) if self.redone else self.design
 
     def without_linear(self) -> "Solution":
         """This solution without its linearisation, 0.7 MB less: for many that are kept as starts."""

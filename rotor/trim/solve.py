@@ -4,13 +4,13 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 
 from scipy.optimize import brentq
 
-from rotor.aero.display import areas, as_asked, stalled_area, unsteady_part
+from rotor.aero.display import areas, as_asked, stalled_parts, unsteady_part
 from rotor.aero.elements import BladeElements
-from rotor.aero.problem import Problem, build_problem
+from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
 from rotor.aero.unsteady_section import apparent
 from rotor.blas_threads import one_blas_thread
@@ -26,25 +26,14 @@ from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
-from rotor.trim.validity import (
-    MOST_STALLED,
-    REDONE,
-    REDONE_SHARE,
-    Trimmed,
-    caveats,
-    failure_sentence,
-    implausible,
-    stalled_sentence,
-)
+from rotor.trim.validity import MOST_STALLED, Trimmed, caveats, failure_sentence, implausible, stalled_sentence
 
 _WITHIN = 0.02
 """How near the largest mass and speed are found, as a part of the way to them."""
 _NO_TRIM = 2.0 * MOST_STALLED
-"""Stalled part of the disk that stands for no trim there."""
+"""Stalled part of the thrust that stands for no trim there."""
 _SLOW = 0.15
 """Advance ratio from which the largest speed is looked for: the least power is near it."""
-SUSPECT_STALL = 0.25
-"""Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
 
 _ENERGY = 1e-6
 """Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
@@ -83,89 +72,27 @@ def solve(
     """
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
-    solution = _once(require_design(design), start, options, freedoms)
-    if not _redoes(solution) or options.asked_to_stop:
-        return _refused(solution, options)
-    models = replace(design.models, dynamic_stall="on")
-    again = _once(replace(design, models=models), solution if solution.converged else start, options, freedoms)
-    again = replace(again, passes=solution.passes + again.passes, elapsed=solution.elapsed + again.elapsed)
-    said = (REDONE, *again.caveats) if again.converged else ()
-    again = replace(again, design=design, redone=True, caveats=said)
-    if solution.converged and not again.converged and solution.stalled_area <= MOST_STALLED:
-        return _least_of_branches(solution, MOST_STALLED, options)
-    return _refused(again, options)
-
-
-def solve_alike(
-    design: Design,
-    start: Solution | Guess | None,
-    options: SolverOptions = DEFAULT_OPTIONS,
-    *,
-    like: Design | None = None,
-) -> Solution:
-    """`solve` with dynamic stall where the rotor of `like` with its own twist, at rest, has it; None: that of `design`.
-
-    So all twists that are compared have one model, and power has no step between them.
-    """
-    if design.models.dynamic_stall != "auto" or design.hovering:
-        return solve(design, start, options)
-    like = design if like is None else like
-    redone = _built_stalls(replace(like, twist=like.rotor.builtin_twist, active_twist=None, pitch_per_rev=()))
-    models = replace(design.models, dynamic_stall="on" if redone else "off")
-    return replace(solve(replace(design, models=models), start, options), design=design, redone=redone)
-
-
-@lru_cache(maxsize=64)
-def _built_stalls(design: Design) -> bool:
-    return solve(design).redone
-
-
-def in_flow_of(other: Design, design: Design) -> Design:
-    """A design whose attached flow is unsteady where that of the other is so by itself.
-
-    Without it the flow of a blade that does not bend is steady without n/rev and unsteady with the least of it, which
-    moves power by 0.1 to 0.3 %.
-    """
-    if design.models.unsteady != "auto" or not build_problem(other).unsteady or build_problem(design).unsteady:
-        return design
-    return replace(design, models=replace(design.models, unsteady="on"))
-
-
-def at_rest(design: Design) -> Design:
-    """The design without pitch and twist at n/rev, in the flow that it has with them: what n/rev is compared with."""
-    return in_flow_of(design, replace(design, active_twist=None, pitch_per_rev=())) if design.pitch_waves else design
-
-
-def _may_redo(problem: Problem) -> bool:
-    """Whether a trim with steady sections may be redone with dynamic stall."""
-    open_to = problem.design.models.dynamic_stall == "auto" and not problem.design.hovering
-    return open_to and problem.stall is None and problem.inflow.pointwise and problem.disk.fit_range is None
-
-
-def _redoes(solution: Solution) -> bool:
-    """Whether a trim with steady sections is redone with dynamic stall."""
-    may = solution.linear is not None and _may_redo(solution.linear.problem) and not vortex_ring(solution.design)
-    return may and (solution.stalled_area > REDONE_SHARE or not solution.converged)
+    return _refused(_once(require_design(design), start, options, freedoms), options)
 
 
 def _limit(problem: Problem) -> float:
-    """Stalled part of the disk as far as which trims of easier conditions are followed: beyond it they do not count."""
-    if problem.disk.fit_range is not None or problem.design.models.document_losses:
-        return math.inf
-    return REDONE_SHARE if _may_redo(problem) else MOST_STALLED
+    """Stalled part of the thrust beyond which trims do not count."""
+    by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
+    return math.inf if by_document else MOST_STALLED
 
 
 def _refused(solution: Solution, options: SolverOptions) -> Solution:
-    """The solution, without power where more of the disk is stalled than on any rotor that was measured."""
-    limited = solution.linear is not None and _limit(solution.linear.problem) < math.inf
-    if not limited or not solution.converged or solution.design.hovering or solution.stalled_area <= MOST_STALLED:
+    """The solution, without power where stalled sections carry more of the thrust than on rotors that were measured."""
+    if solution.linear is None or not solution.converged or solution.design.hovering:
         return solution
-    sentence = stalled_sentence(solution.design, solution.stalled_area, *_largest(solution, options))
+    if solution.stalled_thrust <= _limit(solution.linear.problem):
+        return solution
+    sentence = stalled_sentence(solution.design, solution.stalled_thrust, *_largest(solution, options))
     return replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
 
 
 def _largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:
-    """Mass and advance ratio to which the trim can be followed with no more of the disk stalled; None where not."""
+    """Mass and advance ratio to which the trim can be followed with no more of the thrust stalled; None where not."""
     condition = solution.design.condition
     if condition.stand is not None:
         return None, None
@@ -181,24 +108,24 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
     freedoms, few = solution.freedoms, replace(options, max_passes=FOLLOWING_PASSES)
 
     def problem_at(value: float) -> Problem:
-        return trim_problem(CONDITION[name].put(solution.trimmed_design, value), freedoms)
+        return trim_problem(CONDITION[name].put(solution.design, value), freedoms)
 
     if easy >= wanted:
         return None
     result = trim_on_course(problem_at(easy), None, options)
-    if not result.converged or stalled_area(result.problem, result.linear.elements) > MOST_STALLED:
+    if not result.converged or stalled_parts(result.problem, result.linear.elements)[1] > MOST_STALLED:
         return None
     trims = {easy: result}
 
     def too_much(value: float) -> float:
-        """Stalled part of the disk over what counts; what is wanted has too much, and so has what does not trim."""
+        """Stalled part of the thrust over what counts; what is wanted has too much, and so has what does not trim."""
         near = trims[max(trims)]
         if value == easy:
-            return stalled_area(near.problem, near.linear.elements) - MOST_STALLED
+            return stalled_parts(near.problem, near.linear.elements)[1] - MOST_STALLED
         if value == wanted or options.asked_to_stop:
             return _NO_TRIM - MOST_STALLED
         ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
-        share = stalled_area(ahead.problem, ahead.linear.elements) if ahead.converged else _NO_TRIM
+        share = stalled_parts(ahead.problem, ahead.linear.elements)[1] if ahead.converged else _NO_TRIM
         if share <= MOST_STALLED:
             trims[value] = ahead
         return share - MOST_STALLED
@@ -210,7 +137,7 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
 def _once(
     design: Design, start: Solution | Guess | None, options: SolverOptions, freedoms: Sequence[Freedom]
 ) -> Solution:
-    """The trim with dynamic stall only where it is on."""
+    """The trim of least power, however much is stalled."""
     begin = time.perf_counter()
     problem = trim_problem(design, freedoms)
     if freedoms:
@@ -224,11 +151,8 @@ def _once(
         hover(problem, guess, options) if design.hovering else trim_on_course(problem, guess, options, _limit(problem))
     )
     solution = _assemble(result, begin)
-    return (
-        _least_of_branches(solution, _limit(problem), options)
-        if _may_be_of_another_branch(solution, result)
-        else solution
-    )
+    other_branch = _may_be_of_another_branch(solution, result)
+    return _least_of_branches(solution, _limit(problem), options) if other_branch else solution
 
 
 def _least_of_branches(solution: Solution, most_stalled: float, options: SolverOptions) -> Solution:
@@ -251,7 +175,7 @@ def _may_be_of_another_branch(solution: Solution, result: TrimResult) -> bool:
     Free of charge for every other design.
     """
     flight = not solution.design.hovering and solution.design.condition.stand is None
-    return flight and result.converged and (solution.stalled_area > SUSPECT_STALL or not solution.converged)
+    return flight and result.converged and (solution.stalled_thrust > MOST_STALLED or not solution.converged)
 
 
 def _guess(design: Design, earlier: Solution) -> Guess | None:
@@ -369,4 +293,4 @@ def _stalled(result: TrimResult, last: float) -> float:
     """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
     if result.nearest is None:
         return last
-    return stalled_area(*as_asked(result.nearest.problem, result.nearest.linear.elements))
+    return stalled_parts(*as_asked(result.nearest.problem, result.nearest.linear.elements))[0]

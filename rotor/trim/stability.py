@@ -207,7 +207,7 @@ def linearised(given: Design | Solution) -> LinearisedTrim:
     if isinstance(given, Solution):
         solution = given.require()
         if solution.linear is None:  # It came from another process.
-            solution = solve(solution.trimmed_design, solution).require()
+            solution = solve(solution.design, solution).require()
     else:
         solution = solve(given).require()
     assert solution.linear is not None

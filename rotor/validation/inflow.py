@@ -149,7 +149,7 @@ def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> A
 
     height: over R. The disk of the test is normal to the shaft: the rotor is trimmed without flapping.
     """
-    terms, circulation = trim_problem(solution.trimmed_design).inflow_terms, solution.start.inflow
+    terms, circulation = trim_problem(solution.design).inflow_terms, solution.start.inflow
     assert isinstance(terms, LiftingLineTerms)
     assert circulation is not None
     above = np.full_like(measured.r, solution.controls.coning + height)

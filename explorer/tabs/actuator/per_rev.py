@@ -37,7 +37,7 @@ from rotor.optimisation.vibration import TMatrix, front_twists, with_harmonics
 from rotor.trim import why_no_hub_loads
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import BAND, hub_index, index_gains
-from rotor.trim.solve import solve_alike
+from rotor.trim.solve import solve
 
 HARMONICS = (2, 3, 4, 5)
 """Harmonics of the dial: those at which four blades pass vibration on to the hub, and 2/rev, which saves power."""
@@ -137,7 +137,7 @@ def dial_answer(design: Design, reference: Design, losses: Sequence[float], reac
     for inflow in dict.fromkeys((design.models.inflow, *BAND)):
         flown, still = (replace(one, models=replace(design.models, inflow=inflow)) for one in (design, reference))
         try:
-            matrix, other = t_matrix(flown, HARMONICS), solve_alike(still, None).require()
+            matrix, other = t_matrix(flown, HARMONICS), solve(still).require()
         except RuntimeError:
             if inflow == design.models.inflow:
                 raise
