@@ -203,7 +203,7 @@ def models_beside(design: Design, against: Design | None = None) -> tuple[OtherM
 
 
 def other_models(design: Design) -> dict[str, Design]:
-    """The design with one model changed, by name: another wake, blades that bend or do not, and unsteady flow.
+    """The design with one model changed, by name: another wake, blades that bend or do not, and steady flow.
 
     In hover the other wake is the lifting line, at the least speed that it has.
     """
@@ -220,7 +220,6 @@ def other_models(design: Design) -> dict[str, Design]:
     if structure is not None and structure.bends and models.flapping:
         name = "rigid in bending" if models.bending else "bending"
         designs[name] = replace(design, models=replace(models, bending=not models.bending))
-    if not models.document_losses:
-        turned = "off" if build_problem(design).unsteady else "on"
-        designs[f"unsteady flow {turned}"] = replace(design, models=replace(models, unsteady=turned))
+    if build_problem(design).unsteady:
+        designs["unsteady flow off"] = replace(design, models=replace(models, unsteady="off"))
     return designs
