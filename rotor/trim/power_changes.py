@@ -23,6 +23,7 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
 from rotor.trim.adjoint import Adjoint
+from rotor.trim.low_speed import hover_share
 from rotor.trim.power import outside_power, tail_power
 from rotor.trim.solution import Solution
 
@@ -152,8 +153,8 @@ def _times(values: tuple[float, ...], factor: float) -> tuple[float, ...]:
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
     if problem.design.hovering or not problem.inflow.fine_tip:
         return None
-    course = problem.course
-    return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * amount)))
+    course, part = problem.course, 1.0 - hover_share(problem.design)  # The hover model has no such wake.
+    return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * part * amount)))
 
 
 def _tip_loss(problem: Problem, amount: float) -> Problem | None:

@@ -126,6 +126,12 @@ def test_a_wake_in_flight_is_that_of_hover_by_the_skew_of_momentum_theory():
         assert (np.diff(parts) < 0.0).all()
 
 
+def test_the_band_of_slow_flight_is_that_of_hover():
+    """The wake of forward flight counts as far as hover's model does not, and the tip loss is of hover alone."""
+    hover, slow = (doubt(rotor.solve(rotor.make_design(mu=mu)).require()) for mu in (0.0, 0.005))
+    assert slow.band == pytest.approx(hover.band, rel=0.02)
+
+
 @pytest.mark.parametrize(("unsteady", "beside"), [("on", True), ("off", False)])
 def test_steady_flow_stands_beside_unsteady_flow_alone(unsteady: str, beside: bool):
     models = other_models(rotor.make_design(mu=0.2, unsteady=unsteady, dynamic_stall="off"))
