@@ -5,14 +5,12 @@ continued between the azimuths by their Fourier series and the section is evalua
 interpolated, and reverse flow, stall and drag rise begin where they would if the trim were solved there.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from rotor.aero.bent_section import turned
 from rotor.aero.disk import Disk
-from rotor.aero.dynamic_stall import SEPARATION, VORTEX
 from rotor.aero.elements import (
     FLOW_FIELDS,
     SECTION_FIELDS,
@@ -25,8 +23,6 @@ from rotor.aero.elements import (
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
-from rotor.aero.stalling_section import StallingData, added_to
-from rotor.aero.unsteady_section import at_three_quarters
 from rotor.arrays import Array, read_only
 from rotor.engine.waves import wave_grid
 
@@ -100,39 +96,14 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     return f, s, bends
 
 
-@dataclass(frozen=True, eq=False)
-class Unsteady:
-    """What dynamic stall does at the blade elements, (elements, azimuths) each."""
-
-    separation: Array
-    """f″: where the flow leaves the upper surface, over the chord; 1 attached, 0 separated from the leading edge."""
-    vortex: Array
-    """C_nᵛ, the normal force of the vortex that leaves a stalled leading edge."""
-    moment: Array
-    """What is added to C_m."""
-
-
-def unsteady_part(problem: Problem, elements: BladeElements) -> Unsteady | None:
-    """What unsteady sections show of the elements of a problem; None where sections are steady."""
-    if problem.stall is None:
-        return None
-    e = elements
-    c = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate))
-    c = c if e.bent is None else turned(np.concatenate([c, e.bent.channels]), len(c))
-    c = at_three_quarters(c, problem.half_chord) if problem.unsteady else c
-    added, states = added_to(c, StallingData(problem.section_data(), problem.stall))
-    return Unsteady(states[SEPARATION], states[VORTEX], added[2])
-
-
-def areas(
-    disk: Disk, elements: BladeElements, stall_margin: Array, unsteady: Unsteady | None = None
-) -> tuple[float, float, float]:
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
     """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
     angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
     """
+    unsteady = elements.unsteady
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
         beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
@@ -157,7 +128,7 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
     """Stalled parts of πR² and of the thrust, on the azimuths of the problem."""
     disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
-    return areas(disk, e, margin, unsteady_part(problem, e))[1:]
+    return areas(disk, e, margin)[1:]
 
 
 @lru_cache(maxsize=16)

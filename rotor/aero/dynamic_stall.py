@@ -42,7 +42,7 @@ FULL, GONE = math.radians(25.0), math.radians(50.0)
 """Angles from zero lift up to which, and from which nothing of, the unsteady part counts."""
 _GATE = 0.04
 _ARM = 0.2
-_LEAST_FINE = 96
+_LEAST_FINE = 48
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel."""
 _LONGEST = 40.0
 """Step over a lag time that leaves nothing of what was before."""

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, STATES, StallData, follow, window
+from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, window
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
 from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack
@@ -106,6 +106,11 @@ def added_to(c: Array, data: StallingData) -> tuple[Array, Array]:
     return out, states
 
 
+def _with_shown(flow: Array, states: Array, added: Array) -> Array:
+    """The flow with the fields of `rotor.aero.elements.Unsteady`."""
+    return np.concatenate([flow, states[[SEPARATION, VORTEX]], added[2:]])
+
+
 def _memory(c: Array, data: StallingData, forces: int) -> Memory:
     """How forces follow what is added, with the inputs around the azimuth."""
     section = data.section
@@ -130,7 +135,9 @@ def stalling(inner: SectionInterface) -> SectionInterface:
     """The interface of a section with dynamic stall; partial derivatives are those at what is added."""
 
     def section(c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        return inner.section(c, data.section._replace(added=added_to(c, data)[0]), slopes, flow)
+        added, states = added_to(c, data)
+        f, d, s = inner.section(c, data.section._replace(added=added), slopes, flow)
+        return f, d, _with_shown(s, states, added) if flow else s
 
     def memory(c: Array, data: StallingData) -> Memory:
         return _memory(c, data, inner.forces)

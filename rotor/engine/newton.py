@@ -88,7 +88,8 @@ class NewtonLimits:
     most_steps_on_few: float = 2.0
     """Most steps with derivatives on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
-    """Factors are kept for the next solution where the last step left less than this part of the residual."""
+    """Factors are kept for the next solution where a step with them left, on average, at most this part of the
+    residual: those from far off close a solution too, but in twice as many steps, and so they would the next ones."""
 
 
 DEFAULT_LIMITS = NewtonLimits()
@@ -102,7 +103,7 @@ class Solved:
     passes: int
     """Evaluations of the equations."""
     factors: Factors | None
-    """Factors of the last step, where they left little of the residual."""
+    """Factors of the last step, where they serve the next solution."""
 
 
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
@@ -177,8 +178,10 @@ class _Steps:
     def __init__(self, system: System, factors: Factors | None, limits: NewtonLimits, passes: int = 0) -> None:
         self.passes = passes
         self.latest = factors
-        self.serving = False
-        """Whether the last step left little of the residual."""
+        self.serving = factors is not None
+        """Whether the steps with the latest factors left little of the residual."""
+        self._steps, self._before = 0, 1.0
+        """Steps with these, and the residual before them."""
         self._system, self._limits = system, limits
         self._corrected = _Corrected(factors) if factors is not None else None
 
@@ -210,7 +213,10 @@ class _Steps:
                 part *= 0.5
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
-            self.serving = trial.size <= limits.kept_ratio * point.size
+            if fresh or not self._steps:
+                self._steps, self._before = 0, point.size
+            self._steps += 1
+            self.serving = trial.size <= limits.kept_ratio**self._steps * self._before
             if _steps_left(trial.size, point.size, goal) > most_steps:
                 self._corrected = None
             expected = trial.size * min(trial.size / point.size, 1.0)
