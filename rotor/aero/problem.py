@@ -12,8 +12,9 @@ from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_
 from rotor.aero.bent_section import BentData, bent
 from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
+from rotor.aero.elastic import HARMONICS as TORSION_HARMONICS
 from rotor.aero.elastic import MODES as TORSION_MODES
-from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
+from rotor.aero.elastic import BladeTorsion, build_torsion
 from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import WakeCourse, tip_core
@@ -163,7 +164,7 @@ def build_problem(design: Design) -> Problem:
     torsion = bending = None
     if models.bending and models.flapping and not design.hovering and can_bend(rotor):
         bending = build_bending(rotor, disk, condition.density, MODES, BENDING_HARMONICS, REFERENCE_COLLECTIVE)
-    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
+    highest = TORSION_HARMONICS if bending is None else BENDING_HARMONICS
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(rotor, disk, condition.density, only_mach, swept, highest, TORSION_MODES)
     stall = _stall_data(design, disk, inflow)

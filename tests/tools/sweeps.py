@@ -28,7 +28,7 @@ STEPS = {
     "altitude_m": (0.0, 4000.0, 50.0), "climb_m_s": (-10.0, 10.0, 0.2), "rotor_speed_percent": (110.0, 70.0, -0.5),
     "load_factor": (0.5, 2.0, 0.0125),
 }  # fmt: skip
-"""Sliders of the page, each from its easy end in its steps; the mass over that of the aircraft, the twist linear [°/R]."""
+"""Sliders of the page, each from its easy end in its steps; mass over that of the aircraft, twist linear [°/R]."""
 _ENOUGH = 6
 """Refusals in a row after which a sweep ends."""
 
