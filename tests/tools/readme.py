@@ -21,7 +21,7 @@ SHORT = {
     "knight-hefner-4": "four",
     "hart2-airloads": "HART II airloads, correlation",
     "gazelle-airloads": "Gazelle airloads, correlation",
-    "flown-power": "Bo 105 power, shape",
+    "flown-power": "Gazelle power, shape",
     "glasgow-loops": "pitching aerofoil, C_m",
     "sc1095": "SC1095 drag",
     "theory": "theory",
