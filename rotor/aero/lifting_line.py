@@ -428,7 +428,7 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Arr
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
-    """To be added to A between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
+    """To be added to A/D between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
     n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths
     share = _outboard(line, course)
@@ -437,7 +437,7 @@ def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) ->
         whole = (1.0 / theodorsen(n * half_chord[i] / r) - 1.0) / (2.0 * math.pi * half_chord[i])
         beyond = np.zeros_like(whole)  # Further back than the shed lines reach.
         beyond[1:] = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
-        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n))
+        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n) / course.mass_flow)
         missing[0] = 0.0
         out[i] = (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[back]
     return out
