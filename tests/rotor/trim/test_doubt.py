@@ -101,8 +101,8 @@ def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
     assert power_changes(Adjoint(here))["section_drag_percent"] == pytest.approx(share, rel=0.12)
 
 
-def test_with_dynamic_stall_and_bending_the_rows_are_those_of_new_trims(patch: Patch):
-    options = {"mu": 0.3, "bending": True, "dynamic_stall": True}
+def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
+    options = {"mu": 0.3, "bending": True}
     found = power_changes(Adjoint(rotor.solve(rotor.make_design(**options)).require()))
     ends: list[float] = []
     for sign in (1.0, -1.0):
