@@ -207,8 +207,8 @@ def main() -> int:
     whole, attached, plain = (f"{100 * one:.2f} %" for one in shares)
     alone = sum(one.kind == "trimmed" and one.alone for one in outcomes) / max(kinds["trimmed"], 1)
     print(
-        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter of the thrust from stalled sections, {plain} of level flight; "
-        f"no other trim was looked for in {100 * alone:.2f} %"
+        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter of the thrust from stalled "
+        f"sections, {plain} of level flight; no other trim was looked for in {100 * alone:.2f} %"
     )
     for one in outcomes:
         if one.kind not in RIGHT or one.kind == "in deep stall":
