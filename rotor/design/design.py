@@ -54,17 +54,8 @@ VERSION = 2
 
 
 BEYOND_DOCUMENT = (
-    *(
-        "elastic_twist",
-        "unsteady",
-        "dynamic_stall",
-        "surface_drag",
-        "swept_tip",
-        "radial_friction",
-        "swirl",
-        "download",
-    ),
-)
+    "elastic_twist", "unsteady", "dynamic_stall", "surface_drag", "swept_tip", "radial_friction", "swirl", "download",
+)  # fmt: skip
 """Switches of `Models` for effects that the document does not have."""
 
 

@@ -110,7 +110,7 @@ UNSTEADY = ("Separation point", "Stall vortex cn")
 
 class TestDynamicStall:
     def test_its_fields_and_regions_are_what_the_section_does(self):
-        solution = solve(make_design(mu=0.35, mass_kg=9500.0, dynamic_stall=True)).require()
+        solution = solve(make_design(mu=0.35, mass_kg=9500.0)).require()
         separation, vortex = (field_values(solution, FIELDS[title]) for title in UNSTEADY)
         assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
         assert 0.02 < vortex.max() < 1.0

@@ -69,8 +69,8 @@ def random_inputs(chance: random.Random) -> Inputs:
         bending=chance.random() < 0.3,
         rotor_speed_percent=chance.choice((100.0, chance.randint(70, 110))),
         load_factor=chance.choice((1.0, chance.randint(10, 16) / 10.0)),
-        unsteady=chance.choice(("auto", "auto", "on", "off")),
-        dynamic_stall=chance.choice(("auto", "auto", "on", "off")),
+        unsteady=chance.random() < 0.8,
+        dynamic_stall=chance.random() < 0.8,
     )
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)

@@ -248,7 +248,7 @@ class TestRide:
 
 @pytest.fixture(scope="module")
 def stalled() -> Solution:
-    return solve(make_design(mu=0.35, mass_kg=9500.0, dynamic_stall=True)).require()
+    return solve(make_design(mu=0.35, mass_kg=9500.0)).require()
 
 
 class TestDynamicStall:

@@ -27,7 +27,7 @@ TILTED = {"ct_over_sigma": 0.07, "shaft_tilt_deg": -4.0}
 DESIGNS: tuple[dict[str, Any], ...] = (
     {"mu": 0.3, "bending": True, "altitude_m": 3000.0}, {"mu": 0.3, "bending": True},
     {"mu": 0.3, "bending": True, "inflow": "pitt-peters", "altitude_m": 3000.0},
-    {"mu": 0.34, "mass_kg": 9000.0, "dynamic_stall": True}, {"hover": True, "preset": "thesis"},
+    {"mu": 0.34, "mass_kg": 9000.0}, {"hover": True, "preset": "thesis"},
     {"mu": 0.2, "trim": "wind-tunnel", "stand": TILTED}, {"mu": 0.25, "rotor": "gazelle"},
     {"mu": 0.25, "pitch_per_rev": "2:1:90,3:0.5:180"}, {"mu": 0.2, "climb_m_s": -4.0},
 )  # fmt: skip

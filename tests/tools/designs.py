@@ -29,11 +29,10 @@ from rotor.trim.hover import _error
 from rotor.trim.newton import DEFAULT_OPTIONS, _errors
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.trim.validity import MOST_STALLED
 
 SAME = 1e-6
 """Largest relative difference of power between a cold and a warm start."""
-BEYOND = 0.25
-"""Part of the disk beyond which a rotor may balance in more than one way: `rotor.trim.solve.SUSPECT_STALL`."""
 TRIMMABLE = 0.08, 0.40
 """C_W/σ and µ within which level flight must trim from the first attempt: see tests/rotor/trim/test_robustness.py."""
 
@@ -93,11 +92,11 @@ class Outcome:
     first: bool = True
     """The first attempt finds the trim: no other start, continuation or branch is needed."""
     alone: bool = True
-    """Nor was one looked for, as it is where much of the disk is stalled."""
+    """Nor was one looked for, as it is where stalled sections carry much of the thrust."""
     plain: bool = False
     """Level flight within `TRIMMABLE`."""
     stalled: float = 0.0
-    """Part of the disk, of the solution or where it ended."""
+    """Part of the thrust from stalled sections, of the solution or where it ended."""
 
 
 def try_design(asked: dict[str, Any]) -> Outcome:
@@ -114,11 +113,11 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     alone, plain = not tries, _plain(design)
     first = alone or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
     if wrong := _wrong(solution):
-        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_area)
+        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_thrust)
     mu = design.condition.advance_ratio
     neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
     warm = solve(design, neighbour)
-    stalled = max(solution.stalled_area, warm.stalled_area)
+    stalled = max(solution.stalled_thrust, warm.stalled_thrust)
     kind, said = "trimmed", ""
     if solution.converged != warm.converged:
         kind = "at the limit" if "of the disk is stalled" in solution.message else "other status"
@@ -126,7 +125,7 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     elif not solution.converged:
         kind, said = "refused", solution.message
     elif not _same(solution, warm):
-        kind = "in deep stall" if stalled > BEYOND else "other power"
+        kind = "in deep stall" if stalled > MOST_STALLED else "other power"
         said = f"cold {solution.last_power.main_rotor:.3f} W, warm {warm.last_power.main_rotor:.3f} W"
     return Outcome(asked, kind, said, first, alone, plain, stalled)
 
@@ -204,12 +203,12 @@ def main() -> int:
     outcomes = run(args.count, args.seed)
     kinds = Counter(one.kind for one in outcomes)
     print(f"{args.count} designs in {time.perf_counter() - begin:.0f} s: {dict(kinds)}")
-    shares = [share(outcomes), share(outcomes, below=BEYOND), share(outcomes, plain=True)]
+    shares = [share(outcomes), share(outcomes, below=MOST_STALLED), share(outcomes, plain=True)]
     whole, attached, plain = (f"{100 * one:.2f} %" for one in shares)
     alone = sum(one.kind == "trimmed" and one.alone for one in outcomes) / max(kinds["trimmed"], 1)
     print(
-        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter stalled, {plain} of level flight; "
-        f"no other trim was looked for in {100 * alone:.2f} %"
+        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter of the thrust from stalled "
+        f"sections, {plain} of level flight; no other trim was looked for in {100 * alone:.2f} %"
     )
     for one in outcomes:
         if one.kind not in RIGHT or one.kind == "in deep stall":

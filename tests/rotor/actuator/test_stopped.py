@@ -16,8 +16,8 @@ PLAIN: dict[str, Any] = {
     "azimuths": 48,
     "mu": 0.25,
     "twist": "linear:-10",
-    "dynamic_stall": "off",
-    "off": "compressibility,tip-loss,hub-loss,elastic-twist,surface-drag,swirl,swept-tip,download",
+    "off": "unsteady,dynamic-stall,compressibility,tip-loss,hub-loss,elastic-twist,surface-drag,swirl,swept-tip,"
+    "download",
 }
 
 

@@ -34,8 +34,8 @@ def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Proble
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_velocities_and_loads_by_the_formulas(preset: str):
-    """Eqs. (3.5)–(3.12) written out in plain NumPy at one state, reverse flow included."""
-    p = problem(preset)
+    """Eqs. (3.5)–(3.12), of steady flow, written out in plain NumPy at one state, reverse flow included."""
+    p = problem(preset, unsteady=False, dynamic_stall=False)
     point, elements = point_at(p, STATE), elements_at(p, STATE)
     disk, mu = p.disk, 0.3
     r, psi = disk.r[:, None], disk.psi[None, :]

@@ -144,7 +144,7 @@ def test_reverse_flow_has_no_lag_and_the_moment_of_its_own_nose() -> None:
 
 @pytest.mark.parametrize("bends", [False, True])
 def test_derivatives_are_exact(bends: bool) -> None:
-    problem = build_problem(make_design(mu=0.3, unsteady="on", bending=bends, inflow="pitt-peters"))
+    problem = build_problem(make_design(mu=0.3, bending=bends, inflow="pitt-peters", off="dynamic-stall"))
     data, interface = problem.grid_data(1), problem.interface
     rng = np.random.default_rng(3)
     c = 0.05 * rng.normal(size=(interface.channels, *problem.disk.shape))
@@ -166,7 +166,7 @@ def test_derivatives_are_exact(bends: bool) -> None:
 
 def test_rates_of_a_trim_are_those_of_its_motion() -> None:
     """θ'' and the rates of U_T and U_P are the Fourier derivatives of the channels, but for the inflow in U_P."""
-    design = make_design(mu=0.3, unsteady="on", inflow="uniform", pitch_per_rev="3:1:60", off="tip-loss,hub-loss")
+    design = make_design(mu=0.3, inflow="uniform", pitch_per_rev="3:1:60", off="tip-loss,hub-loss")
     e = solve(design).require().linear
     assert e is not None
     rates, waves = e.elements.rates, np.fft.rfftfreq(120, 1.0 / 120)

@@ -169,7 +169,7 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        (["--twist", "linear:-40"], "built with about 20"),
+        (["--twist", "linear:-30"], "built with about 20"),
         (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "one of data, not of airfoils"),
     ],
 )

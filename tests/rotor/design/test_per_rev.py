@@ -127,7 +127,7 @@ def test_what_the_models_leave_out_is_said():
 
     assert not {"fast-pitch", "control-power"} & set(names(solve(make_design(mu=0.2, pitch_per_rev="3:1:180"))))
     assert "fast-pitch" not in names(solve(make_design(mu=0.2, pitch_per_rev="5:3:0")))
-    solution = solve(make_design(mu=0.2, pitch_per_rev="5:3:0", unsteady="off"))
+    solution = solve(make_design(mu=0.2, pitch_per_rev="5:3:0", off="unsteady"))
     assert {"fast-pitch", "control-power"} <= set(names(solution))
     assert solution.elastic is not None
     assert solution.to_dict()["control_power_w"] == solution.elastic.control_power > 0.005 * solution.power.main_rotor

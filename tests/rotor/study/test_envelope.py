@@ -17,9 +17,8 @@ from rotor.study.envelope import reach
 from rotor.trim.validity import HOVER_LIMIT, MOST_STALLED
 
 SMALL: dict[str, Any] = {
-    "elements": 16, "azimuths": 32, "inflow": "drees", "twist": "linear:-10", "dynamic_stall": "off",
+    "elements": 16, "azimuths": 32, "inflow": "drees", "twist": "linear:-10",
 }  # fmt: skip
-"""Without the step of power where dynamic stall sets in."""
 
 
 def small(**more: Any) -> Design:
@@ -42,7 +41,7 @@ def test_engines_limit_where_power_is_theirs():
 def test_stall_limits_where_the_solver_refuses():
     design = small(mu=0.3)
     stall = reach(design, "load_factor", both=True).stall or 0.0
-    assert rotor.solve(design.at(load_factor=stall)).stalled_area <= MOST_STALLED
+    assert rotor.solve(design.at(load_factor=stall)).stalled_thrust <= MOST_STALLED
     assert not rotor.solve(design.at(load_factor=stall + 0.03)).converged
 
 

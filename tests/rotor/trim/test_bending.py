@@ -407,7 +407,7 @@ def test_time_marching() -> None:
     In steady flow: the march takes the forces at a point alone.
     """
     design = _design(0.3, LINEAR)
-    steady = replace(design, models=replace(design.models, unsteady="off"))
+    steady = replace(design, models=replace(design.models, unsteady=False, dynamic_stall=False))
     march = _March(rotor.solve(steady).require(), 540)
     found = march.turns(4)
     psi = march.psi[::2]

@@ -111,7 +111,7 @@ def test_the_gradient_of_power_follows_the_lag() -> None:
     """Against differences, which see that section data bend from one table cell to the next."""
     design = rotor.make_design(mu=0.25, inflow="pitt-peters", twist="linear:-10")
     found = power_gradient(lagging(design)).along(_rate(design)[None])[0]
-    step = 0.02
+    step = 0.005
     ahead, behind = (lagging(design.with_twist(f"linear:{-10 + sign * step}")).power.total for sign in (1.0, -1.0))
     assert_allclose(found, (ahead - behind) / (2.0 * math.radians(step)), rtol=5e-4)
 

@@ -98,7 +98,7 @@ def test_few_azimuths_stand_for_all(inflow: str, mu: float):
     whole = solve(design).require()
     few = solve(replace(design, models=replace(design.models, azimuths=LEAST_AZIMUTHS))).require()
     assert few.disk.theta.shape[1] == LEAST_AZIMUTHS
-    assert_allclose(few.power.total, whole.power.total, rtol=1e-5)
+    assert_allclose(few.power.total, whole.power.total, rtol=5e-5)
     assert whole.linear is not None
     system, x = whole.linear.point.system, whole.linear.point.x
     assert system.thin.waves.azimuths == LEAST_AZIMUTHS

@@ -194,7 +194,6 @@ def autogiro() -> Design:
 
 def test_a_free_rotors_wake_lies_along_the_tilt_that_it_finds():
     design = autogiro()
-    design = replace(design, models=replace(design.models, dynamic_stall="off"))
     found = solve(design).require()
     problem = trim_problem(design)
     first = trim(problem)

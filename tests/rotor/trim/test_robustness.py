@@ -19,7 +19,7 @@ from rotor.files.make_design import make_design
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.solution import Solution
-from rotor.trim.solve import SUSPECT_STALL, solve
+from rotor.trim.solve import solve
 from rotor.trim.validity import MOST_STALLED
 from tests.tools.designs import FIRST, RIGHT, run, share
 
@@ -46,7 +46,7 @@ def check(solution: Solution) -> None:
         for field in fields(solution.disk):
             values = getattr(solution.disk, field.name)
             if field.name == "unsteady":
-                assert (values is not None) == solution.redone
+                assert (values is None) == (solution.linear is None or solution.linear.problem.stall is None)
                 continue
             if values is None and (field.name == "apparent" or solution.elastic is None):
                 continue
@@ -150,7 +150,7 @@ def test_the_trim_of_least_power_is_found():
         heavier = solve(at_mass(DEEP_STALL, mass), heavier)
     assert heavier is not None
     assert_allclose(cold.power.total, heavier.power.total, rtol=1e-6)
-    assert cold.stalled_area < SUSPECT_STALL
+    assert cold.stalled_thrust < MOST_STALLED
 
 
 def test_a_start_deep_in_stall_comes_back():
@@ -197,8 +197,7 @@ def test_continuation_on_a_stand_stays_within_its_limits():
 def test_a_hopeless_design_ends_within_the_passes_allowed():
     solution = solve(HOPELESS)
     assert not solution.converged
-    models = 2  # Steady sections and dynamic stall.
-    assert solution.passes <= models * (DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes)
+    assert solution.passes <= DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes
     few = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, most_passes=60))
     assert few.passes < solution.passes
     assert not few.converged
@@ -227,8 +226,7 @@ def check_random(count: int, seed: int) -> None:
     plain = sum(one.plain for one in outcomes)
     # A hundred designs have some twenty in plain level flight, of which one is 5 %: a second one is chance.
     assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
-    # A free rotor has no equilibrium at many a load, and beyond 30 % stalled there is no power; of 80 these
-    # were all 15 refusals.
+    # A free rotor has no equilibrium at many a load, and beyond 25 % of thrust stalled there is no power.
     possible = [one for one in outcomes if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED]
     assert len(possible) > 0.5 * count
     assert sum(one.kind == "trimmed" for one in possible) > 0.95 * len(possible)
