@@ -49,7 +49,7 @@ class SolverOptions(SystemTolerances):
 
 DEFAULT_OPTIONS = SolverOptions()
 _KEPT_RATIO = 0.12
-"""`NewtonLimits.kept_ratio` of a lifting line: steps of .05 are usual, and new factors cost as much as twenty steps.
+"""`NewtonLimits.kept_ratio` of a lifting line: steps usually leave .05, and new factors cost as much as twenty steps.
 Our choice."""
 
 
