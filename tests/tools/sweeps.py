@@ -72,7 +72,7 @@ def largest_jump(design: Design) -> float:
 def values_of(design: Design, name: str) -> Array:
     """Of a slider, in its steps."""
     low, high, step = STEPS[name]
-    values = np.arange(round((high - low) / step) + 1) * step + low
+    values = np.linspace(low, high, round((high - low) / step) + 1)
     return values * design.aircraft.mass if name == "mass_kg" else values
 
 
