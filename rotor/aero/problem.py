@@ -147,6 +147,7 @@ class Problem:
 def build_problem(design: Design) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
+    check_azimuths(design)
     drag, down = design.drag_parts
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
@@ -208,6 +209,14 @@ def grid_of(design: Design) -> tuple[int, int]:
     return inflow_model(design.models.inflow).grid(design.models, design.rotor.blades)
 
 
+def check_azimuths(design: Design) -> None:
+    """Raise ValueError, with one sentence, where the azimuths are too few for the pitch at n/rev."""
+    active = () if design.active_twist is None else design.active_twist.harmonics
+    highest = max((harmonic.per_rev for harmonic in (*active, *design.pitch_per_rev)), default=0)
+    if 2 * highest >= (azimuths := grid_of(design)[1]):
+        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {azimuths}: ask for more")
+
+
 def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     """The problem on the same elements and another number of azimuths."""
     psi = azimuths_of(azimuths)
@@ -221,9 +230,6 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
     """`Problem.waves` and its first two derivatives by ψ."""
     given, none = design.pitch_waves, np.zeros((1, 1))
-    highest = max((harmonic.per_rev for wave in given for harmonic in wave.harmonics), default=0)
-    if 2 * highest >= len(disk.psi):
-        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {len(disk.psi)}: ask for more")
     return [sum((wave(disk.r, disk.psi, order) for wave in given), start=none) for order in range(3)]
 
 
