@@ -37,6 +37,9 @@ _MOST_RISES = 3
 _LEAST_PART = 1.0 / 64.0
 """Part of a step below which it is not divided further. Our choice."""
 
+_FORGETFUL = 2
+"""How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
+all the rest, and they spare steps near deep stall only. Our choice."""
 _MANY = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
@@ -182,6 +185,8 @@ class _Steps:
         """Whether the steps with the latest factors left little of the residual."""
         self._steps, self._before = 0, 1.0
         """Steps with these, and the residual before them."""
+        self._made = 0
+        """How often derivatives were evaluated."""
         self._system, self._limits = system, limits
         self._corrected = _Corrected(factors) if factors is not None else None
 
@@ -250,7 +255,8 @@ class _Steps:
         near = point if point.grid is system.thin else evaluate(system, system.thin, point.x, slopes=True)
         if not near.slopes.shape[1]:
             near = evaluate(system, system.thin, point.x, slopes=True)
-        self.latest = Factors.of(near)
+        self._made += 1
+        self.latest = Factors.of(near.forgetful if self._made <= _FORGETFUL else near)
         self._corrected = _Corrected(self.latest)
         return self._corrected
 
