@@ -86,7 +86,7 @@ class InducedPower:
     circulation: Array
     """Γ over ΩR²."""
     induced: Array
-    """w = A Γ over ΩR."""
+    """w over ΩR."""
     coefficient: float
     """C_Pi"""
     amounts: Array

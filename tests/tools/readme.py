@@ -25,7 +25,7 @@ SHORT = {
     "glasgow-loops": "pitching aerofoil, C_m",
     "sc1095": "SC1095 drag",
     "theory": "theory",
-    "grid": "grid",
+    "grid": "grid, linear inflow",
 }
 """What a set is called where words are few; else its name."""
 

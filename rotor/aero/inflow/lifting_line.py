@@ -79,7 +79,7 @@ class LiftingLineInflow(InflowModel):
     title = "Lifting line"
     explanation = (
         "Each blade is a line of 24 vortex panels with its own wake, which lies along the trim and does not roll up: "
-        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.3 % here for −8° to −16°, −4 to −5 % rolled up)."
+        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.1 % here for −8° to −16°, −4 to −5 % rolled up)."
     )
     load_dependent = True
     fine_tip = True
