@@ -64,7 +64,7 @@ class Limits:
     rate: tuple[float, float] | None = None
     """Steepest and flattest twist rate of every segment [rad/R]."""
     stalled: float | None = None
-    """Largest part of the disk beyond the stall angle on every condition (0…1), as `rotor.optimisation.limits` measures it."""
+    """Largest part of the disk beyond the stall angle, on every condition (0…1), as `stalled_share` has it."""
     change: ChangeLimit | None = None
     index: float | None = None
     """Largest vibration index on every condition [%], see `rotor.trim.hub_loads`; of blades that bend."""
@@ -162,7 +162,7 @@ REVERSE_WIDTH = 0.02
 
 
 def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
-    """Part of πR² beyond the stall angle (0…1), without reverse flow, and its gradient by each element's pitch [1/rad]."""
+    """Part of πR² beyond the stall angle, without reverse flow, and its gradient by each element's pitch [1/rad]."""
     problem, elements = adjoint.problem, adjoint.elements
     disk = problem.disk
     ring = disk.cells[:, None]

@@ -70,7 +70,7 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
 
 
 def test_stalled_share_is_close_to_the_counted_area():
-    """Of steady sections: the smooth one, on the panels of the trim, differs by the cells within half a degree of stall.
+    """Steady sections: the smooth one, on the panels of the trim, differs by the cells within half a degree of stall.
 
     At µ 0.38 these are many: 3.8 against 2.7 % of the disk (with twice the panels 4.0 against 3.2 %).
     """
