@@ -27,7 +27,7 @@ from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
 from rotor.aero.stalling_section import StallingData, added_to
 from rotor.aero.unsteady_section import at_three_quarters
-from rotor.arrays import Array, read_only
+from rotor.arrays import Array, ShortRepr, read_only
 from rotor.engine.waves import wave_grid
 
 ENOUGH_ELEMENTS = 40
@@ -100,8 +100,8 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     return f, s, bends
 
 
-@dataclass(frozen=True, eq=False)
-class Unsteady:
+@dataclass(frozen=True, eq=False, repr=False)
+class Unsteady(ShortRepr):
     """What dynamic stall does at the blade elements, (elements, azimuths) each."""
 
     separation: Array
