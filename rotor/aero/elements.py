@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.section import FLOW, FR, FX, FZ
-from rotor.arrays import Array
+from rotor.arrays import Array, ShortRepr
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
 """Name of one of the eight quantities, any of which a trim may solve for."""
@@ -69,8 +69,8 @@ class BentState:
     """d²w/dψ², (elements, azimuths)."""
 
 
-@dataclass(frozen=True, eq=False)
-class Unsteady:
+@dataclass(frozen=True, eq=False, repr=False)
+class Unsteady(ShortRepr):
     """What dynamic stall does at the blade elements, (elements, azimuths) each."""
 
     separation: Array

@@ -205,6 +205,13 @@ def _push_slopes(
                         out[at, i, j] += full[o, k, j]
 
 
+def slopes_ahead(c: Array, half_chord: Array) -> Array:
+    """Slopes of what `at_three_quarters` adds to the pitch by U_T, U_P and θ', (3, elements, azimuths)."""
+    out = np.empty((3, *c.shape[1:]))
+    _ahead_slopes(c, half_chord, out)
+    return out
+
+
 class _UnsteadySection:
     """The section of an inflow model in unsteady attached flow."""
 
@@ -242,9 +249,7 @@ class _UnsteadySection:
         assert self._inner.memory is not None
         memory = self._inner.memory(at_three_quarters(c[: self.first], data.half_chord), data.within)
         right = np.concatenate([memory.right, np.zeros((len(memory.right), len(RATES), *c.shape[1:]))], axis=1)
-        ahead = np.empty((3, *c.shape[1:]))
-        _ahead_slopes(c, data.half_chord, ahead)
-        for channel, slope in zip((UT, UP, RATE), ahead, strict=True):
+        for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
             right[:, channel] += memory.right[:, TH] * slope
         return Memory(memory.left, memory.kernel, right)
 

@@ -1,8 +1,9 @@
 """Limits of a search as smooth functions that are positive inside, with exact gradients.
 
 The stalled area of a `Solution` counts cells, so it changes in steps. Here each cell counts by a logistic function of
-its stall margin, half where the margin is zero, and fades out towards reverse flow. As both widths go to zero the
-measure becomes that count.
+its margin to the stall angle of its section, half where the margin is zero, and fades out towards reverse flow. As both
+widths go to zero the measure becomes the count of cells beyond that angle: the stalled area of steady sections, while
+that of a `Solution` with dynamic stall counts where the flow has separated, later and elsewhere.
 """
 
 import math
@@ -13,6 +14,7 @@ import numpy as np
 
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
+from rotor.aero.unsteady_section import slopes_ahead
 from rotor.airfoil.section_table import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.quantity import number
@@ -62,7 +64,7 @@ class Limits:
     rate: tuple[float, float] | None = None
     """Steepest and flattest twist rate of every segment [rad/R]."""
     stalled: float | None = None
-    """Largest stalled share of the disk on every condition (0…1), as `rotor.optimisation.limits` measures it."""
+    """Largest part of the disk beyond the stall angle, on every condition (0…1), as `stalled_share` has it."""
     change: ChangeLimit | None = None
     index: float | None = None
     """Largest vibration index on every condition [%], see `rotor.trim.hub_loads`; of blades that bend."""
@@ -160,7 +162,7 @@ REVERSE_WIDTH = 0.02
 
 
 def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
-    """Stalled part of πR² (0…1), reverse flow not counted, and its gradient by each element's pitch [1/rad]."""
+    """Part of πR² beyond the stall angle, without reverse flow, and its gradient by each element's pitch [1/rad]."""
     problem, elements = adjoint.problem, adjoint.elements
     disk = problem.disk
     ring = disk.cells[:, None]
@@ -170,7 +172,7 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     x = np.clip(elements.u_t / REVERSE_WIDTH, 0.0, 1.0)
     window, window_slope = x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / REVERSE_WIDTH
 
-    # α = θ − atan2(U_P, U_T).
+    # α = θ − atan2(U_P, U_T), in unsteady flow of three quarters of the chord.
     square = elements.u_t**2 + elements.u_p**2 + 1e-30
     over_t, over_p = elements.u_t / square, elements.u_p / square
     # Normal to the sweep: M² = M_tip² ((U_T cos Λ − U_R sin Λ)² + U_P²).
@@ -184,6 +186,11 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
         u_p=slope * (-by_alpha * over_t + by_mach * scale * elements.u_p),
         u_r=slope * by_mach * scale * -normal * sin,
     )
+    if problem.unsteady:
+        e = elements
+        ahead = slopes_ahead(np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate)), problem.half_chord)
+        turned = slope * by_alpha * ahead
+        weights = replace(weights, u_t=weights.u_t + turned[0], u_p=weights.u_p + turned[1], rate=turned[2])
     return float((ring * window * counted).sum()), adjoint.by_pitch(weights)
 
 

@@ -27,6 +27,7 @@ RUNGS = {
     "axial": "µ sin α in U_P, eq. (3.6)",
     "blade": "blade as built: SC1094 R8, hinge, masses",
     "losses": "swirl, skin friction, swept tip, download",
+    "unsteady": "unsteady flow and dynamic stall",
     "elastic": "blade elastic in torsion",
 }
 """Assumptions by name, in the order of the ladder: what takes the place of what."""
@@ -59,6 +60,8 @@ def built(on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str
         disk_axial_flow="axial" in on,
         blade_weight="blade" in on,
         compressibility="mach" in on,
+        unsteady="unsteady" in on,
+        dynamic_stall="unsteady" in on,
         elastic_twist="elastic" in on,
         **dict.fromkeys(_LOSSES, "losses" in on),
     )

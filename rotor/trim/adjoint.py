@@ -16,7 +16,7 @@ import numpy as np
 
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow.local_momentum import BALANCED
-from rotor.aero.section import FX, FZ, TH, UP, UR, UT
+from rotor.aero.section import FX, FZ, RATE, TH, UP, UR, UT
 from rotor.arrays import Array, ShortRepr
 from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
@@ -76,6 +76,8 @@ class Weights:
     """By U_P."""
     u_r: Array | float = 0.0
     """By U_R, the flow along the blade."""
+    rate: Array | float = 0.0
+    """By θ'."""
     swirl: Array | float = 0.0
     """By the swirl at the same velocities."""
     terms: Terms | None = None
@@ -157,7 +159,8 @@ class _Linear:
             force: np.broadcast_to(weight, shape) for force, weight in given.items() if not isinstance(weight, float)
         }
         channels = dict[int, Array]()
-        for channel, weight in ((TH, weights.theta), (UT, weights.u_t), (UP, weights.u_p), (UR, weights.u_r)):
+        by_channel = {TH: weights.theta, UT: weights.u_t, UP: weights.u_p, UR: weights.u_r, RATE: weights.rate}
+        for channel, weight in by_channel.items():
             if not isinstance(weight, float):
                 channels[channel] = np.broadcast_to(weight, shape)
         parts = list[tuple[int, list[Hashable], Array]]()

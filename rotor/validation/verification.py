@@ -111,11 +111,10 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     """β0, β1c, β1s [rad] of the motion in time and of the harmonic balance, (3,) each; its amplitude at 2/rev.
 
     β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w by Runge–Kutta, its last of 12 turns. The load is that of the
-    instant's own β and β', with controls and inflow as trimmed; nothing here uses harmonics.
+    instant's own β and β' in steady flow, with controls and inflow as trimmed; nothing here uses harmonics.
     """
-    problem = build_problem(
-        _with_inflow(make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist"), "pitt-peters")
-    )
+    design = make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist,unsteady,dynamic-stall")
+    problem = build_problem(_with_inflow(design, "pitt-peters"))
     trim = newton(problem, first_guess(problem))
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)

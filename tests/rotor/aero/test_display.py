@@ -38,6 +38,12 @@ def few() -> Solution:
 
 
 @pytest.fixture(scope="module")
+def memoryless() -> Solution:
+    """Coefficients follow from the flow of the moment."""
+    return solve(with_switches(heavy(), ("dynamic_stall",))).require()
+
+
+@pytest.fixture(scope="module")
 def many() -> Solution:
     return solve(heavy("many azimuths")).require()
 
@@ -78,26 +84,34 @@ class TestFields:
         assert shown[1] is elements
         assert many.disk.alpha is elements.alpha
 
-    def test_at_the_azimuths_of_the_trim_they_are_its_own(self, few: Solution):
-        assert few.linear is not None
-        e, step = few.linear.elements, 120 // AZIMUTHS["few azimuths"]
+    def test_at_the_azimuths_of_the_trim_they_are_its_own(self, memoryless: Solution):
+        assert memoryless.linear is not None
+        e, disk, step = memoryless.linear.elements, memoryless.disk, 120 // AZIMUTHS["few azimuths"]
         for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd"):
-            assert_allclose(getattr(few.disk, name)[:, ::step], getattr(e, name), atol=1e-10)
-        assert_allclose(few.disk.dct[:, ::step], e.fz, atol=1e-12)
-        assert_allclose(few.disk.cd_mach[:, ::step], e.cd_mach, atol=1e-8)
+            assert_allclose(getattr(disk, name)[:, ::step], getattr(e, name), atol=1e-10)
+        assert_allclose(disk.dct[:, ::step], e.fz, atol=1e-12)
+        assert_allclose(disk.cd_mach[:, ::step], e.cd_mach, atol=1e-8)
+
+    def test_dynamic_stall_is_followed_at_the_azimuths_shown(self, few: Solution):
+        """Its lags are those of the path between the azimuths, which is finer in the picture than in the trim."""
+        assert few.linear is not None
+        e, disk, step = few.linear.elements, few.disk, 120 // AZIMUTHS["few azimuths"]
+        assert_allclose(disk.alpha[:, ::step], e.alpha, atol=1e-10)
+        assert_allclose(disk.dct[:, ::step], e.fz, atol=0.01 * e.fz.max())
+        assert np.quantile(np.abs(disk.cl[:, ::step] - e.cl)[e.u_t > 0.1], 0.99) < 0.03
 
     def test_between_they_are_those_of_a_trim_there(self, few: Solution, many: Solution):
         for name in ("theta", "u_t", "u_p", "induced", "mach", "dct", "dcq", "elastic_twist"):
             expected = getattr(many.disk, name)
             error = np.abs(getattr(few.disk, name) - expected)
-            assert np.quantile(error, 0.99) < 4e-3 * np.abs(expected).max(), name
+            assert np.quantile(error, 0.99) < 5e-3 * np.abs(expected).max(), name
         # Not so near the centre of reverse flow, where an angle of attack turns with the last digits of velocities.
         outside = many.disk.u_t > 0.1
         assert np.degrees(np.abs(few.disk.alpha - many.disk.alpha)[outside]).max() < 0.3
 
-    def test_no_coefficient_is_interpolated(self, few: Solution):
+    def test_no_coefficient_is_interpolated(self, memoryless: Solution):
         """Every C_l is that of the section at its own α and Mach number, also where the table bends."""
-        blade, disk = few.design.rotor.blade, few.disk
+        blade, disk = memoryless.design.rotor.blade, memoryless.disk
         inner, outer, _ = blade.section_at(float(disk.r[-4]))
         assert inner == outer
         installed = blade.installed(inner)
@@ -132,10 +146,10 @@ class TestAreas:
         expected = 0.5 * np.maximum((along * sine) ** 2 - root**2, 0.0).mean()
         assert_allclose(solution.reverse_flow_area, expected, rtol=0.03)
 
-    @pytest.mark.parametrize("mu", [0.1, FAST])
-    def test_stall_is_that_of_a_fine_grid(self, mu: float):
-        design = heavy("pitt-peters", mu)
+    @pytest.mark.parametrize(("mu", "mass", "near"), [(0.2, 12e3, 0.1), (FAST, HEAVY, 0.04), (FAST, 11e3, 0.04)])
+    def test_stall_is_that_of_a_fine_grid(self, mu: float, mass: float, near: float):
+        design = heavy("pitt-peters", mu).at(mass_kg=mass)
         fine = solve(replace(design, models=replace(design.models, elements=320, azimuths=360))).require()
-        coarse = solve(heavy(mu=mu)).require()
+        coarse = solve(heavy(mu=mu).at(mass_kg=mass)).require()
         assert fine.stalled_area > 0.002
-        assert_allclose(coarse.stalled_area, fine.stalled_area, rtol=0.04, atol=2e-4)
+        assert_allclose(coarse.stalled_area, fine.stalled_area, rtol=near, atol=2e-4)

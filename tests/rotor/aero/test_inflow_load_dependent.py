@@ -51,8 +51,14 @@ def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 @pytest.mark.parametrize("mu", [0.06, 0.2, 0.35])
 def test_the_converged_inflow_is_the_response_of_the_model(inflow: str, mu: float):
-    """Converged: λ_i = A d, at low speed with the part of hover, closed to 1e-8 of λ0, and the power closed with it."""
-    solution = solve(coarse(inflow, mu)).require()
+    """Converged: λ_i = A d, at low speed with the part of hover, closed to 1e-8 of λ0, and the power closed with it.
+
+    Momentum answers to lift without apparent mass, which steady flow does not have.
+    """
+    design = coarse(inflow, mu)
+    if not INFLOW_MODELS[inflow].pointwise:
+        design = replace(design, models=replace(design.models, unsteady=False))
+    solution = solve(design).require()
     problem = trim_problem(solution.design)
     assert solution.linear is not None
     expected = answer(problem, solution.linear.point, solution.linear.elements)

@@ -43,10 +43,10 @@ def combinations(names: tuple[str, ...]) -> list[tuple[str, ...]]:
     ]
 
 
-# All 64 of the document's switches, each with another of the 32 of the losses beyond it.
+# All 64 of the document's switches, each with another of the 256 of the effects beyond it.
 BEYOND = combinations(BEYOND_DOCUMENT)
 EVERY = [
-    off + BEYOND[7 * k % 32]
+    off + BEYOND[37 * k % len(BEYOND)]
     for k, off in enumerate(combinations(tuple(n for n in SWITCHES if n not in BEYOND_DOCUMENT)))
 ]
 
@@ -110,7 +110,9 @@ class TestReverseFlow:
 
 class TestCompressibility:
     def test_sections_are_those_of_one_mach_number(self):
-        solution = solve(with_switches(make_design(mu=0.35), ("compressibility", "swept_tip"))).require()
+        solution = solve(
+            with_switches(make_design(mu=0.35), ("compressibility", "swept_tip", "dynamic_stall"))
+        ).require()
         disk = solution.disk
         for radius, section in ((0.2, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
             i, installed = int(np.searchsorted(disk.r, radius)), load_installed(section)

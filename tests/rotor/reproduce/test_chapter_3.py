@@ -83,7 +83,7 @@ def test_figure_3_9(report: Make):
     """A hundred azimuths are enough to 0.1 %; fewer are, too, which the thesis does not say."""
     one = report("3.9")
     for preset in ("thesis", "flight-linear"):
-        assert one.numbers[f"{preset}_error_at_100"] < 1e-5
+        assert one.numbers[f"{preset}_error_at_100"] < 2e-5
         assert one.numbers[f"{preset}_needed"] < 100
     assert one.verdict is Agreement.DIFFERS
 
