@@ -17,7 +17,7 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
-from rotor.aero.display import STALLED, Unsteady
+from rotor.aero.display import STALLED, Unsteady, pitch_of_alpha
 from rotor.aero.elements import TrimState
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
@@ -95,6 +95,11 @@ class DiskFields(ShortRepr):
     apparent: Array | None = None
     """What apparent mass adds to C_n and to C_m about the quarter chord, (2, elements, azimuths); None in steady
     flow."""
+
+    @property
+    def pitch_of_alpha(self) -> Array:
+        """θ with what the flow at three quarters of the chord adds to α, see `display.pitch_of_alpha`."""
+        return self.theta if self.apparent is None else pitch_of_alpha(self)
 
     @property
     def stalled(self) -> Booleans:
