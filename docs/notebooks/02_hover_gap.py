@@ -3,8 +3,8 @@ How much of the hover gap is drag?
 ==================================
 
 The computed hover power lies below the few measured points that are public. Two things can be missing: profile power,
-because real sections have more drag than smooth ones, or induced power, because a real wake contracts and its tip
-vortices come back. They grow differently with thrust, so the points can tell them apart.
+because real sections have more drag than smooth ones, or induced power. They grow differently with thrust, so the
+points can tell drag at light thrust from the rest. They cannot tell induced power from drag that grows with lift.
 """
 
 import matplotlib.pyplot as plt
@@ -44,7 +44,7 @@ gap = power - np.array([one.cp for one in solutions])
 
 # %%
 # If the gap were drag alone, profile power would have to be multiplied by the same factor at every thrust; if it were
-# the wake alone, induced power.
+# induced power alone, that.
 
 print("  CT/σ    gap [%]   profile ×   induced ×")
 for ct, lack, whole, drag, wake in zip(thrust, gap, power, profile, induced, strict=True):
@@ -67,11 +67,12 @@ left = np.abs(gap - parts @ (a, b)) / power
 print(f"drag is {100 * drag:.0f} % of the gap as fitted, which leaves up to {100 * left.max():.1f} % of the power")
 
 # %%
-# Ten digitised points of unclear origin carry no more than this: an indication of where to look.
+# Ten digitised points of unclear origin carry no more than this: an indication of where to look. Wakes that contract,
+# free or prescribed, give hardly more induced power than annuli, so contraction is not what is missing.
 
 plt.plot(thrust / sigma, 100 * gap / power, "o", label="measured − computed")
 plt.plot(thrust / sigma, 100 * a * profile / power, label="drag")
-plt.plot(thrust / sigma, 100 * (a * profile + b * induced) / power, label="drag and wake")
+plt.plot(thrust / sigma, 100 * (a * profile + b * induced) / power, label="drag and what grows as induced power")
 plt.xlabel("Blade loading CT/σ")
 plt.ylabel("Part of the measured power [%]")
 plt.legend()

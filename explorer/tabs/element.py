@@ -19,7 +19,8 @@ from explorer.scene.controller import SceneController
 from explorer.tabs.context import TabContext
 from explorer.text.status import section_title
 from rotor import Solution
-from rotor.aero.display import STALLED, Unsteady
+from rotor.aero.display import STALLED
+from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array

@@ -6,15 +6,13 @@ interpolated, and reverse flow, stall and drag rise begin where they would if th
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from rotor.aero.bent_section import turned
 from rotor.aero.disk import Disk
-from rotor.aero.dynamic_stall import SEPARATION, VORTEX
 from rotor.aero.elements import (
     FLOW_FIELDS,
     SECTION_FIELDS,
@@ -27,9 +25,7 @@ from rotor.aero.elements import (
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
-from rotor.aero.stalling_section import StallingData, added_to
-from rotor.aero.unsteady_section import at_three_quarters
-from rotor.arrays import Array, ShortRepr, read_only
+from rotor.arrays import Array, read_only
 from rotor.engine.waves import wave_grid
 
 ENOUGH_ELEMENTS = 40
@@ -102,30 +98,6 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     return f, s, bends
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Unsteady(ShortRepr):
-    """What dynamic stall does at the blade elements, (elements, azimuths) each."""
-
-    separation: Array
-    """f″: where the flow leaves the upper surface, over the chord; 1 attached, 0 separated from the leading edge."""
-    vortex: Array
-    """C_nᵛ, the normal force of the vortex that leaves a stalled leading edge."""
-    moment: Array
-    """What is added to C_m."""
-
-
-def unsteady_part(problem: Problem, elements: BladeElements) -> Unsteady | None:
-    """What unsteady sections show of the elements of a problem; None where sections are steady."""
-    if problem.stall is None:
-        return None
-    e = elements
-    c = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate))
-    c = c if e.bent is None else turned(np.concatenate([c, e.bent.channels]), len(c))
-    c = at_three_quarters(c, problem.half_chord) if problem.unsteady else c
-    added, states = added_to(c, StallingData(problem.section_data(), problem.stall))
-    return Unsteady(states[SEPARATION], states[VORTEX], added[2])
-
-
 def pitch_of_alpha(flow: Any) -> Array:
     """θ + Δ that gives the angle of attack α = θ + Δ − atan2(U_P, U_T) of a flow at three quarters of the chord.
 
@@ -135,15 +107,14 @@ def pitch_of_alpha(flow: Any) -> Array:
     return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
 
 
-def areas(
-    disk: Disk, elements: BladeElements, stall_margin: Array, unsteady: Unsteady | None = None
-) -> tuple[float, float, float]:
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
     """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
     angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
     """
+    unsteady = elements.unsteady
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
         beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
@@ -167,7 +138,7 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
     """Stalled parts of πR² and of the thrust, on the azimuths of the problem."""
     disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
-    return areas(disk, e, margin, unsteady_part(problem, e))[1:]
+    return areas(disk, e, margin)[1:]
 
 
 @lru_cache(maxsize=16)

@@ -26,6 +26,7 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
 from rotor.airfoil.stall_onset import LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, NEGATIVE, POSITIVE, SLOPE, TRAVEL
@@ -42,8 +43,9 @@ FULL, GONE = math.radians(25.0), math.radians(50.0)
 """Angles from zero lift up to which, and from which nothing of, the unsteady part counts."""
 _GATE = 0.04
 _ARM = 0.2
-_LEAST_FINE = 96
-"""Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel."""
+LEAST_FINE = 48
+"""Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel. Our choice: 96 take twice as long
+here."""
 _LONGEST = 40.0
 """Step over a lag time that leaves nothing of what was before."""
 _PI = math.pi
@@ -70,6 +72,20 @@ def spread(coarse: Any, steps: int, out: Any) -> None:
 
 
 @_compile
+def _gather(fine: Any, steps: int, out: Any) -> None:
+    """The transposed of `spread` over the steps: a mean about every azimuth."""
+    n = len(out)
+    out[:] = 0.0
+    for m in range(steps):
+        after = m / (steps * steps)
+        here = 1.0 / steps - after
+        for c in range(n):
+            out[c] += here * fine[c * steps + m]
+        for c in range(n if m > 0 else 0):
+            out[c] += after * fine[(c - 1 if c > 0 else n - 1) * steps + m]
+
+
+@_compile
 def _around(decay: Any, z: Any) -> None:
     """z[k + 1] = decay[k] z[k] + given[k], periodic, in place: z holds what is given. Its end is its beginning."""
     n = len(decay)
@@ -83,6 +99,22 @@ def _around(decay: Any, z: Any) -> None:
         z[k] = value
         value = decay[k] * value + given
     z[n] = z[0]
+
+
+@_compile
+def _both_around(decay: Any, z: Any, y: Any) -> None:
+    """`_around` for two: each waits for its own last value, so both take as long as one."""
+    n = len(decay)
+    value, other, rest = 0.0, 0.0, 1.0
+    for k in range(n):
+        rest *= decay[k]
+        value, other = decay[k] * value + z[k], decay[k] * other + y[k]
+    value, other = value / (1.0 - rest), other / (1.0 - rest)
+    for k in range(n):
+        given, beside = z[k], y[k]
+        z[k], y[k] = value, other
+        value, other = decay[k] * value + given, decay[k] * other + beside
+    z[n], y[n] = z[0], y[0]
 
 
 @_compile
@@ -104,13 +136,14 @@ def _slopes_around(decay: Any, z: Any) -> None:
 
 
 @_compile
-def lag_steps(row: Any, mach: Any, unit: float, h: Any, by_mach: Any) -> None:
-    """Steps over a lag time, and their slopes by the sum of the Mach numbers at their ends.
+def lag_steps(row: Any, mach: Any, unit: float, slopes: bool, h: Any, by_mach: Any) -> None:
+    """Steps over a lag time, and where asked for their slopes by the sum of the Mach numbers at their ends.
 
     row: the lag time at the mean Mach numbers of the steps and its slope, (2, steps). unit: travel over the sum.
     """
     for k in range(len(h)):
         h[k] = unit * (mach[k] + mach[k + 1]) / row[0, k]
+    for k in range(len(h) if slopes else 0):
         by_mach[k] = (unit - h[k] * 0.5 * row[1, k]) / row[0, k]
 
 
@@ -138,10 +171,15 @@ def lag_weights(h: Any, weights: Any) -> None:
 
 
 @_compile
-def lag(u: Any, weights: Any, z: Any) -> None:
-    """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step, (steps + 1,)."""
+def _feed(u: Any, weights: Any, z: Any) -> None:
     for k in range(weights.shape[1]):
         z[k] = weights[_BEGIN, k] * u[k] + weights[_END, k] * u[k + 1]
+
+
+@_compile
+def lag(u: Any, weights: Any, z: Any) -> None:
+    """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step, (steps + 1,)."""
+    _feed(u, weights, z)
     _around(weights[_DECAY], z)
 
 
@@ -171,6 +209,46 @@ class StallData(NamedTuple):
     half_chord: Array
     """b/R, (elements,)."""
     tip_mach: float
+
+
+class Room(NamedTuple):
+    """Memory in which one element after another is followed."""
+
+    values: Array
+    """`_VALUES` on the finer azimuths and at the end of the turn, as the rest by what they are called here."""
+    rows: Array
+    cells: NDArray[np.int32]
+    places: Array
+    steps: Array
+    weights: Array
+    lagged: Array
+    static: Array
+    sums: Array
+    travel: Array
+    low: NDArray[np.int32]
+    share: Array
+    turns: Array
+
+
+@_compile
+def room_for(azimuths: int) -> Any:
+    """For elements that are given at so many azimuths."""
+    fine = azimuths * max(1, -(-LEAST_FINE // azimuths))
+    return Room(
+        np.empty((len(_VALUES), fine + 1)),
+        np.empty((8, 2, fine)),
+        np.empty((3, fine), np.int32),
+        np.empty((5, fine)),
+        np.empty((3, 2, fine)),
+        np.empty((3, len(_WEIGHTS), fine)),
+        np.empty((6, fine + 1)),
+        np.empty((6, fine + 1)),
+        np.empty((len(ADDED), fine)),
+        np.empty((len(_TRAVEL), fine + 1)),
+        np.empty((2, fine), np.int32),
+        np.empty((2, fine)),
+        np.empty((2, fine)),
+    )
 
 
 @_compile
@@ -250,50 +328,64 @@ def _along(element: int, data: Any, cells: Any, places: Any, x: Any, slopes: boo
 
 
 @_compile
-def _over_mach(numbers: Any, first: int, end: int, cell: Any, places: Any, rows: Any) -> None:
-    """Some of the numbers and their slopes by the Mach number."""
-    for r in range(first, end):
-        for k in range(len(cell)):
-            low, high = numbers[r, cell[k]], numbers[r, cell[k] + 1]
-            rows[r, 0, k] = low + (high - low) * places[1, k]
-            rows[r, 1, k] = (high - low) * places[2, k]
+def _over_mach(numbers: Any, cell: Any, places: Any, slopes: bool, row: Any) -> None:
+    """One of the numbers at all azimuths, and its slope by the Mach number where asked for, (2, azimuths)."""
+    for k in range(len(cell)):
+        low, high = numbers[cell[k]], numbers[cell[k] + 1]
+        row[0, k] = low + (high - low) * places[0, k]
+    for k in range(len(cell) if slopes else 0):
+        row[1, k] = (numbers[cell[k] + 1] - numbers[cell[k]]) * places[1, k]
 
 
 @_compile
-def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, by: Any, shown: Any) -> None:
+def follow(
+    element: int, x: Any, mach: Any, data: Any, room: Any, slopes: bool, added: Any, by: Any, shown: Any
+) -> None:
     """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x and M, (azimuths,) each.
 
-    by: slopes by these at all azimuths, (3, azimuths, 2 azimuths), only where asked for, else without the last.
+    room: as of `room_for`. by: slopes by these at all azimuths, (3, azimuths, 2 azimuths), only where asked for, else
+    without the last.
     """
-    n = len(x)
-    steps = max(1, -(-_LEAST_FINE // n))
-    fine = n * steps
-    v = np.zeros((len(_VALUES), fine + 1))
+    n, v, rows, h, weights, lagged, static = len(x), room.values, room.rows, room.steps, room.weights, *room[6:8]
+    fine = rows.shape[2]
+    steps = fine // n
     spread(x, steps, v[_X])
     spread(mach, steps, v[_MACH])
-    rows, cells, places = np.empty((8, 2, fine)), np.empty((2, fine), np.int32), np.empty((3, fine))
-    _numbers(data.numbers[element], v[_MACH], cells, places, rows)
+    numbers, cells, places = data.numbers[element], room.cells, room.places
     unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)  # Travel over the Mach numbers at its ends.
-    h, weights = np.empty((3, 2, fine)), np.empty((3, len(_WEIGHTS), fine))
-    for k, lag_time in enumerate((LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX)):
-        lag_steps(rows[lag_time], v[_MACH], unit, h[k, 0], h[k, 1])
+    middle = room.sums[0]
+    for k in range(fine):
+        middle[k] = 0.5 * (v[_MACH, k] + v[_MACH, k + 1])
+    places_along_mach(middle, cells[2], places[3], places[4])
+    places_along_mach(v[_MACH, :-1], cells[1], places[1], places[2])
+    for row in (SLOPE, POSITIVE, NEGATIVE):
+        _over_mach(numbers[row], cells[1], places[1:3], slopes, rows[row])
+    for k, row in enumerate((LAG_PRESSURE, LAG_SEPARATION)):
+        _over_mach(numbers[row], cells[2], places[3:], slopes, rows[row])
+        lag_steps(rows[row], v[_MACH], unit, slopes, h[k, 0], h[k, 1])
         lag_weights(h[k, 0], weights[k])
-    lagged, static = np.zeros((6, fine + 1)), np.zeros((6, fine + 1))
     lag(v[_X], weights[0], v[_X_LAGGED])
     _along(element, data, cells, places, v[_X_LAGGED], slopes, lagged)
-    lag(lagged[0], weights[1], v[_SEPARATED])
-    lag(lagged[3], weights[1], v[_PLACE])
+    _feed(lagged[0], weights[1], v[_SEPARATED])
+    _feed(lagged[3], weights[1], v[_PLACE])
+    _both_around(weights[1, _DECAY], v[_SEPARATED], v[_PLACE])
+    most = 0.0
     for k in range(fine):
         v[_GATED, k] = _gate(v[_X_LAGGED, k], rows[POSITIVE if v[_X_LAGGED, k] > 0.0 else NEGATIVE, 0, k])[0]
+        most = max(most, v[_GATED, k])
     v[_GATED, fine] = v[_GATED, 0]
-    vortex = v[_GATED].max() > 0.0
-    travel, low = np.empty((len(_TRAVEL), fine + 1 if vortex else 0)), np.empty((2, fine if vortex else 0), np.int32)
-    earlier = low, np.empty(low.shape), np.empty_like(low)
-    if vortex:
-        _shed(rows, unit, weights[2, _DECAY], v, travel, earlier)
+    earlier = room.low, room.share, room.turns
+    v[_VORTEX], v[_GONE_BY] = 0.0, 0.0
+    if most > 0.0:
+        _over_mach(numbers[TRAVEL], cells[1], places[1:3], slopes, rows[TRAVEL])
+        _over_mach(numbers[LAG_VORTEX], cells[2], places[3:], slopes, rows[LAG_VORTEX])
+        lag_steps(rows[LAG_VORTEX], v[_MACH], unit, slopes, h[2, 0], h[2, 1])
+        lag_weights(h[2, 0], weights[2])
+        _shed(rows, unit, weights[2, _DECAY], v, room.travel, earlier)
     _along(element, data, cells, places, v[_X], slopes, static)
-    added[:] = 0.0
-    _sum_up(rows, steps, static, v, added)
+    _sum_up(rows, static, v, most > 0.0, room.sums)
+    for o in range(len(ADDED)):
+        _gather(room.sums[o], steps, added[o])
     for k in range(n):
         for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
             shown[state, k] = v[value, k * steps]
@@ -303,8 +395,9 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
         df, dplace = np.empty_like(dg), np.empty_like(dg)
         _separation_slopes(rows, h, weights, lagged, v, dx, dm, dg, df, dplace)
         dcv, dtau = np.zeros_like(dg), np.zeros_like(dg)
-        if vortex:
-            _shed_slopes(rows, unit, weights[2, _DECAY], h[2, 1], v, travel, earlier, (dx, dm, df, dg), dcv, dtau)
+        if most > 0.0:
+            given = dx, dm, df, dg
+            _shed_slopes(rows, unit, weights[2, _DECAY], h[2, 1], v, room.travel, earlier, given, dcv, dtau)
         by[:] = 0.0
         _sum_up_slopes(rows, steps, static, v, dx, dm, df, dplace, dcv, dtau, by)
 
@@ -320,20 +413,6 @@ def _seed(n: int, steps: int, dx: Any, dm: Any) -> None:
         dx[k, after] += w
         dm[k, n + c] += 1.0 - w
         dm[k, n + after] += w
-
-
-@_compile
-def _numbers(numbers: Any, ms: Any, cells: Any, places: Any, rows: Any) -> None:
-    """The element's numbers at its Mach numbers, with slopes: those of lags in the middle of every step.
-
-    The Mach cells and places that are left are those of the azimuths themselves.
-    """
-    middle = 0.5 * (ms[:-1] + ms[1:])
-    places_along_mach(middle, cells[1], places[1], places[2])
-    _over_mach(numbers, LAG_PRESSURE, TRAVEL, cells[1], places, rows)
-    places_along_mach(ms[:-1], cells[1], places[1], places[2])
-    _over_mach(numbers, 0, LAG_PRESSURE, cells[1], places, rows)
-    _over_mach(numbers, TRAVEL, TRAVEL + 1, cells[1], places, rows)
 
 
 @_compile
@@ -384,28 +463,19 @@ def _shed(rows: Any, unit: float, decay: Any, v: Any, travel: Any, earlier: Any)
 
 
 @_compile
-def _sum_up(rows: Any, steps: int, static: Any, v: Any, added: Any) -> None:
-    """What is added, brought back to the azimuths given."""
-    n = added.shape[1]
-    for c in range(n):
-        after = c + 1 if c + 1 < n else 0
-        for m in range(steps):
-            k, w = c * steps + m, m / steps
-            slope, y, cv = rows[SLOPE, 0, k], v[_X, k], v[_VORTEX, k]
-            now, _, root, _ = _kirchhoff(v[_SEPARATED, k])
-            rest, _, rest_root, _ = _kirchhoff(static[0, k])
-            force = slope * y * (now - rest) + cv
-            along = slope * y * y * (root - rest_root)
-            moment = slope * y * (now * v[_PLACE, k] - rest * static[3, k])
-            if cv != 0.0:
-                moment -= _ARM * (1.0 - math.cos(_PI * v[_GONE_BY, k])) * cv
-            here, there = (1.0 - w) / steps, w / steps
-            added[0, c] += here * force
-            added[0, after] += there * force
-            added[1, c] += here * along
-            added[1, after] += there * along
-            added[2, c] += here * moment
-            added[2, after] += there * moment
+def _sum_up(rows: Any, static: Any, v: Any, vortex: bool, out: Any) -> None:
+    """What is added on the finer azimuths."""
+    for k in range(out.shape[1]):
+        slope, y = rows[SLOPE, 0, k], v[_X, k]
+        now, _, root, _ = _kirchhoff(v[_SEPARATED, k])
+        rest, _, rest_root, _ = _kirchhoff(static[0, k])
+        out[0, k] = slope * y * (now - rest)
+        out[1, k] = slope * y * y * (root - rest_root)
+        out[2, k] = slope * y * (now * v[_PLACE, k] - rest * static[3, k])
+    if vortex:
+        for k in range(out.shape[1]):
+            out[0, k] += v[_VORTEX, k]
+            out[2, k] -= _ARM * (1.0 - math.cos(_PI * v[_GONE_BY, k])) * v[_VORTEX, k]
 
 
 @_compile

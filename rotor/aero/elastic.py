@@ -28,15 +28,16 @@ from rotor.aero.disk import Disk
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.arrays import Array, read_only
-from rotor.design.active_twist import ActiveTwist
+from rotor.design.active_twist import HIGHEST
 from rotor.design.blade import Rotor
 from rotor.dynamics.torsion import TorsionModes, blade_modes
 from rotor.engine.waves import wave_grid
 
 MODES = 2
 """Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""
-HARMONICS = 4
-"""Highest harmonic of the elastic twist, unless active twist or root pitch has a higher one."""
+HARMONICS = HIGHEST
+"""Highest harmonic of the elastic twist: that which active twist or root pitch may have, so that power with it begins
+at that without. From 4 on power moves by less than 0.05 %."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,8 +199,3 @@ def _tension(modes: TorsionModes, disk: Disk, radius: float) -> tuple[Array, Arr
     hat_slopes, mode_slopes = np.diff(hats) / length, np.diff(modes.shape) / length
     weight = modes.pull * length
     return mode_slopes * weight @ hat_slopes.T, hat_slopes * weight @ hat_slopes.T
-
-
-def highest_harmonic(waves: tuple[ActiveTwist, ...]) -> int:
-    """Harmonics of the elastic twist that a design with these waves of pitch needs."""
-    return max([HARMONICS, *(harmonic.per_rev for wave in waves for harmonic in wave.harmonics)])

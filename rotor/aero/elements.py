@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero.inflow.interface import DiskFlow
-from rotor.aero.section import FR, FX, FZ
-from rotor.arrays import Array
+from rotor.aero.section import FLOW, FR, FX, FZ
+from rotor.arrays import Array, ShortRepr
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
 """Name of one of the eight quantities, any of which a trim may solve for."""
@@ -69,6 +69,18 @@ class BentState:
     """d²w/dψ², (elements, azimuths)."""
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Unsteady(ShortRepr):
+    """What dynamic stall does at the blade elements, (elements, azimuths) each."""
+
+    separation: Array
+    """f″: where the flow leaves the upper surface, over the chord; 1 attached, 0 separated from the leading edge."""
+    vortex: Array
+    """C_nᵛ, the normal force of the vortex that leaves a stalled leading edge."""
+    moment: Array
+    """What is added to C_m."""
+
+
 @dataclass(frozen=True, eq=False)
 class BladeElements:
     """The blade elements at a trim state. Fields are (elements, azimuths), names as in `rotor.aero.section`."""
@@ -105,6 +117,8 @@ class BladeElements:
     """State of a blade that bends. Velocities and forces are then in axes that turn with the hub, not its slopes."""
     rates: Array | None = None
     """θ'', U_T' and U_P' in unsteady flow, see `rotor.aero.unsteady_section`, (3, elements, azimuths)."""
+    unsteady: Unsteady | None = None
+    """None without dynamic stall."""
 
 
 @dataclass(frozen=True)
@@ -128,9 +142,14 @@ SECTION_FIELDS = ("fz", "fx", "fr", "alpha", "mach", "cl", "cd", "cd_mach")
 """Fields of `BladeElements` by element and azimuth: what meets the section, and what comes of it."""
 
 
-def section_fields(forces: Array, flow: Array) -> dict[str, Array]:
-    """`SECTION_FIELDS` by name, of the forces and the flow of a section."""
-    return dict(zip(SECTION_FIELDS, (forces[FZ], forces[FX], forces[FR], *flow), strict=True))
+def section_fields(forces: Array, flow: Array) -> dict[str, Any]:
+    """`SECTION_FIELDS` and `unsteady` by name, of the forces and the flow of a section.
+
+    A section with dynamic stall has the fields of `Unsteady` after `section.FLOW`.
+    """
+    steady, further = flow[: len(FLOW)], flow[len(FLOW) :]
+    values = dict(zip(SECTION_FIELDS, (forces[FZ], forces[FX], forces[FR], *steady), strict=True))
+    return values | {"unsteady": Unsteady(*further) if len(further) else None}
 
 
 def over_azimuths(values: Array, azimuths: int) -> Array:

@@ -7,7 +7,8 @@ Beddoes' inflow (22nd European Rotorcraft Forum, 1985; Leishman, Principles of H
     behind it          dz/dt = −µ_z − 2 λ0 (1 − E |y|³),        E = χ/2,  χ = atan2(µ_x, µ_z + λ0)
 
 t is ψ_b − ψ for the blade at ψ_b now. Nothing rolls up or contracts. Below µ_x = 2.5 √(C_T/2) it passes over to the
-helix of momentum theory at µ = 0, dz/dt = −µ_z − λ0: at no speed nothing lies behind the disk.
+helix of momentum theory at µ = 0, dz/dt = −µ_z − λ0: at no speed nothing lies behind the disk. Under negative thrust
+χ is that of the mirrored rotor.
 Axes of the shaft, over R: x aft, y to starboard, z up; velocities over ΩR.
 
 A blade is a lifting line of panels, the blade elements themselves; circulation is that of each panel at each azimuth.
@@ -68,8 +69,8 @@ class WakeCourse(DiskFlow):
 
     @property
     def skewed(self) -> float:
-        """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; C_T is 2 λ0 V."""
-        share = min(self.mu_x / (SKEWED * math.sqrt(max(self.lambda0, 1e-9) * self.speed)), 1.0)
+        """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; |C_T| is 2 |λ0| V."""
+        share = min(self.mu_x / (SKEWED * math.sqrt(max(abs(self.lambda0), 1e-9) * self.speed)), 1.0)
         return share * share * (3.0 - 2.0 * share)
 
     def flapping(self, psi: Array) -> Array:
@@ -82,7 +83,7 @@ class WakeCourse(DiskFlow):
         cos, sin = np.cos(released)[..., None], np.sin(released)[..., None]
         begin, y, t = r * cos, r * sin, ages[:, None]
         outward = np.minimum(np.abs(y), 1.0) ** 3
-        skew = GRADIENT * math.atan2(self.mu_x, self.axial)
+        skew = GRADIENT * math.atan2(self.mu_x, -self.axial if self.lambda0 < 0.0 else self.axial)
         inside = t + np.zeros_like(y)
         if self.mu_x > 0.0:
             way = np.sqrt(np.maximum(1.0 - y * y, 0.0)) - begin
@@ -427,7 +428,7 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Arr
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
-    """To be added to A between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
+    """To be added to A/D between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
     n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths
     share = _outboard(line, course)
@@ -436,7 +437,7 @@ def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) ->
         whole = (1.0 / theodorsen(n * half_chord[i] / r) - 1.0) / (2.0 * math.pi * half_chord[i])
         beyond = np.zeros_like(whole)  # Further back than the shed lines reach.
         beyond[1:] = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
-        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n))
+        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n) / course.mass_flow)
         missing[0] = 0.0
         out[i] = (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[back]
     return out

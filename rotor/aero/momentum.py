@@ -24,8 +24,18 @@ class DiskFlow:
 
     @property
     def speed(self) -> float:
-        """Speed at which the air leaves the disk."""
+        """V, the speed at which the air leaves the disk."""
         return math.hypot(self.mu_x, self.axial)
+
+    @property
+    def mass_flow(self) -> float:
+        """D = 1 + λ0 (µ_z + λ0)/V²: 2 in hover, near 1 at speed; 1 without any flow.
+
+        λ0 V = C_T/2 gives dλ0/dC_T = 1/(2 V D). V D is Pitt and Peters' mass flow for changes of the load,
+        V_m = (µ² + λ(λ + ν))/V with ν = λ0 and λ = µ_z + ν (Vertica 5, 1981; Peters and HaQuang, J. AHS 33, 1988).
+        """
+        speed = self.speed
+        return 1.0 + self.lambda0 / speed * (self.axial / speed) if speed else 1.0
 
 
 def axial_inflow(ct: float, climb: float) -> float:

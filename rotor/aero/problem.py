@@ -12,8 +12,9 @@ from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_
 from rotor.aero.bent_section import BentData, bent
 from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
+from rotor.aero.elastic import HARMONICS as TORSION_HARMONICS
 from rotor.aero.elastic import MODES as TORSION_MODES
-from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
+from rotor.aero.elastic import BladeTorsion, build_torsion
 from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import WakeCourse, tip_core
@@ -146,6 +147,7 @@ class Problem:
 def build_problem(design: Design) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
+    check_azimuths(design)
     drag, down = design.drag_parts
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
@@ -163,7 +165,7 @@ def build_problem(design: Design) -> Problem:
     torsion = bending = None
     if models.bending and models.flapping and not design.hovering and can_bend(rotor):
         bending = build_bending(rotor, disk, condition.density, MODES, BENDING_HARMONICS, REFERENCE_COLLECTIVE)
-    highest = max(highest_harmonic(design.pitch_waves), 0 if bending is None else BENDING_HARMONICS)
+    highest = TORSION_HARMONICS if bending is None else BENDING_HARMONICS
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(rotor, disk, condition.density, only_mach, swept, highest, TORSION_MODES)
     stall = _stall_data(design, disk, inflow)
@@ -207,6 +209,14 @@ def grid_of(design: Design) -> tuple[int, int]:
     return inflow_model(design.models.inflow).grid(design.models, design.rotor.blades)
 
 
+def check_azimuths(design: Design) -> None:
+    """Raise ValueError, with one sentence, where the azimuths are too few for the pitch at n/rev."""
+    active = () if design.active_twist is None else design.active_twist.harmonics
+    highest = max((harmonic.per_rev for harmonic in (*active, *design.pitch_per_rev)), default=0)
+    if 2 * highest >= (azimuths := grid_of(design)[1]):
+        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {azimuths}: ask for more")
+
+
 def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     """The problem on the same elements and another number of azimuths."""
     psi = azimuths_of(azimuths)
@@ -220,9 +230,6 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
     """`Problem.waves` and its first two derivatives by ψ."""
     given, none = design.pitch_waves, np.zeros((1, 1))
-    highest = max((harmonic.per_rev for wave in given for harmonic in wave.harmonics), default=0)
-    if 2 * highest >= len(disk.psi):
-        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {len(disk.psi)}: ask for more")
     return [sum((wave(disk.r, disk.psi, order) for wave in given), start=none) for order in range(3)]
 
 

@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, STATES, StallData, follow, window
+from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, room_for, window
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
-from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack
+from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
 from rotor.airfoil.stall_onset import ZERO
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -32,8 +32,8 @@ class StallingData(NamedTuple):
 
 
 @_compile
-def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, zero: Any, right: Any) -> None:
-    """x and M of one row, the angle from zero lift y; with slopes of α and M by the channels in `right`."""
+def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, inside: Any, zero: Any, right: Any) -> None:
+    """x and M of one row, the angle from zero lift y and its weight; slopes of α and M by the channels in `right`."""
     cos, sin, tip = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach
     numbers = stall.numbers[i]
     last = numbers.shape[1] - 1
@@ -47,8 +47,8 @@ def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, zero:
         rise = numbers[ZERO, cell + 1] - numbers[ZERO, cell]
         y[j] = wrapped(y[j] - numbers[ZERO, cell] - rise * (place - cell))
         zero[j] = rise * last if v * tip < 1.0 else 0.0
-        share, _ = window(y[j])
-        inputs[0, j], inputs[1, j] = y[j] * share, v * tip
+        inside[j], _ = window(y[j])
+        inputs[0, j], inputs[1, j] = y[j] * inside[j], v * tip
         if right.shape[2] > 0:
             square = t * t + p * p + 1e-30
             right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
@@ -64,39 +64,42 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
     elements = n if slopes else 0
     kernel, right = np.zeros((3, 2, elements, m, m)), np.zeros((2, c.shape[0], elements, m))
-    inputs, y, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty(m)
+    inputs, y, inside, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty(m), np.empty(m)
     added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 2 * m if slopes else 0)), np.empty((len(STATES), m))
-    turned = np.empty((3, 2 * m if slopes else 0))
+    turned, room = np.empty((3, 2 * m if slopes else 0)), room_for(m)
     for i in range(n):
-        _inputs(c, i, section, stall, inputs, y, zero, right)
-        follow(i, inputs[0], inputs[1], stall, slopes, added, by, shown)
+        _inputs(c, i, section, stall, inputs, y, inside, zero, right)
+        follow(i, inputs[0], inputs[1], stall, room, slopes, added, by, shown)
         for j in range(m):
-            x = inputs[0, j]
+            sin, cos = of_double_angle(0.5 * inputs[0, j])
+            out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)
+            out[1, i, j] = inside[j] * (added[0, j] * sin - added[1, j] * cos)
+            out[2, i, j] = inside[j] * added[2, j]
+        for k in range(len(STATES)):
+            for j in range(m):
+                states[k, i, j] = shown[k, j] * inside[j]
+        for j in range(m):
+            states[SEPARATION, i, j] += 1.0 - inside[j]
+        for j in range(m if slopes else 0):
+            sin, cos = of_double_angle(0.5 * inputs[0, j])
+            lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
             share, falls = window(y[j])
-            cos, sin = np.cos(x), np.sin(x)
-            lift = added[0, j] * cos + added[1, j] * sin
-            drag = added[0, j] * sin - added[1, j] * cos
-            out[0, i, j], out[1, i, j], out[2, i, j] = share * lift, share * drag, share * added[2, j]
-            for k in range(len(STATES)):
-                states[k, i, j] = shown[k, j] * share
-            states[0, i, j] += 1.0 - share
-            if slopes:
-                for k in range(2 * m):
-                    turned[0, k] = share * (by[0, j, k] * cos + by[1, j, k] * sin)
-                    turned[1, k] = share * (by[0, j, k] * sin - by[1, j, k] * cos)
-                    turned[2, k] = share * by[2, j, k]
-                turned[0, j] -= share * drag
-                turned[1, j] += share * lift
-                values = (lift, drag, added[2, j])
-                for o in range(3):
-                    for k in range(m):
-                        # By y through x = y w(y), by M through the zero-lift angle.
-                        inside, fall = window(y[k])
-                        by_y = turned[o, k] * (inside + y[k] * fall)
-                        if k == j:
-                            by_y += falls * values[o]
-                        kernel[o, 0, i, j, k] = by_y
-                        kernel[o, 1, i, j, k] = turned[o, m + k] - by_y * zero[k]
+            for k in range(2 * m):
+                turned[0, k] = share * (by[0, j, k] * cos + by[1, j, k] * sin)
+                turned[1, k] = share * (by[0, j, k] * sin - by[1, j, k] * cos)
+                turned[2, k] = share * by[2, j, k]
+            turned[0, j] -= share * drag
+            turned[1, j] += share * lift
+            values = (lift, drag, added[2, j])
+            for o in range(3):
+                for k in range(m):
+                    # By y through x = y w(y), by M through the zero-lift angle.
+                    within, fall = window(y[k])
+                    by_y = turned[o, k] * (within + y[k] * fall)
+                    if k == j:
+                        by_y += falls * values[o]
+                    kernel[o, 0, i, j, k] = by_y
+                    kernel[o, 1, i, j, k] = turned[o, m + k] - by_y * zero[k]
     return out, states, kernel, right
 
 
@@ -104,6 +107,11 @@ def added_to(c: Array, data: StallingData) -> tuple[Array, Array]:
     """ΔC_l, ΔC_d, ΔC_m, (3, elements, azimuths), and `dynamic_stall.STATES`, (4, elements, azimuths)."""
     out, states, _, _ = _added(c, data, False)
     return out, states
+
+
+def _with_shown(flow: Array, states: Array, added: Array) -> Array:
+    """The flow with the fields of `rotor.aero.elements.Unsteady`."""
+    return np.concatenate([flow, states[[SEPARATION, VORTEX]], added[2:]])
 
 
 def _memory(c: Array, data: StallingData, forces: int) -> Memory:
@@ -130,7 +138,9 @@ def stalling(inner: SectionInterface) -> SectionInterface:
     """The interface of a section with dynamic stall; partial derivatives are those at what is added."""
 
     def section(c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        return inner.section(c, data.section._replace(added=added_to(c, data)[0]), slopes, flow)
+        added, states = added_to(c, data)
+        f, d, s = inner.section(c, data.section._replace(added=added), slopes, flow)
+        return f, d, _with_shown(s, states, added) if flow else s
 
     def memory(c: Array, data: StallingData) -> Memory:
         return _memory(c, data, inner.forces)

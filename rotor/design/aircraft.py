@@ -110,12 +110,16 @@ def read_stand(record: Mapping[str, Any], trim: str) -> Stand:
     return Stand(**values)
 
 
+SLOWEST_FLIGHT = 1e-9
+"""Advance ratio below which a condition is hover: what divides by µ would lose its digits there."""
+
+
 @dataclass(frozen=True)
 class FlightCondition:
     """Steady flight, level unless it climbs, or a test of the rotor alone; hover when the advance ratio is zero."""
 
     advance_ratio: float
-    """µ = V/(ΩR) with the horizontal speed V."""
+    """µ = V/(ΩR) with the horizontal speed V; 0 for less than `SLOWEST_FLIGHT`."""
     mass: float
     """[kg]"""
     altitude: float = 0.0
@@ -141,6 +145,8 @@ class FlightCondition:
         for row in CONDITION.values():
             if not (tested and row.in_flight):
                 row.check(getattr(self, row.field), tested)
+        if self.advance_ratio < SLOWEST_FLIGHT:
+            object.__setattr__(self, "advance_ratio", 0.0)
         if self.stand is not None and self.climb_speed:
             raise ValueError(
                 f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "

@@ -354,12 +354,12 @@ class Design:
         return (stand.thrust or 0.0) / self.thrust_unit
 
     def _estimated_thrust(self, collective: float) -> float:
-        """C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) with a = 5.9 and λ = √(C_T/2) or C_T/2µ, never below 0.02 σ."""
+        """C_T = ½σa(|θ|(1 + 3/2 µ²)/3 − λ/2) with a = 5.9 and λ = √(C_T/2) or C_T/2µ, never below 0.02 σ."""
         sigma, mu = self.rotor.solidity, self.condition.advance_ratio
         ct = 0.0
         for _ in range(20):
             inflow = ct / (2.0 * math.hypot(mu, math.sqrt(ct / 2.0))) if ct > 0.0 else 0.0
-            free = 0.5 * 5.9 * sigma * (collective * (1.0 + 1.5 * mu**2) / 3.0 - 0.5 * inflow)
+            free = 0.5 * 5.9 * sigma * (abs(collective) * (1.0 + 1.5 * mu**2) / 3.0 - 0.5 * inflow)
             ct = 0.5 * (ct + max(free, 0.02 * sigma))
         return ct
 

@@ -175,6 +175,11 @@ class Point:
         assert self.memory is not None
         return self.memory.by_inputs(self.grid.waves)
 
+    @property
+    def forgetful(self) -> "Point":
+        """The point without its memory, for derivatives that need not be exact."""
+        return replace(self, system=replace(self.system, memory=None))
+
     @cached_property
     def size(self) -> float:
         """Largest residual over its tolerance."""

@@ -37,6 +37,9 @@ _MOST_RISES = 3
 _LEAST_PART = 1.0 / 64.0
 """Part of a step below which it is not divided further. Our choice."""
 
+_FORGETFUL = 2
+"""How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
+all the rest, and they spare steps near deep stall only. Our choice."""
 _MANY = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
@@ -88,7 +91,8 @@ class NewtonLimits:
     most_steps_on_few: float = 2.0
     """Most steps with derivatives on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
-    """Factors are kept for the next solution where the last step left less than this part of the residual."""
+    """Factors are kept for the next solution where a step with them left, on average, at most this part of the
+    residual: those from far off close a solution too, but in twice as many steps, and so they would the next ones."""
 
 
 DEFAULT_LIMITS = NewtonLimits()
@@ -102,7 +106,7 @@ class Solved:
     passes: int
     """Evaluations of the equations."""
     factors: Factors | None
-    """Factors of the last step, where they left little of the residual."""
+    """Factors of the last step, where they serve the next solution."""
 
 
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
@@ -177,8 +181,12 @@ class _Steps:
     def __init__(self, system: System, factors: Factors | None, limits: NewtonLimits, passes: int = 0) -> None:
         self.passes = passes
         self.latest = factors
-        self.serving = False
-        """Whether the last step left little of the residual."""
+        self.serving = factors is not None
+        """Whether the steps with the latest factors left little of the residual."""
+        self._steps, self._before = 0, 1.0
+        """Steps with these, and the residual before them."""
+        self._made = 0
+        """How often derivatives were evaluated."""
         self._system, self._limits = system, limits
         self._corrected = _Corrected(factors) if factors is not None else None
 
@@ -210,7 +218,10 @@ class _Steps:
                 part *= 0.5
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
-            self.serving = trial.size <= limits.kept_ratio * point.size
+            if fresh or not self._steps:
+                self._steps, self._before = 0, point.size
+            self._steps += 1
+            self.serving = trial.size <= limits.kept_ratio**self._steps * self._before
             if _steps_left(trial.size, point.size, goal) > most_steps:
                 self._corrected = None
             expected = trial.size * min(trial.size / point.size, 1.0)
@@ -244,7 +255,8 @@ class _Steps:
         near = point if point.grid is system.thin else evaluate(system, system.thin, point.x, slopes=True)
         if not near.slopes.shape[1]:
             near = evaluate(system, system.thin, point.x, slopes=True)
-        self.latest = Factors.of(near)
+        self._made += 1
+        self.latest = Factors.of(near.forgetful if self._made <= _FORGETFUL else near)
         self._corrected = _Corrected(self.latest)
         return self._corrected
 

@@ -11,6 +11,7 @@ from typing import Any, Literal, cast
 import msgspec
 
 from rotor.aero.inflow import inflow_model
+from rotor.aero.problem import check_azimuths
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
@@ -93,7 +94,9 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         if design.active_twist is not None:
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
-    return replace(design, models=models)
+    design = replace(design, models=models)
+    check_azimuths(design)
+    return design
 
 
 def load_design(path: str | Path) -> Design:

@@ -8,6 +8,7 @@ from inspect import cleandoc, signature
 from typing import Any, Unpack
 
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.problem import check_azimuths
 from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
@@ -114,6 +115,7 @@ def make_design(
         design = design.with_twist(twist)
     if blade:
         design = replace(design, rotor=blade.rotor)
+    check_azimuths(design)
     return replace(design, rotor=change_airfoils(design.rotor, airfoils)) if airfoils else design
 
 

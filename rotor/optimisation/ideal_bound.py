@@ -3,11 +3,11 @@
 Both make a given thrust without roll or pitch moment, on the lifting lines and in the wake of the inflow model of that
 name, where
 
-    C_T = ⟨∫ d dr⟩,   C_Pi = ⟨∫ w d dr⟩,   d = (N_b/π) U_T Γ,   w = A Γ
+    C_T = ⟨∫ d dr⟩,   C_Pi = ⟨∫ w d dr⟩,   d = (N_b/π) U_T Γ,   w = A Γ/D + (1 − 1/D) λ0
 
-are linear and quadratic in Γ. No load beats the first, no fixed blade with that section the second (linear
-aerodynamics, no profile drag). `find_bound` gives both as factors κ on C_T λ0 of momentum theory; `ideal_factor` reads
-the shipped table, which `tests/tools/ideal_bound.py` makes.
+are linear and, at a given C_T, quadratic in Γ. No load beats the first, no fixed blade with that section the second
+(linear aerodynamics, no profile drag). `find_bound` gives both as factors κ on C_T λ0 of momentum theory;
+`ideal_factor` reads the shipped table, which `tests/tools/ideal_bound.py` makes.
 """
 
 import math
@@ -18,7 +18,7 @@ import numpy as np
 import scipy
 from numpy.polynomial.chebyshev import chebvander
 
-from rotor.aero.inflow.lifting_line import LiftingLineInflow
+from rotor.aero.inflow.lifting_line import LiftingLineInflow, mean_share
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array, fixed_property, read_only
@@ -52,8 +52,13 @@ class LinesInWake:
 
     @fixed_property
     def matrix(self) -> Array:
-        """A, (points, points)."""
-        return influence(self.line, self.course)
+        """A/D, (points, points)."""
+        return influence(self.line, self.course) / self.course.mass_flow
+
+    @property
+    def mean_inflow(self) -> float:
+        """(1 − 1/D) λ0"""
+        return mean_share(self.course) * self.course.lambda0
 
     @fixed_property
     def dr(self) -> Array:
@@ -81,7 +86,7 @@ class InducedPower:
     circulation: Array
     """Γ over ΩR²."""
     induced: Array
-    """w = A Γ over ΩR."""
+    """w over ΩR."""
     coefficient: float
     """C_Pi"""
     amounts: Array
@@ -133,9 +138,9 @@ def least_twisted_power(
     cos, sin, ones = np.cos(line.psi), np.sin(line.psi), np.ones_like(line.psi)
     controls = [np.outer(np.ones_like(line.r), column) for column in (ones, cos, sin)]
     controls += [np.outer(shape, ones) for shape in (shapes if shapes is not None else ())]
-    given = u_t * twist[:, None] - course.mu_z - course.mu_x * course.coning * cos
+    given = u_t * twist[:, None] - course.mu_z - lines.mean_inflow - course.mu_x * course.coning * cos
     pushes = np.stack([(gain * push).ravel() for push in [given, *(u_t * control for control in controls)]], axis=1)
-    # The inflow answers: Γ + gain A Γ = gain (U_T θ − U_P without λ_i).
+    # The inflow answers: Γ + gain A Γ/D = gain (U_T θ − U_P without A Γ/D).
     system = np.eye(len(pushes)) + gain.ravel()[:, None] * lines.matrix
     circulation: Array = np.linalg.solve(system, pushes).astype(np.float64)
     form, equations = _power_form(lines, circulation)
@@ -155,7 +160,9 @@ def _smooth_shapes(line: LiftingLine, harmonics: int) -> Array:
 
 
 def _power_form(lines: LinesInWake, circulation: Array) -> tuple[Array, Array]:
-    """C_Pi as a symmetric form in the amounts of given circulations (points, n), and C_T and moments as rows (3, n)."""
+    """C_Pi less (1 − 1/D) λ0 C_T as a symmetric form in amounts of circulations (points, n), and C_T and moments as
+    rows (3, n).
+    """
     line = lines.line
     weight = lines.load(np.ones_like(lines.u_t)) * lines.dr[:, None] / line.azimuths
     load = circulation * weight.ravel()[:, None]
@@ -205,7 +212,7 @@ def _minimise_within(form: Array, equations: Array, wanted: Array, bounds: Array
 
 def _evaluate(lines: LinesInWake, circulation: Array, amounts: Array) -> InducedPower:
     field = circulation.reshape(lines.u_t.shape)
-    induced = (lines.matrix @ circulation).reshape(field.shape)
+    induced = (lines.matrix @ circulation).reshape(field.shape) + lines.mean_inflow
     power = lines.mean(induced * lines.load(field))
     return InducedPower(field, induced, power, amounts)
 

@@ -125,10 +125,20 @@ def _grid(known: dict[str, Report]) -> TrustSet:
         )
         for where, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
     ]
+    line = {f"{mu:g}": disk_figures.line_error(mu) for mu in disk_figures.LINE_SPEEDS}
     error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
     area = known["2.8"].numbers
     rows += [
-        words.bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5, "test_figure_3_9"),
+        words.bound("Power at 100 azimuths, µ 0.30, linear inflow", "720 azimuths", error, 1e-5, "test_figure_3_9"),
+        words.row(
+            f"Power of the default model, 24 panels × 24 azimuths, µ {', '.join(line)}",
+            ", ".join(f"{100.0 * error:+.2f}" for error in line.values()) + " %",
+            max(line.values(), key=abs),
+            1e-3,
+            test="test_the_grid_of_the_default_model",
+            against="48 × 48",
+            note="At µ 0.1 by its azimuths.",
+        ),
         words.share(
             "Reverse-flow area, µ 0.30, counted in cells",
             area["reverse_area"] / area["circle_area"] - 1.0,

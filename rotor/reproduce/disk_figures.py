@@ -121,6 +121,18 @@ def power_on(name: str, twist: str, mu: float, elements: int, azimuths: int) -> 
     return solve(replace(design, models=models)).require().power.main_rotor / 1e3
 
 
+LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
+
+
+@lru_cache(maxsize=16)
+def line_error(mu: float) -> float:
+    """Error of the power of the default model on its panels and azimuths, against twice as many of both."""
+    design = make_design(mu=mu)
+    models = replace(design.models, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
+    finer = replace(design, models=models)
+    return solve(design).require().power.main_rotor / solve(finer).require().power.main_rotor - 1.0
+
+
 def convergence_order(powers: Sequence[float]) -> float:
     """p from powers on grids each twice as fine: the slope of log2 of their differences, over the last four.
 

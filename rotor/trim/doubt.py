@@ -202,7 +202,7 @@ def models_beside(design: Design, against: Design | None = None) -> tuple[OtherM
 
 
 def other_models(design: Design) -> dict[str, Design]:
-    """The design with one model changed, by name: another wake, blades that bend or do not, and unsteady flow.
+    """The design with one model changed, by name: another wake, blades that bend or do not, and steady flow.
 
     In hover the other wake is the lifting line, at the least speed that it has.
     """

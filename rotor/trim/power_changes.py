@@ -7,6 +7,7 @@ At a trim x of a design, with the multipliers a of power, Jᵀ a = ∂P/∂x, a 
 one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
@@ -22,6 +23,7 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
 from rotor.trim.adjoint import Adjoint
+from rotor.trim.low_speed import hover_share
 from rotor.trim.power import outside_power, tail_power
 from rotor.trim.solution import Solution
 
@@ -40,18 +42,27 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
     near = _Near(adjoint)
     changes = dict[str, float]()
     for row in uncertain_inputs(solution.design):
-        changed = _CHANGES[row.name](near.problem, _PART * row.size)
-        if changed is not None:
+        if row.name in _POWERS:
+            if power := _POWERS[row.name](solution):
+                changes[row.name] = 0.01 * row.size * power
+        elif (changed := _CHANGES[row.name](near.problem, _PART * row.size)) is not None:
             changes[row.name] = near.change(changed) / _PART
-    if (tail := _tail(solution)) is not None:
-        changes["tail_rotor_percent"] = tail
     return changes
 
 
-def _tail(solution: Solution) -> float | None:
-    """The tail rotor has no part in the trim."""
-    size = next(row.size for row in uncertain_inputs(solution.design) if row.name == "tail_rotor_percent")
-    return 0.01 * size * solution.power.tail if solution.power.tail else None
+def _hover_induced(solution: Solution) -> float:
+    """Induced power [W], as far as the wake is that of hover, and what the tail rotor takes for it."""
+    power, mu = solution.power, solution.design.condition.advance_ratio
+    return hover_part(mu, solution.ct) * power.induced * (1.0 + tail_power(solution.design, power.main_rotor)[1])
+
+
+def hover_part(mu: float, thrust: float) -> float:
+    """How far a wake in level flight at C_T is that of hover: cos²χ = λ²/(µ² + λ²), χ the skew of the wake.
+
+    It is the share of the axial transport in the squared velocity through the disk, with λ by Glauert's momentum
+    theory, λ² (µ² + λ²) = (C_T/2)²: 1 in hover, without slope there, and (C_T/2µ²)² at speed.
+    """
+    return (thrust / (math.hypot(mu**2, thrust) + mu**2)) ** 2 if mu else 1.0
 
 
 class _Near:
@@ -142,8 +153,8 @@ def _times(values: tuple[float, ...], factor: float) -> tuple[float, ...]:
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
     if problem.design.hovering or not problem.inflow.fine_tip:
         return None
-    course = problem.course
-    return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * amount)))
+    course, part = problem.course, 1.0 - hover_share(problem.design)  # The hover model has no such wake.
+    return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * part * amount)))
 
 
 def _tip_loss(problem: Problem, amount: float) -> Problem | None:
@@ -160,7 +171,6 @@ _CHANGES: Mapping[str, Change] = {
     "drag_rise_mach": _section(EARLIER_RISE),
     "drag_area_percent": _drag_area,
     "download_percent": _download,
-    "tail_rotor_percent": lambda problem, amount: None,
     "torsional_stiffness_percent": _structure(
         lambda value, factor: replace(value, torsional_stiffness=_times(value.torsional_stiffness, factor))
     ),
@@ -174,3 +184,8 @@ _CHANGES: Mapping[str, Change] = {
     "tip_loss_percent": _tip_loss,
 }
 """By name, in the order of `assets/doubt.toml`."""
+_POWERS: Mapping[str, Callable[[Solution], float]] = {
+    "hover_induced_percent": _hover_induced,
+    "tail_rotor_percent": lambda solution: solution.power.tail,
+}
+"""Powers [W] of which a part is uncertain, by name. No trim follows them: what balances the rotor stays."""

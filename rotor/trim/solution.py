@@ -17,8 +17,8 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import element_edges
-from rotor.aero.display import STALLED, Unsteady, pitch_of_alpha
-from rotor.aero.elements import TrimState
+from rotor.aero.display import STALLED, pitch_of_alpha
+from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
@@ -92,14 +92,19 @@ class DiskFields(ShortRepr):
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
     unsteady: Unsteady | None = None
     """What dynamic stall does; None without it."""
-    apparent: Array | None = None
-    """What apparent mass adds to C_n and to C_m about the quarter chord, (2, elements, azimuths); None in steady
-    flow."""
+    find_apparent: Callable[[], Array] | None = field(default=None, repr=False)
+    """What `apparent` is computed by."""
+
+    @cached_property
+    def apparent(self) -> Array | None:
+        """What apparent mass adds to C_n and to C_m about the quarter chord, (2, elements, azimuths); None in steady
+        flow."""
+        return None if self.find_apparent is None else self.find_apparent()
 
     @property
     def pitch_of_alpha(self) -> Array:
         """θ with what the flow at three quarters of the chord adds to α, see `display.pitch_of_alpha`."""
-        return self.theta if self.apparent is None else pitch_of_alpha(self)
+        return self.theta if self.find_apparent is None else pitch_of_alpha(self)
 
     @property
     def stalled(self) -> Booleans:

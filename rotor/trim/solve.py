@@ -8,7 +8,7 @@ from functools import partial
 
 from scipy.optimize import brentq
 
-from rotor.aero.display import areas, as_asked, stalled_parts, unsteady_part
+from rotor.aero.display import areas, as_asked, stalled_parts
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -201,7 +201,7 @@ def _assemble(result: TrimResult, begin: float) -> Solution:
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin, fields.unsteady)
+    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
     message = "Trimmed."
     if not converged:
@@ -284,8 +284,8 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         dct=e.fz,
         dcq=e.fx,
         elastic_twist=e.torsion.twist if e.torsion is not None else None,
-        unsteady=unsteady_part(problem, e),
-        apparent=apparent(e, problem.half_chord) if problem.unsteady else None,
+        unsteady=e.unsteady,
+        find_apparent=partial(apparent, e, problem.half_chord) if problem.unsteady else None,
     )
 
 

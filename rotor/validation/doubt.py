@@ -1,26 +1,27 @@
 """Whether measured powers lie within the bands of `rotor.trim.doubt`: for the trust page, good or bad."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from rotor.chart import Axis, Chart, Points
-from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.doubt import doubt
+from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.compare import design_at, load_set
+from rotor.validation.compare import MeasuredSet, at_zero, design_at, load_set
 from rotor.validation.flown import TITLES, measured_powers
 from rotor.validation.trust import TrustRow, TrustSet, description
 
 NAME = "doubt"
-QUANTITIES: dict[str, Callable[[Design], float]] = {
-    "cp": lambda design: 1.0,
-    "cq_over_sigma": lambda design: design.rotor.solidity,
+POWERS = {
+    "hover": ("uh60a-hover", "knight-hefner-3", "knight-hefner-4", "castles-gray", "castles-gray-twisted"),
+    "XV-15 hover": ("xv15-hover",),
+    "XV-15 tunnel": ("xv15-forward-15deg", "xv15-forward-0deg"),
 }
-"""What shaft power over ρA(ΩR)³ is, by quantity of a set: σ times C_Q/σ."""
-POWERS = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "uh60a-hover")
-"""Sets of absolute shaft powers. The free rotor of `pca2` takes none."""
+"""Sets of shaft powers by kind of flight. The free rotor of `pca2` takes none."""
+FLOWN = {"gazelle": "level flight", "bo105": "Bo 105, mass assumed"}
+"""Kind of the powers measured in flight, by rotor."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ class HeldPoint:
 
     name: str
     """Name of the set, or the helicopter."""
+    kind: str
+    """Kind of flight: of `POWERS` or `FLOWN`."""
     error: float
     """Measured over ours, less 1."""
     band: float
@@ -40,32 +43,49 @@ class HeldPoint:
 
 
 def held_points() -> Iterator[HeldPoint]:
-    """All measured powers at which our rotor trims."""
-    for name in POWERS:
-        measured = load_set(name)
-        for point in measured.points:
-            design = design_at(measured, point)
-            coefficient = point[measured.quantity] * QUANTITIES[measured.quantity](design)
-            yield from _held(measured.title, design, coefficient * design.power_unit)
+    """All measured powers at which our rotor trims, in order of kind."""
+    for kind, names in POWERS.items():
+        for measured in map(load_set, names):
+            yield from (held for point in measured.points for held in _held_of(measured, point, kind))
+        if kind == "hover":
+            yield from _flown()
+
+
+def _flown() -> Iterator[HeldPoint]:
     for power in measured_powers():
-        design = make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude)
-        yield from _held(TITLES[power.rotor], design, power.power)
+        solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
+        if solution.converged:
+            yield _held(TITLES[power.rotor], FLOWN[power.rotor], solution, power.power)
 
 
-def _held(name: str, design: Design, measured: float) -> Iterator[HeldPoint]:
-    """Doubt of the power at the main rotor's shaft beside a measurement, without that of the tail rotor."""
-    solution = solve(design)
-    if not solution.converged:
-        return
-    rows = [row.power for row in doubt(solution).rows if row.name != "tail_rotor_percent"]
-    yield HeldPoint(name, measured / solution.power.main_rotor - 1.0, math.hypot(*rows) / solution.power.total)
+def _held_of(measured: MeasuredSet, point: dict[str, float], kind: str) -> Iterator[HeldPoint]:
+    """One point of a set; none where our rotor does not trim."""
+    solution = solve(design_at(measured, point))
+    if solution.converged:
+        design, above_zero = solution.design, measured.quantity == "cq_above_zero"
+        part = design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0
+        power = point[measured.quantity] * part * design.power_unit
+        yield _held(measured.title, kind, solution, power, at_zero(design) if above_zero else None)
+
+
+def _held(name: str, kind: str, solution: Solution, measured: float, zero: Solution | None = None) -> HeldPoint:
+    """A power at the main rotor's shaft, or what it is above that without thrust, beside a measurement.
+
+    The band is that of the same power or difference, without that of the tail rotor.
+    """
+    ours, total = solution.power.main_rotor, solution.power.total
+    if zero is not None:
+        ours, total = ours - zero.power.main_rotor, total - zero.power.total
+    rows = [row for row in doubt(solution, zero).rows if row.name != "tail_rotor_percent"]
+    band = math.hypot(*(row.power if row.change is None else row.change for row in rows))
+    return HeldPoint(name, kind, measured / ours - 1.0, band / abs(total))
 
 
 def doubt_set() -> TrustSet:
     """For the trust page."""
     words, held = description(NAME), list(held_points())
     by_name = {name: [point for point in held if point.name == name] for name in dict.fromkeys(p.name for p in held)}
-    heads = ("Set", "Points", "Inside", "Mean band [%]", "Mean error [%]", "Worst error [%]")
+    heads = ("Set", "Kind of flight", "Points", "Inside", "Mean band [%]", "Mean error [%]", "Worst error [%]")
     rows: list[TrustRow] = []
     series: list[Points] = []
     cells: list[tuple[str, ...]] = [heads]
@@ -76,7 +96,16 @@ def doubt_set() -> TrustSet:
         errors = [point.error for point in points]
         band, mean = sum(point.band for point in points) / count, sum(errors) / count
         parts = f"{100 * band:.1f}", f"{100 * mean:+.1f}", f"{100 * max(errors, key=abs):+.1f}"
-        cells.append((name, f"{count}", f"{inside}", *parts))
-    error = f"{sum(point.inside for point in held)} of {len(held)} inside"
+        cells.append((name, points[0].kind, f"{count}", f"{inside}", *parts))
     chart = Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=tuple(by_name)), tuple(series))
-    return words.page(error, rows, (chart,), points=cells)
+    text = (paragraph.format(counted=counted(held)) for paragraph in words.text)
+    return words.page(counted(held), rows, (chart,), text=text, points=cells)
+
+
+def counted(held: Iterable[HeldPoint]) -> str:
+    """Points inside their band and outside, by kind of flight: many of one rotor in hover do not stand for the rest."""
+    kinds: dict[str, list[bool]] = {}
+    for point in held:
+        kinds.setdefault(point.kind, []).append(point.inside)
+    each = (f"{kind} {sum(inside)}/{inside.count(False)}" for kind, inside in kinds.items())
+    return f"in/out: {'; '.join(each)}"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.inflow.lifting_line import LiftingLineInflow, LiftingLineTerms
+from rotor.aero.inflow.lifting_line import LiftingLineInflow, LiftingLineTerms, mean_share
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.lifting_line import at_points
 from rotor.arrays import Array
@@ -156,7 +156,8 @@ def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> A
     points = np.stack([measured.r * np.cos(measured.psi), measured.r * np.sin(measured.psi), above], axis=1)
     upward = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
     matrix = at_points(terms.line, terms.course, points, upward).mean(axis=0)
-    return matrix @ circulation * (math.pi / terms.line.blades)
+    wake = matrix @ circulation * (math.pi / terms.line.blades)
+    return wake / terms.course.mass_flow + mean_share(terms.course) * terms.course.lambda0
 
 
 def _at(radii: Array, field: Array, measured: MeasuredInflow) -> Array:

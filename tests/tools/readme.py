@@ -1,8 +1,8 @@
 """Write the table of README.md that says how far to trust the program: `python -m tests.tools.readme`.
 
 `make trust` runs it. The rule leaves no choice: every set of assets/trust.csv that has a target is in the table, as
-missed if any row of it missed, with the worst point, else the error, of the first row that decides. What is not
-modelled is what `docs/validation.md` says.
+missed if any row of it missed, with the worst point, else the error, of the first row that decides, and its target in
+brackets. What is not modelled is what `docs/validation.md` says.
 """
 
 import re
@@ -15,17 +15,17 @@ README = Path(__file__).parents[2] / "README.md"
 SHORT = {
     "xv15-hover": "XV-15 hover power",
     "xv15-forward-15deg": "XV-15 torque, tilted",
-    "xv15-forward-0deg": "upright",
+    "xv15-forward-0deg": "XV-15 torque, upright, C_Q/σ",
     "pca2": "PCA-2 autogiro",
     "knight-hefner-3": "Knight–Hefner, three blades",
     "knight-hefner-4": "four",
     "hart2-airloads": "HART II airloads, correlation",
     "gazelle-airloads": "Gazelle airloads, correlation",
-    "flown-power": "Bo 105 power, shape",
+    "flown-power": "Gazelle power, shape",
     "glasgow-loops": "pitching aerofoil, C_m",
     "sc1095": "SC1095 drag",
     "theory": "theory",
-    "grid": "grid",
+    "grid": "grid, linear inflow",
 }
 """What a set is called where words are few; else its name."""
 
@@ -39,12 +39,18 @@ def judged() -> dict[str, TrustRow]:
     return found
 
 
+def beside_target(row: TrustRow) -> str:
+    """The worst point, else the error, and the target in the same unit; a bound says it in one."""
+    shown, target = row.shown.rpartition("worst ")[2], re.split(r" for | everywhere| at each", row.target)[0]
+    return shown if shown == target else f"{shown} ({target})"
+
+
 def table() -> str:
     """The rows below the head of the table."""
     sets = judged()
     cells = {
         f"**{verdict}: {sum(row.verdict == verdict for row in sets.values())} of {len(sets)} sets**": ", ".join(
-            f"[{SHORT.get(name, name)}](docs/validation/{name}.md) {row.shown.rpartition('worst ')[2]}"
+            f"[{SHORT.get(name, name)}](docs/validation/{name}.md) {beside_target(row)}"
             for name, row in sets.items()
             if row.verdict == verdict
         )

@@ -1,11 +1,18 @@
 """The lifting line: each blade a line of panels, the blade elements, with its wake (`rotor.aero.lifting_line`).
 
-    λ_i = A Γ,    Γ = (π/N_b) U_T F_z*/max(U_T², 0.01),  0 in reverse flow       (Kutta and Joukowski)
+    λ_i = λ0 + (A Γ − λ0)/D,    D = 1 + λ0 (µ_z + λ0)/V²                      (Pitt and Peters, `DiskFlow.mass_flow`)
+    Γ = (π/N_b) U_T F_z*/max(U_T², 0.01),  0 in reverse flow                  (Kutta and Joukowski)
 
 F_z* is F_z with lift and drag held beyond the angle of the largest lift (`held_beyond_peak`). If circulation fell with
 the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ is over
 ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the blade as
 built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
+
+The whole wake of A moves at one speed V, so A Γ in hover is N_bΓ/4πV; annuli of momentum theory have λ² = N_bΓ/4π. What
+differs from the mean would be twice too large there. With D, λ_i has the value and the slope of momentum theory where
+the load is that of the course: λ0, V and D are the course's, which also keeps all twists on one linear relation. Pitt
+and Peters' theory is of smeared loads; D acts on all of A, our choice. Under unsteady sections the lag of a thin
+aerofoil has no D: it does not come from the mass flow of the disk.
 """
 
 import math
@@ -23,6 +30,8 @@ from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, P
 from rotor.arrays import Array, read_only
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
+from rotor.engine.terms import ONE, Shape, Structure
+from rotor.engine.waves import STEADY
 
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
@@ -70,7 +79,7 @@ class LiftingLineInflow(InflowModel):
     title = "Lifting line"
     explanation = (
         "Each blade is a line of 24 vortex panels with its own wake, which lies along the trim and does not roll up: "
-        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.3 % here for −8° to −16°, −4 to −5 % rolled up)."
+        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.1 % here for −8° to −16°, −4 to −5 % rolled up)."
     )
     load_dependent = True
     fine_tip = True
@@ -85,6 +94,11 @@ class LiftingLineInflow(InflowModel):
         return LiftingLineTerms(LiftingLine(disk.blades, disk.root, *disk.shape), course)
 
 
+def mean_share(course: DiskFlow) -> float:
+    """1 − 1/D, the part of λ_i that is the mean inflow of the course."""
+    return 1.0 - 1.0 / course.mass_flow
+
+
 @lru_cache(maxsize=32)
 @read_only
 def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
@@ -92,7 +106,7 @@ def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """
-    matrix = influence(line, course)
+    matrix = influence(line, course) / course.mass_flow
     if half_chord:
         blocks = matrix.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
         panel = np.arange(line.panels)
@@ -104,6 +118,7 @@ class LiftingLineTerms(InflowTerms):
     """Lifting lines as nodes of the engine, see `InflowTerms`."""
 
     interface = _LINE
+    names = ("mean inflow",)
 
     def __init__(self, line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
         """half_chord: of unsteady sections over R, (panels,), or empty."""
@@ -114,6 +129,14 @@ class LiftingLineTerms(InflowTerms):
     def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
         """With what the lattice's shed lines lack, see `rotor.aero.lifting_line`."""
         return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
+
+    def build(self, structure: Structure) -> None:
+        """What the course has of λ_i: (1 − 1/D) λ0."""
+        structure.column(UP, self.names[0], STEADY, 1.0, ONE)
+
+    def shapes(self) -> dict[Shape, Array]:
+        """That, (panels,)."""
+        return {self.names[0]: np.full(self.line.panels, mean_share(self.course) * self.course.lambda0)}
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
@@ -126,8 +149,9 @@ class LiftingLineTerms(InflowTerms):
         return np.repeat(2.2 * thrust * shape, self.line.azimuths)
 
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
-        """Through the circulation of the load."""
+        """Through the circulation of the load, and through its thrust, λ0 = C_T/2V."""
         course = replace(self.course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, flap_1c=0.0, flap_1s=0.0)
-        matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
+        matrix = mean_influence(self.line, course) * (math.pi / self.line.blades / course.mass_flow)
         gain, slope = circulation_gain(u_t)
-        return matrix * gain, matrix * slope
+        of_thrust = mean_share(course) * 0.5 / course.speed * np.diff(self.line.edges)
+        return matrix * gain + of_thrust, matrix * slope

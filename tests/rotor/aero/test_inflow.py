@@ -37,6 +37,27 @@ def test_glauert_closes_and_slope_is_exact(ct: float, mu_x: float, mu_z: float):
     assert_allclose(glauert_inflow(-ct, mu_x, -mu_z), (-inflow, slope), rtol=1e-14)
 
 
+@pytest.mark.parametrize("mu_x", [0.0, 0.05, 0.2, 0.45])
+@pytest.mark.parametrize("mu_z", [-0.01, 0.0, 0.03, 0.1])
+def test_the_mass_flow_is_that_of_pitt_and_peters(mu_x: float, mu_z: float):
+    """V D = (µ² + λ(λ + ν))/V; momentum theory's dλ0/dC_T is 1/(2 V D); D has a mirror image."""
+    ct = 0.006
+    inflow, slope = glauert_inflow(ct, mu_x, mu_z)
+    flow = DiskFlow(mu_x, mu_z, inflow)
+    through = mu_z + inflow
+    published = (mu_x**2 + through * (through + inflow)) / math.hypot(mu_x, through)
+    assert flow.speed * flow.mass_flow == pytest.approx(published, rel=1e-14)
+    assert slope == pytest.approx(0.5 / (flow.speed * flow.mass_flow), rel=1e-12)
+    assert DiskFlow(mu_x, -mu_z, -inflow).mass_flow == flow.mass_flow
+
+
+def test_the_mass_flow_in_hover_at_speed_and_without_flow():
+    assert DiskFlow(0.0, 0.0, 0.05).mass_flow == 2.0
+    assert DiskFlow(1e-12, 0.0, 1e-12).mass_flow == pytest.approx(1.5)
+    assert DiskFlow(0.35, 0.05, 0.01).mass_flow == pytest.approx(1.0, abs=5e-3)
+    assert DiskFlow(0.0, 0.0, 0.0).mass_flow == 1.0
+
+
 @pytest.mark.parametrize("name", LINEAR)
 @pytest.mark.parametrize("wake", WAKES)
 def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):

@@ -40,7 +40,8 @@ def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:
     """The inflow that the model gives to the loads, (elements, azimuths)."""
     disk, state, nodes = problem.disk, elements.state, point.system.nodes
     if nodes is not None:
-        return nodes.field(point.forces[nodes.force].ravel()).reshape(disk.shape)
+        (mean,) = problem.inflow_terms.shapes().values()
+        return mean[:, None] + nodes.field(point.forces[nodes.force].ravel()).reshape(disk.shape)
     along, through = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
     followed = problem.inflow_terms.follow(DiskFlow(along, through, state.lambda0), through, sees_tilt=True)
     gradient = followed.atoms["lambda0 kx"][0] * np.outer(disk.r, disk.cos)
@@ -99,8 +100,8 @@ def test_twist_changes_induced_power(inflow: str):
 @pytest.mark.parametrize("rate", [-8, -16])
 def test_slow_flight_agrees_with_hover(rate: int):
     """µ → 0 of the lifting line alone against the annulus balance: the step, which the choice `hover` for low speed
-    closes, is ≤ 5 %."""
+    closes, is ≤ 2 %."""
     hover = solve(make_design(twist=f"linear:{rate}", mu=0.0)).require()
     at = design_of("lifting-line", 0.002, f"linear:{rate}")
     slow = solve(replace(at, models=replace(at.models, low_speed="wake"))).require()
-    assert 1.0 < slow.power.main_rotor / hover.power.main_rotor < 1.05
+    assert 0.98 < slow.power.main_rotor / hover.power.main_rotor < 1.0

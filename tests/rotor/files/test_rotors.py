@@ -65,7 +65,7 @@ def test_the_r22_hovers_and_cruises_within_engine_power():
 def test_the_thesis_preset_on_another_rotor_has_a_caveat():
     solution = solve(make_design(preset="thesis", rotor="r22", mu=0.2)).require()
     assert solution.design.twist == shipped_aircraft("r22").rotor.builtin_twist
-    assert [one.name for one in solution.caveats] == ["thesis-models"]
+    assert [one.name for one in solution.caveats] == ["thesis-models", "torque-without-drag"]
     assert "Robinson R22" in solution.caveats[0].sentence
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
 

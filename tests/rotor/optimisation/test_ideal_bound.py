@@ -35,8 +35,8 @@ CHORD = 0.5273 / 8.1778
 ROWS = {row["mu"]: row for row in csv_rows(Path(__file__).parents[2] / "data/inflow/bound_kappa.csv")}
 
 
-class Helix(WakeCourse):
-    """The table's wake, of skewed helices."""
+class HelixWithMassFlow(WakeCourse):
+    """Skewed helices."""
 
     def nodes(self, psi_b: Array, ages: Array, r: Array) -> Array:
         """(blades, ages, radii, 3)"""
@@ -45,13 +45,21 @@ class Helix(WakeCourse):
         return np.stack([x, y, self.flapping(released) * r - self.axial * t], axis=-1)
 
 
-def condition(mu: str, line: LiftingLine = COARSE) -> tuple[LinesInWake, float]:
+class Helix(HelixWithMassFlow):
+    """The table's wake, whose downwash is A Γ."""
+
+    @property
+    def mass_flow(self) -> float:
+        return 1.0
+
+
+def condition(mu: str, line: LiftingLine = COARSE, wake: type[WakeCourse] = Helix) -> tuple[LinesInWake, float]:
     """The table's UH-60A and its C_T: coning 0.06, and the tilt that carries 3.27 m² of drag."""
     row, speed = ROWS[mu], float(mu)
     thrust = float(row["CT"])
     tilt = math.asin(0.5 * speed**2 * 3.27 / (math.pi * 8.1778**2) / thrust)
     flow = speed * math.cos(tilt), speed * math.sin(tilt), float(row["lam0_Glauert"])
-    return LinesInWake(line, Helix(*flow, 0.06, 0.0, 0.0, (1e-6, 1e-9))), thrust
+    return LinesInWake(line, wake(*flow, 0.06, 0.0, 0.0, (1e-6, 1e-9))), thrust
 
 
 def over_glauert(lines: LinesInWake, thrust: float, result: InducedPower) -> float:
@@ -131,6 +139,21 @@ def test_bound_makes_the_thrust_without_moments_and_within_the_lift_limit(chord:
     else:
         assert lift.min() >= -0.6 - 1e-6
         assert lift.max() <= 1.2 + 1e-6
+
+
+def test_the_mass_flow_draws_bounds_to_the_mean_inflow():
+    """Of a given C_T, w = λ0 + (A Γ − λ0)/D makes of κ − 1 its D-th part; a twist also loads the blade otherwise."""
+    lines, thrust = condition("0.1")
+    ours, _ = condition("0.1", wake=HelixWithMassFlow)
+    share = ours.course.mass_flow
+    assert share > 1.05
+    before, after = (over_glauert(one, thrust, least_induced_power(one, thrust)) for one in (lines, ours))
+    assert after - 1.0 == pytest.approx((before - 1.0) / share, rel=1e-6)
+    twisted = [least_twisted_power(one, thrust, CHORD, math.radians(-8.0) * (COARSE.r - 0.75)) for one in (lines, ours)]
+    before, after = (over_glauert(one, thrust, power) for one, power in zip((lines, ours), twisted, strict=True))
+    assert after - 1.0 == pytest.approx((before - 1.0) / share, rel=0.1)
+    again = lines.matrix @ twisted[1].circulation.ravel() / share + (1.0 - 1.0 / share) * ours.course.lambda0
+    assert_allclose(twisted[1].induced.ravel(), again, rtol=1e-12, atol=1e-15)
 
 
 def test_no_neighbouring_circulation_needs_less_power():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.reproduce.disk_figures import convergence_order
+from rotor.reproduce.disk_figures import convergence_order, line_error
 from rotor.reproduce.implementation import knee_of
 from rotor.reproduce.report import Agreement, Report, ReportTable
 from rotor.reproduce.twist_effect import crossings
@@ -86,6 +86,12 @@ def test_figure_3_9(report: Make):
         assert one.numbers[f"{preset}_error_at_100"] < 2e-5
         assert one.numbers[f"{preset}_needed"] < 100
     assert one.verdict is Agreement.DIFFERS
+
+
+def test_the_grid_of_the_default_model():
+    """What the trust page says of it: half a per cent at µ 0.1, where its azimuths are coarse, and less at speed."""
+    assert abs(line_error(0.1)) < 6e-3
+    assert abs(line_error(0.2)) < 1e-3
 
 
 def test_table_3_1(report: Make):

@@ -277,7 +277,7 @@ def test_a_hingeless_root_with_a_spring_in_lag() -> None:
 def test_gradients(inflow: str) -> None:
     """Slopes of index and power by linear twist, against differences of trims."""
     tight = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
-    step, before = 0.02, rotor.solve(_design(0.3, inflow, twist="linear:-12"))
+    step, before = 0.005, rotor.solve(_design(0.3, inflow, twist="linear:-12"))
     low, high = (
         rotor.solve(_design(0.3, inflow, twist=f"linear:{-12 + sign * step}"), options=tight).require()
         for sign in (-1.0, 1.0)

@@ -11,13 +11,14 @@ import pytest
 
 import rotor
 from rotor.__main__ import main
+from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import Problem, build_problem
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.trim.adjoint import Adjoint
-from rotor.trim.doubt import Doubt, DoubtRow, doubt, sureness
-from rotor.trim.power_changes import power_changes
+from rotor.trim.doubt import Doubt, DoubtRow, doubt, other_models, sureness
+from rotor.trim.power_changes import hover_part, power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
 
@@ -99,6 +100,43 @@ def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
     tail = 1.0 + here.power.tail / here.power.main_rotor
     share = 0.01 * SIZES["section_drag_percent"] * here.power.profile * tail
     assert power_changes(Adjoint(here))["section_drag_percent"] == pytest.approx(share, rel=0.12)
+
+
+def test_in_hover_a_tenth_of_induced_power_is_uncertain_and_what_the_tail_takes_for_it():
+    """The tail rotor's part follows from its power at two torques of the main rotor."""
+    here, there = (rotor.solve(rotor.make_design(twist=twist, hover=True)).require() for twist in TWISTS)
+    found = doubt(here, there)
+    row = next(row for row in found.rows if row.name == "hover_induced_percent")
+    slope = (here.power.tail - there.power.tail) / (here.power.main_rotor - there.power.main_rotor)
+    induced = [one.power.induced for one in (here, there)]
+    assert row.power == pytest.approx(0.1 * induced[0] * (1.0 + slope), rel=2e-3)
+    assert row.change == pytest.approx(0.1 * (induced[0] - induced[1]) * (1.0 + slope), rel=0.1)
+    assert found.band > abs(row.power)
+
+
+def test_a_wake_in_flight_is_that_of_hover_by_the_skew_of_momentum_theory():
+    """cos²χ with Glauert's inflow, which is found by iteration; it leaves 1 without a slope and falls all the way."""
+    for thrust in (1e-4, 0.0067, 0.02):
+        speeds = math.sqrt(0.5 * thrust) * np.geomspace(1e-3, 10.0, 40)
+        parts = [hover_part(float(mu), thrust) for mu in speeds]
+        for mu, part in zip(speeds.tolist(), parts, strict=True):
+            inflow = glauert_inflow(thrust, mu, 0.0)[0]
+            assert part == pytest.approx(inflow**2 / (mu**2 + inflow**2), rel=1e-9)
+        assert hover_part(0.0, thrust) - parts[0] < 1e-5
+        assert (np.diff(parts) < 0.0).all()
+
+
+def test_the_band_of_slow_flight_is_that_of_hover():
+    """The wake of forward flight counts as far as hover's model does not, and the tip loss is of hover alone."""
+    hover, slow = (doubt(rotor.solve(rotor.make_design(mu=mu)).require()) for mu in (0.0, 0.005))
+    assert slow.band == pytest.approx(hover.band, rel=0.02)
+
+
+@pytest.mark.parametrize(("off", "beside"), [("dynamic-stall", True), ("unsteady", False)])
+def test_steady_flow_stands_beside_unsteady_flow_alone(off: str, beside: bool):
+    models = other_models(rotor.make_design(mu=0.2, off=off))
+    assert ("unsteady flow off" in models) == beside
+    assert not any(design.models.unsteady for name, design in models.items() if name.startswith("unsteady"))
 
 
 def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):

@@ -45,6 +45,13 @@ def test_negative_pitch_mirrors():
     assert_allclose(closed_form_inflow(R, -0.05, SIGMA, SLOPE), -closed_form_inflow(R, 0.05, SIGMA, SLOPE), rtol=1e-13)
 
 
+@pytest.mark.parametrize("mu", [5e-324, 1e-12, 9e-10])
+def test_an_advance_ratio_below_a_billionth_is_hover(mu: float):
+    assert make_design(mu=mu) == make_design(hover=True)
+    assert make_design(mu=0.2).at(mu=mu).hovering
+    assert not make_design(mu=1e-9).hovering
+
+
 def test_ideal_twist_gives_uniform_inflow():
     """θ = θ_tip/r, no losses, linear lift: λ is the same at every radius (eq. 1.1)."""
     lam = closed_form_inflow(R, 0.11 / R, SIGMA, SLOPE)

@@ -57,7 +57,7 @@ def test_hover_is_the_limit_of_forward_flight(twist: str, elastic: bool):
 
 def test_without_it_hover_is_no_limit_and_at_speed_it_hardly_matters():
     with_, without = design(), design(low_speed="wake")
-    assert watts(without.at(mu=0.002)) > 1.01 * watts(without)
+    assert watts(without.at(mu=0.002)) < 0.995 * watts(without)
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
 
 

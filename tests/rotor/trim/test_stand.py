@@ -142,6 +142,24 @@ def test_a_gimbal_keeps_its_coning_and_passes_no_moment():
     assert solution.hub_moment.size < 1e-3
 
 
+@pytest.mark.parametrize("mu", [0.005, 0.02, 0.05, 0.2])
+@pytest.mark.parametrize("inflow", ["lifting-line", "local-momentum", "pitt-peters"])
+def test_negative_thrust_mirrors_positive(inflow: str, mu: float):
+    """An untwisted rotor of symmetric sections without weight, ±3° of collective, tilted by ±4°."""
+
+    def at(sign: float) -> Solution:
+        stand = {"collective_deg": 3.0 * sign, "shaft_tilt_deg": 4.0 * sign, "flapping": "free"}
+        made = make_design(rotor="knight-hefner-3", mu=mu, inflow=inflow, trim="controls", stand=stand)
+        return solve(replace(made, models=replace(made.models, blade_weight=False))).require()
+
+    up, down = at(1.0), at(-1.0)
+    assert up.ct > 1e-3
+    assert down.ct == pytest.approx(-up.ct, rel=1e-4)  # The tables of the section mirror to 2e-5.
+    assert down.power.induced == pytest.approx(up.power.induced, rel=1e-4)
+    assert down.controls.flap_1c == pytest.approx(-up.controls.flap_1c, abs=1e-6)
+    assert down.controls.flap_1s == pytest.approx(-up.controls.flap_1s, abs=1e-6)
+
+
 @pytest.mark.parametrize("axial", [0.02, -0.02, -0.06])
 def test_wake_parameters_of_upflow(axial: float):
     """A wake above the disk has the skew of its mirror image, and exact slopes."""

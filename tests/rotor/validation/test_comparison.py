@@ -8,10 +8,10 @@ from rotor.validation.uh60a import beside_hover_points, beside_model_curve
 def test_hover_points():
     """Validation with incomplete provenance: rotor C_P against C_T, ten digitised points.
 
-    The measured points give an induced-power factor of 1.20 (fit of the data), annulus momentum theory gives 1.07: it
-    has no wake contraction and no tip-vortex interference. So ours must lie below the data, by no more than that 11 %
-    of an induced share of three quarters, but for the 3.2 % scatter of the points either way. The first point, 10 % off
-    its own curve, is not counted.
+    The measured points give an induced-power factor of 1.20 (fit of the data), annulus momentum theory gives 1.07;
+    what is between may be induced power or drag that grows with lift. So ours must lie below the data, by no more than
+    that 11 % of an induced share of three quarters, but for the 3.2 % scatter of the points either way. The first
+    point, 10 % off its own curve, is not counted.
     """
     _, measured, ours = map(np.array, beside_hover_points())
     counted = (ours / measured)[1:]

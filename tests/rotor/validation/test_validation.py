@@ -102,7 +102,7 @@ def test_measured_effect_of_twist_in_hover():
 
 
 def test_model_rotor_of_knight_and_hefner_needs_more_than_momentum_theory_gives():
-    """The uncontracted wake of annuli is 4 to 12 % low at working thrust, as known."""
+    """4 to 12 % at working thrust, of induced power or of drag that grows with lift."""
     for name in ("knight-hefner-3", "knight-hefner-4"):
         for point in compare(load_set(name), "annulus").judged:
             assert point.error_percent is not None
