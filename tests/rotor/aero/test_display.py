@@ -104,7 +104,7 @@ class TestFields:
         for name in ("theta", "u_t", "u_p", "induced", "mach", "dct", "dcq", "elastic_twist"):
             expected = getattr(many.disk, name)
             error = np.abs(getattr(few.disk, name) - expected)
-            near = 8e-3 if name == "elastic_twist" else 4e-3  # The blade twists by the moment of vortices.
+            near = 8e-3 if name == "elastic_twist" else 5e-3  # Moments where the flow separates are not smooth.
             assert np.quantile(error, 0.99) < near * np.abs(expected).max(), name
         # Not so near the centre of reverse flow, where an angle of attack turns with the last digits of velocities.
         outside = many.disk.u_t > 0.1
