@@ -17,7 +17,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rotor.aero.bending import BladeBending, can_bend
+from rotor.aero.bending import can_bend
 from rotor.aero.problem import Problem
 from rotor.arrays import Array, read_only
 from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
@@ -25,7 +25,7 @@ from rotor.design.design import Design
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
 from rotor.engine.waves import waves_at
-from rotor.trim.adjoint import Adjoint, Weights
+from rotor.trim.adjoint import Adjoint
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
 
@@ -144,7 +144,7 @@ def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     index, slopes = index_of(problem.design, scaled_loads(problem, terms.value(point.z, point.q)))
     weights = 100.0 * scaled_loads(problem, np.ones(2 * len(LOADS))) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
-    return 100.0 * index, adjoint.by_pitch(Weights(terms=summed))
+    return 100.0 * index, adjoint.by_pitch(summed)
 
 
 @dataclass(frozen=True, eq=False)
