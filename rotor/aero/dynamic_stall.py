@@ -26,7 +26,6 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
 from rotor.airfoil.stall_onset import LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, NEGATIVE, POSITIVE, SLOPE, TRAVEL
@@ -43,7 +42,7 @@ FULL, GONE = math.radians(25.0), math.radians(50.0)
 """Angles from zero lift up to which, and from which nothing of, the unsteady part counts."""
 _GATE = 0.04
 _ARM = 0.2
-LEAST_FINE = 48
+_LEAST_FINE = 48
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel. Our choice: 96 take nearly
 twice as long. 192 raise the power of the UH-60A between µ .1 and .3 by up to .01 % at 8,322 kg, .05 % at 10,900 kg and,
 with 8 % of the disk stalled, .19 % at 12,500 kg."""
@@ -226,46 +225,6 @@ class StallData(NamedTuple):
     tip_mach: float
 
 
-class Room(NamedTuple):
-    """Memory in which one element after another is followed."""
-
-    values: Array
-    """`_VALUES` on the finer azimuths and at the end of the turn, as the rest by what they are called here."""
-    rows: Array
-    cells: NDArray[np.int32]
-    places: Array
-    steps: Array
-    weights: Array
-    lagged: Array
-    static: Array
-    sums: Array
-    travel: Array
-    low: NDArray[np.int32]
-    share: Array
-    turns: Array
-
-
-@_compile
-def room_for(azimuths: int) -> Any:
-    """For elements that are given at so many azimuths."""
-    fine = azimuths * max(1, -(-LEAST_FINE // azimuths))
-    return Room(
-        np.empty((len(_VALUES), fine + 1)),
-        np.empty((8, 2, fine)),
-        np.empty((3, fine), np.int32),
-        np.empty((5, fine)),
-        np.empty((3, 2, fine)),
-        np.empty((3, len(_WEIGHTS), fine)),
-        np.empty((6, fine + 1)),
-        np.empty((6, fine + 1)),
-        np.empty((len(ADDED), fine)),
-        np.empty((len(_TRAVEL), fine + 1)),
-        np.empty((2, fine), np.int32),
-        np.empty((2, fine)),
-        np.empty((2, fine)),
-    )
-
-
 @_compile
 def window(y: float) -> Any:
     """By which x is weighted at y from zero lift, and its slope."""
@@ -352,22 +311,23 @@ def _over_mach(numbers: Any, cell: Any, places: Any, slopes: bool, row: Any) -> 
 
 
 @_compile
-def follow(
-    element: int, x: Any, mach: Any, data: Any, room: Any, slopes: bool, added: Any, by: Any, shown: Any
-) -> None:
+def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, by: Any, shown: Any) -> None:
     """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x and M, (azimuths,) each.
 
-    room: as of `room_for`. by: slopes by these at all azimuths, (3, azimuths, 2 azimuths), only where asked for, else
-    without the last.
+    by: slopes by these at all azimuths, (3, azimuths, 2 azimuths), only where asked for, else without the last.
     """
-    n, v, rows, h, weights, lagged, static = len(x), room.values, room.rows, room.steps, room.weights, *room[6:8]
-    fine = rows.shape[2]
-    steps = fine // n
+    n = len(x)
+    steps = max(1, -(-_LEAST_FINE // n))
+    fine = n * steps
+    v, sums = np.empty((len(_VALUES), fine + 1)), np.empty((len(ADDED), fine))
+    rows, cells, places = np.empty((8, 2, fine)), np.empty((3, fine), np.int32), np.empty((5, fine))
+    h, weights = np.empty((3, 2, fine)), np.empty((3, len(_WEIGHTS), fine))
+    lagged, static = np.empty((6, fine + 1)), np.empty((6, fine + 1))
     spread(x, steps, v[_X])
     spread(mach, steps, v[_MACH])
-    numbers, cells, places = data.numbers[element], room.cells, room.places
+    numbers = data.numbers[element]
     unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)  # Travel over the Mach numbers at its ends.
-    middle = room.sums[0]
+    middle = sums[0]
     for k in range(fine):
         middle[k] = 0.5 * (v[_MACH, k] + v[_MACH, k + 1])
     places_along_mach(middle, cells[2], places[3], places[4])
@@ -389,23 +349,24 @@ def follow(
     for k in range(fine):
         most = max(most, v[_GATED, k])
     v[_GATED, fine] = v[_GATED, 0]
-    earlier = room.low, room.share, room.turns
+    shedding = fine if most > 0.0 else 0
+    travel, low = np.empty((len(_TRAVEL), shedding + 1)), np.empty((2, shedding), np.int32)
+    earlier = low, np.empty((2, shedding)), np.empty((2, shedding))
     v[_VORTEX], v[_GONE_BY] = 0.0, 0.0
     if most > 0.0:
         _over_mach(numbers[TRAVEL], cells[1], places[1:3], slopes, rows[TRAVEL])
         _over_mach(numbers[LAG_VORTEX], cells[2], places[3:], slopes, rows[LAG_VORTEX])
         lag_steps(rows[LAG_VORTEX], v[_MACH], unit, slopes, h[2, 0], h[2, 1])
         lag_weights(h[2, 0], weights[2])
-        _shed(rows, unit, weights[2, _DECAY], v, room.travel, earlier)
+        _shed(rows, unit, weights[2, _DECAY], v, travel, earlier)
     _along(element, data, cells, places, v[_X], slopes, static)
-    _sum_up(rows, static, v, most > 0.0, room.sums)
+    _sum_up(rows, static, v, most > 0.0, sums)
     for o in range(len(ADDED)):
-        _gather(room.sums[o], steps, added[o])
+        _gather(sums[o], steps, added[o])
     for k in range(n):
         for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
             shown[state, k] = v[value, k * steps]
     if slopes:
-        shedding = fine if most > 0.0 else 0
         work, shed = np.empty((4, fine, 2 * n)), np.empty((3, shedding, 2 * n))
         dx, dxf, df, dplace, dm, dcv, dtau = work[0], work[1], work[2], work[3], shed[0], shed[1], shed[2]
         _seed(n, steps, 0, dx)
@@ -419,7 +380,7 @@ def follow(
                 _, by_x, by_onset = _gate(v[_X_LAGGED, k], rows[POSITIVE, 0, k], rows[NEGATIVE, 0, k])
                 _combine(dxf[k], by_x, dxf[k], by_onset * rows[edge, 1, k], dm[k])  # Now those of g.
             given = dx, dm, df, dxf
-            _shed_slopes(rows, unit, weights[2, _DECAY], h[2, 1], v, room.travel, earlier, given, dcv, dtau)
+            _shed_slopes(rows, unit, weights[2, _DECAY], h[2, 1], v, travel, earlier, given, dcv, dtau)
         by[:] = 0.0
         _sum_up_slopes(rows, steps, static, v, df, dplace, dcv, dtau, by)
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, room_for, window
+from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, window
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
 from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
@@ -68,10 +68,10 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     inputs, y, weight, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty((2, m)), np.empty(m)
     inside, falls, by_angle = weight[0], weight[1], np.empty(m)
     added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 2 * m if slopes else 0)), np.empty((len(STATES), m))
-    turned, room = np.empty((3, 2 * m if slopes else 0)), room_for(m)
+    turned = np.empty((3, 2 * m if slopes else 0))
     for i in range(n):
         _inputs(c, i, section, stall, inputs, y, weight, zero, right)
-        follow(i, inputs[0], inputs[1], stall, room, slopes, added, by, shown)
+        follow(i, inputs[0], inputs[1], stall, slopes, added, by, shown)
         for j in range(m):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
             out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)

@@ -43,6 +43,24 @@ def test_the_gradient_is_that_of_trims():
     assert along == pytest.approx((powers[0] - powers[1]) / np.radians(0.02), rel=2e-3)
 
 
+def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch: pytest.MonkeyPatch):
+    design = make_design(**HEAVY, dynamic_stall=True)
+    solution = solve(design).require()
+    monkeypatch.setattr("rotor.engine.newton._FORGETFUL", 0)
+    exact = solve(design).require()
+    assert exact.power.total == pytest.approx(solution.power.total, rel=1e-8)
+    assert exact.controls != solution.controls  # Other steps came to it.
+
+
+def test_a_start_that_is_the_trim_keeps_its_factors():
+    """They serve its gradient and the trim after it."""
+    solution = solve(make_design(mu=0.2, dynamic_stall=True)).require()
+    again = solve(solution.design, solution).require()
+    assert again.passes == 1
+    assert again.start is not None
+    assert again.start.factors is not None
+
+
 def test_random_designs_trim_as_with_steady_sections():
     rng = np.random.default_rng(3)
     for _ in range(6):
