@@ -33,7 +33,7 @@ class StallingData(NamedTuple):
 
 @_compile
 def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, weight: Any, zero: Any, right: Any) -> None:
-    """x and M of one row, the angle from zero lift y, its weight with slope; slopes of α and M by channels in `right`."""
+    """x and M of one row, y from zero lift, its weight with slope; slopes of α and M by the channels in `right`."""
     cos, sin, tip = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach
     numbers = stall.numbers[i]
     last = numbers.shape[1] - 1
@@ -49,11 +49,12 @@ def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, weigh
         zero[j] = rise * last if v * tip < 1.0 else 0.0
         weight[0, j], weight[1, j] = window(y[j])
         inputs[0, j], inputs[1, j] = y[j] * weight[0, j], v * tip
-        if right.shape[2] > 0:
-            square = t * t + p * p + 1e-30
-            right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
-            right[1, UT, i, j], right[1, UP, i, j] = tip * normal * cos / v, tip * p / v
-            right[1, UR, i, j] = -tip * normal * sin / v
+    for j in range(len(y) if right.shape[2] > 0 else 0):
+        t, p, r = c[UT, i, j], c[UP, i, j], c[UR, i, j]
+        normal, square, v = t * cos - r * sin, t * t + p * p + 1e-30, inputs[1, j] / tip
+        right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
+        right[1, UT, i, j], right[1, UP, i, j] = tip * normal * cos / v, tip * p / v
+        right[1, UR, i, j] = -tip * normal * sin / v
 
 
 @_compile

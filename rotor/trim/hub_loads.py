@@ -17,19 +17,17 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rotor.aero.bending import BladeBending, can_bend
+from rotor.aero.bending import can_bend
 from rotor.aero.problem import Problem
-from rotor.aero.section import FR, FX, FZ
 from rotor.arrays import Array, read_only
 from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
 from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
-from rotor.engine.waves import wave_grid, waves_at
-from rotor.trim.adjoint import Adjoint, Weights
+from rotor.engine.waves import waves_at
+from rotor.trim.adjoint import Adjoint
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
-from rotor.units import GRAVITY
 
 SLOWEST = 0.2
 """Advance ratio below which the wake model decides the loads."""
@@ -87,7 +85,7 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
     sizes: dict[str, float] = dict(zip(LOADS, amplitudes, strict=True))
     angles: dict[str, float] = dict(zip(LOADS, phases, strict=True))
     ends = (min([index, *others]), max([index, *others])) if band else None
-    return HubLoads(design.rotor.blades, sizes, angles, index, ends, *root_loads(problem, point))
+    return HubLoads(design.rotor.blades, sizes, angles, index, ends)
 
 
 def _indices(design: Design, solve: Solve) -> list[float]:
@@ -146,47 +144,7 @@ def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     index, slopes = index_of(problem.design, scaled_loads(problem, terms.value(point.z, point.q)))
     weights = 100.0 * scaled_loads(problem, np.ones(2 * len(LOADS))) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
-    return 100.0 * index, adjoint.by_pitch(Weights(terms=summed))
-
-
-def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
-    """Loads of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
-
-    (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and
-    forward; at a hinge or a sprung root they are those of springs and damper, up to what the modes leave and small
-    angles neglect: the mean lag moment of HART II on a soft spring by 5 % with any number of modes; that of the UH-60A
-    on stiff springs by 17 %, less with more modes. Loads on the hub are made of the forces.
-    """
-    b, disk, forces = problem.bending, problem.disk, point.forces
-    assert b is not None
-    rotor = problem.design.rotor
-    u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
-    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(deflection) for deflection in (u, v, w))
-    acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
-    acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
-    air = np.stack([forces[FR], -forces[FX], forces[FZ]])
-    force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
-
-    def moment(along: int, moved: Array) -> Array:
-        """Moment of the forces along one axis times their distance from the root, less those outward times theirs."""
-        moved = moved - moved[0]
-        columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
-        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
-        return of_air - (b.r - b.r[0]) * b.strips @ acceleration[along] + b.strips @ (moved * acceleration[0])
-
-    return force * b.force, np.stack([moment(2, w), moment(1, v)]) * (b.force * rotor.radius)
-
-
-def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tuple[Array, Array, Array]:
-    """u outward, v forward with the offset y0, and w up over R at the stations of a blade: (stations, azimuths)."""
-    q = q.copy()
-    q[b.first, 0] -= b.precone
-    around = q @ wave_grid(q.shape[1], azimuths).at
-    w = b.precone * (b.r - b.r[0])[:, None] + b.along[0].T @ around
-    v = offset + b.along[3].T @ around
-    slopes = (b.precone + b.along[1].T @ around) ** 2 + (b.along[4].T @ around) ** 2
-    u = -0.5 * (b.r[1] - b.r[0]) * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
-    return u, v, w
+    return 100.0 * index, adjoint.by_pitch(summed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,12 +198,3 @@ def _deflections(solution: Solution) -> Deflections | None:
     up[:, : min(3, up.shape[1])] -= np.outer(b.r - b.r[0], flapping)[:, : up.shape[1]]
     radius = solution.design.rotor.radius
     return Deflections(b.r[steps], radius * up[steps], radius * (b.along[3].T @ q)[steps])
-
-
-def _rates(field: Array) -> tuple[Array, Array]:
-    """First and second derivative by ψ of a periodic field, (…, azimuths)."""
-    count = field.shape[-1]
-    harmonic: Array = np.arange(count // 2 + 1, dtype=float)
-    spectrum = np.fft.rfft(field)
-    first = np.where(2.0 * harmonic == count, 0.0, 1j * harmonic)
-    return np.fft.irfft(first * spectrum, count), np.fft.irfft(-(harmonic**2) * spectrum, count)

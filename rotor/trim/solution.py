@@ -166,8 +166,8 @@ class ElasticTwist(ShortRepr):
         }
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class HubLoads(ShortRepr):
+@dataclass(frozen=True)
+class HubLoads:
     """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
 
     per_rev: int
@@ -180,10 +180,6 @@ class HubLoads(ShortRepr):
     """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
     band: tuple[float, float] | None
     """Least and largest index over several inflow models [%]."""
-    root_force: Array
-    """Force of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
-    root_moment: Array
-    """There in flap, positive up, and in lag, positive forward [N m], (2, azimuths)."""
 
     def record(self) -> dict[str, Any]:
         """For `solve --json`."""
