@@ -217,12 +217,8 @@ def measure_unsteady(pairs: int = 30) -> dict[str, float]:
     ratios: dict[str, list[float]] = {name: [] for name in TARGETS_UNSTEADY}
     for mu in _ADVANCE_RATIOS:
         cases: list[tuple[Design, Design, Solution]] = []
-        for kind in ("on", "off"):
-            begun, nearby = (
-                make_design(preset="flight", twist=twist, mu=mu) for twist in ("linear:-16", "linear:-15.5")
-            )
-            models = replace(begun.models, dynamic_stall=kind, unsteady=kind)
-            begun, nearby = replace(begun, models=models), replace(nearby, models=models)
+        for off in (None, "unsteady,dynamic-stall"):
+            begun, nearby = (make_design(twist=twist, mu=mu, off=off) for twist in ("linear:-16", "linear:-15.5"))
             start = solve(begun)
             power_gradient(start)
             cases.append((begun, nearby, start))

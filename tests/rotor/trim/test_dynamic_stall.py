@@ -44,7 +44,7 @@ def test_the_gradient_is_that_of_trims():
 
 
 def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch: pytest.MonkeyPatch):
-    design = make_design(**HEAVY, dynamic_stall=True)
+    design = make_design(**HEAVY)
     solution = solve(design).require()
     monkeypatch.setattr("rotor.engine.newton._FORGETFUL", 0)
     exact = solve(design).require()
@@ -54,7 +54,7 @@ def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch
 
 def test_a_start_that_is_the_trim_keeps_its_factors():
     """They serve its gradient and the trim after it."""
-    solution = solve(make_design(mu=0.2, dynamic_stall=True)).require()
+    solution = solve(make_design(mu=0.2)).require()
     again = solve(solution.design, solution).require()
     assert again.passes == 1
     assert again.start is not None
