@@ -69,7 +69,7 @@ def check(solution: Solution) -> None:
 
 @pytest.mark.slow
 def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
-    """Where stalled sections carry so much thrust that there is no power; the equations themselves hold a little further."""
+    """Where stalled sections carry so much thrust that there is no power; the equations hold a little further."""
     beyond = solve(make_design(mu=0.2, mass_kg=18_000.0))
     reached = re.search(r"A trim was found only up to (\d+) kg\.", beyond.message)
     assert reached
