@@ -269,8 +269,7 @@ def _air(
     """Generalised forces of the air by q, q' and q'', (azimuths, n, n), and the lags of shed vorticity."""
     problem, e = linear.problem, linear.elements
     plain = problem.section_data()
-    arm = 0.5 * problem.half_chord + (0.0 if problem.torsion is None else problem.torsion.lag)
-    data = UnsteadyData(plain, plain, problem.half_chord, arm, np.pi * plain.half_solidity * problem.half_chord)
+    data = problem.unsteady_data(plain, plain)
     c = np.zeros((_FIRST + 3, *e.theta.shape))
     c[:_FIRST] = e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate
     for channel, source in ((DTH, c[RATE]), (DUT, c[UT]), (DUP, c[UP] - e.induced)):

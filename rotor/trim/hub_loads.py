@@ -18,11 +18,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from rotor.aero.bending import can_bend
-from rotor.aero.problem import Problem
 from rotor.arrays import Array, read_only
 from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
-from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
 from rotor.engine.waves import waves_at
 from rotor.trim.adjoint import Adjoint
@@ -76,9 +74,7 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
         solution = solve(design, replace(solution.start, factors=None))
         if not solution.converged:
             return None
-    adjoint = Adjoint(solution)
-    problem, point = adjoint.problem, adjoint.point
-    values = scaled_loads(problem, load_terms(problem, point).value(point.z, point.q))
+    _, values = terms_and_loads(Adjoint(solution))
     index = 100.0 * index_of(design, values)[0]
     others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
@@ -99,16 +95,17 @@ def _indices(design: Design, solve: Solve) -> list[float]:
     return indices
 
 
-def load_terms(problem: Problem, point: Point) -> Terms:
+def terms_and_loads(adjoint: Adjoint) -> tuple[Terms, Array]:
+    """The terms of `LOADS`, and what they are in a trim: cosine and sine [N, N m], (loads, 2)."""
+    problem, point = adjoint.problem, adjoint.point
     assert problem.bending is not None
-    return hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+    terms = hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+    return terms, terms.value(point.z, point.q).reshape(-1, 2) * load_units(problem.design)
 
 
-def scaled_loads(problem: Problem, values: Array) -> Array:
-    """N and N m from units of the equations: cosine and sine of each load in turn → (loads, 2)."""
-    design = problem.design
-    lengths = np.array([1.0] * 3 + [design.rotor.radius] * 2)
-    return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
+def load_units(design: Design) -> Array:
+    """N and N m by units of the equations, (loads, 1)."""
+    return design.thrust_unit * np.array([1.0] * 3 + [design.rotor.radius] * 2)[:, None]
 
 
 def index_gains(design: Design) -> Array:
@@ -132,17 +129,14 @@ def index_of(design: Design, values: Array) -> tuple[float, Array]:
 
 def hub_index(adjoint: Adjoint) -> float:
     """The index [%] of a trim that has hub loads, with blades that bend."""
-    problem, point = adjoint.problem, adjoint.point
-    loads = load_terms(problem, point).value(point.z, point.q)
-    return 100.0 * index_of(problem.design, scaled_loads(problem, loads))[0]
+    return 100.0 * index_of(adjoint.problem.design, terms_and_loads(adjoint)[1])[0]
 
 
 def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     """The index [%], and its slope by each element's pitch [%/rad], (elements,)."""
-    problem, point = adjoint.problem, adjoint.point
-    terms = load_terms(problem, point)
-    index, slopes = index_of(problem.design, scaled_loads(problem, terms.value(point.z, point.q)))
-    weights = 100.0 * scaled_loads(problem, np.ones(2 * len(LOADS))) * slopes
+    design, (terms, loads) = adjoint.problem.design, terms_and_loads(adjoint)
+    index, slopes = index_of(design, loads)
+    weights = 100.0 * load_units(design) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
     return 100.0 * index, adjoint.by_pitch(summed)
 

@@ -378,7 +378,7 @@ class _March:
         state_ = self.point.system.structure.states
         cyclic = self.point.x[state_["cyclic_1c"]] * math.cos(self.psi[k])
         cyclic += self.point.x[state_["cyclic_1s"]] * math.sin(self.psi[k])
-        moment = torsion.radial @ (width * f[M]) + torsion.coupling @ phi + torsion.modal_inertia * cyclic
+        moment = torsion.radial @ (width * f[M]) + torsion.coupling @ phi + torsion.modal(torsion.inertia) * cyclic
         moment += self.by_slope @ q - (phi + self.problem.given_torsion[:, 0]) / torsion.gain
         return np.concatenate([dx, np.linalg.solve(self.masses, np.concatenate([right, moment]))])
 
