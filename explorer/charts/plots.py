@@ -44,7 +44,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, Array]:
     """Negative and positive stall angle, and α [°], at the elements of one azimuth; NaN in reverse flow."""
     disk = solution.disk
-    fields = (disk.theta, disk.u_t, disk.u_p, *stall_angles(solution))
+    fields = (disk.pitch_of_alpha, disk.u_t, disk.u_p, *stall_angles(solution))
     theta, u_t, u_p, lower, upper = (at_azimuth(solution, values, math.radians(azimuth_deg)) for values in fields)
     outside, alpha = np.where(u_t > 0.0, 1.0, np.nan), theta - np.arctan2(u_p, u_t)
     return outside * np.degrees(lower), outside * np.degrees(upper), outside * np.degrees(alpha)

@@ -232,7 +232,7 @@ def refined(solution: Solution, grid: PolarGrid) -> Refined:
     """
     disk = solution.disk
     lower, upper = stall_angles(solution)
-    theta, u_t, u_p, low, high = grid.refine_all((disk.theta, disk.u_t, disk.u_p, lower, upper))
+    theta, u_t, u_p, low, high = grid.refine_all((disk.pitch_of_alpha, disk.u_t, disk.u_p, lower, upper))
     separation = None if disk.unsteady is None else grid.refine_all((disk.unsteady.separation,))[0]
     return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high, separation)
 

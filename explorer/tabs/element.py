@@ -115,7 +115,7 @@ class Probe:
     phi: float
     """Inflow angle atan2(U_P, U_T): near π where the flow comes from the trailing edge."""
     alpha: float
-    """θ − φ in (−π, π], about the blade's reference line."""
+    """θ − φ in (−π, π], about the blade's reference line; in unsteady flow that of three quarters of the chord."""
     u_t: float
     """In the plane of the disk and normal to the blade [m/s]."""
     u_p: float
@@ -202,10 +202,8 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     section = Blend(rotor.blade.installed(inner), rotor.blade.installed(outer), weight)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
-    alpha = math.pi - (math.pi - theta + phi) % (2.0 * math.pi)
-    if disk.apparent is not None:  # The flow at three quarters of the chord.
-        ahead = disk.alpha - disk.theta + np.arctan2(disk.u_p, disk.u_t)
-        alpha += at.held(np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi)
+    ahead = at.held(disk.pitch_of_alpha - disk.theta)
+    alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
     chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed())
     cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
     if cm is not None and unsteady is not None:

@@ -5,8 +5,10 @@ continued between the azimuths by their Fourier series and the section is evalua
 interpolated, and reverse flow, stall and drag rise begin where they would if the trim were solved there.
 """
 
+import math
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -96,6 +98,15 @@ def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) ->
     return f, s, bends
 
 
+def pitch_of_alpha(flow: Any) -> Array:
+    """θ + Δ that gives the angle of attack α = θ + Δ − atan2(U_P, U_T) of a flow at three quarters of the chord.
+
+    Unlike α it does not run through ±180°. flow: what has `theta`, `alpha`, `u_t` and `u_p`.
+    """
+    ahead = flow.alpha - flow.theta + np.arctan2(flow.u_p, flow.u_t)
+    return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
+
+
 def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
     """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
 
@@ -111,9 +122,8 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
     else:
         limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
-        theta, u_t, u_p, lift, low, high = matrix @ np.stack(
-            (elements.theta, elements.u_t, elements.u_p, elements.fz, *limits)
-        )
+        pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
+        theta, u_t, u_p, lift, low, high = matrix @ np.stack((pitch, elements.u_t, elements.u_p, elements.fz, *limits))
         alpha = np.empty_like(theta)
         angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
         reverse, cells = u_t < 0.0, cells / len(disk.psi)

@@ -1,4 +1,4 @@
-"""Newton's method on the exact Jacobian, corrected by what its steps have shown.
+"""Newton's method on the Jacobian, corrected by what its steps have shown.
 
 Unknowns mean the same on every number of azimuths, so derivatives are evaluated on few, and a start without derivatives
 is solved there first. Factors are kept over several steps and for the next solution: with each step they are corrected
@@ -6,7 +6,8 @@ by Broyden's rank-one change (Math. Comp. 19, 1965), which needs no new factors,
 
     H ← H + (s − H y)(W s)ᵀ H / (W s)ᵀ H y,    s: step, y: change of R, W: what changes of an unknown do to R.
 
-The residual has to meet the same tolerance, whatever the derivatives of the steps.
+The residual has to meet the same tolerance, whatever the derivatives of the steps. The first two Jacobians of a
+solution leave out what forces remember; all others are exact.
 
 Where a whole step raises the residual, part of it is taken: until the residual falls, or the next step with the same
 derivatives is shorter (natural monotonicity; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
@@ -86,13 +87,14 @@ class NewtonLimits:
 
     most_passes: int = 60
     most_steps: float = 4.0
-    """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
-    as much as two to four, and one or two steps follow them."""
+    """Derivatives are evaluated again when more steps than this are to be expected with those of this solution:
+    derivatives cost as much as two to four, and one or two steps follow them."""
+    most_kept_steps: float = 4.0
+    """The same with factors of an earlier solution."""
     most_steps_on_few: float = 2.0
     """Most steps with derivatives on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
-    """Factors are kept for the next solution where a step with them left, on average, at most this part of the
-    residual: those from far off close a solution too, but in twice as many steps, and so they would the next ones."""
+    """Factors are kept for the next solution where the last step left less than this part of the residual."""
 
 
 DEFAULT_LIMITS = NewtonLimits()
@@ -106,7 +108,7 @@ class Solved:
     passes: int
     """Evaluations of the equations."""
     factors: Factors | None
-    """Factors of the last step, where they serve the next solution."""
+    """Factors of the last step, where they left little of the residual."""
 
 
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
@@ -182,9 +184,7 @@ class _Steps:
         self.passes = passes
         self.latest = factors
         self.serving = factors is not None
-        """Whether the steps with the latest factors left little of the residual."""
-        self._steps, self._before = 0, 1.0
-        """Steps with these, and the residual before them."""
+        """Whether the last step left little of the residual."""
         self._made = 0
         """How often derivatives were evaluated."""
         self._system, self._limits = system, limits
@@ -218,11 +218,8 @@ class _Steps:
                 part *= 0.5
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
-            if fresh or not self._steps:
-                self._steps, self._before = 0, point.size
-            self._steps += 1
-            self.serving = trial.size <= limits.kept_ratio**self._steps * self._before
-            if _steps_left(trial.size, point.size, goal) > most_steps:
+            self.serving = trial.size <= limits.kept_ratio * point.size
+            if _steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
                 self._corrected = None
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:

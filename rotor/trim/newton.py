@@ -48,9 +48,6 @@ class SolverOptions(SystemTolerances):
 
 
 DEFAULT_OPTIONS = SolverOptions()
-_KEPT_RATIO = 0.12
-"""`NewtonLimits.kept_ratio` of a lifting line: steps usually leave .05, and new factors cost as much as twenty steps.
-Our choice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +142,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     if not problem.inflow.load_dependent:
         limits = replace(limits, most_steps_on_few=0.0)
     if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as ten steps.
-        limits = replace(limits, most_steps=10.0, kept_ratio=_KEPT_RATIO)
+        limits = replace(limits, most_steps=7.0, most_kept_steps=10.0, kept_ratio=0.5)
     solved = solve(system, first_point(problem, system, start), factors, limits)
     residual, twisting, difference = _errors(solved.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow

@@ -17,7 +17,7 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
-from rotor.aero.display import STALLED
+from rotor.aero.display import STALLED, pitch_of_alpha
 from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
@@ -100,6 +100,11 @@ class DiskFields(OnDisk, ShortRepr):
         """What apparent mass adds to C_n and to C_m about the quarter chord, (2, elements, azimuths); None in steady
         flow."""
         return None if self.find_apparent is None else self.find_apparent()
+
+    @property
+    def pitch_of_alpha(self) -> Array:
+        """θ with what the flow at three quarters of the chord adds to α, see `display.pitch_of_alpha`."""
+        return self.theta if self.find_apparent is None else pitch_of_alpha(self)
 
     @property
     def stalled(self) -> Booleans:

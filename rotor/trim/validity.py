@@ -338,7 +338,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     near = easier_condition(design, reached)
     how_far = ""
     if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
-        how_far = f" A trim exists only up to {math.floor(near.mass)} kg."
+        how_far = f" A trim was found only up to {math.floor(near.mass)} kg."
     elif reached > 0.0:
         how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (

@@ -175,7 +175,10 @@ class TestRanges:
 
     @pytest.mark.parametrize("rotor", ["uh60a", "r22", "bo105"])
     def test_usual_ranges_show_the_field_of_any_rotor(self, rotor: str):
-        """Hardly anything beyond, and not all of it in a few colours: also for rotors of other size and speed."""
+        """Hardly anything beyond, and not all of it in a few colours: also for rotors of other size and speed.
+
+        But for dynamic stall, of which there is little in ordinary flight.
+        """
         for mu in (0.1, 0.2, 0.3):
             solution = solve(make_design(rotor=rotor, mu=mu)).require()
             for field in FIELDS.values():
@@ -184,8 +187,9 @@ class TestRanges:
                     low, high = usual_range(field, solution.design.rotor)
                     seen = np.quantile(values, (0.02, 0.98))
                     case = field.title, mu, low, high, seen
-                    assert np.mean((values < low) | (values > high)) < 0.12, case
-                    assert field.two_sided or seen[1] - seen[0] > 0.18 * (high - low), case
+                    hair = 1e-3 * (high - low)  # Where nothing is stalled the vortex is zero to some digits.
+                    assert np.mean((values < low - hair) | (values > high)) < 0.12, case
+                    assert field.two_sided or field.needs == "unsteady" or seen[1] - seen[0] > 0.18 * (high - low), case
 
 
 class TestWipe:

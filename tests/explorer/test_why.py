@@ -110,7 +110,7 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
         ({"mu": 0.25}, FAST, "drag divergence grew near the tip on the advancing side"),
         (FAST, {"mu": 0.25}, "drag divergence shrank"),
         ({"mu": 0.3, "mass": 9.8e3}, {"mu": 0.42, "mass": 9.8e3}, "stall grew .*on the retreating side"),
-        ({"mu": 0.0}, {"mu": 0.15}, "stall appeared inboard on the retreating side"),
+        ({"mu": 0.0}, {"mu": 0.15}, "stall appeared inboard at the rear of the disk"),
         (SLOW, {"altitude": 2000.0}, r"^Thinner air \(−18 %\): induced \+.*parasite −"),
         ({"altitude": 2000.0}, SLOW, r"^Denser air \(\+22 %\): induced −"),
         (SLOW, {"mu": 0.25, "twist": "linear:-5", "mass": 9000.0}, "^Several changes at once: "),

@@ -104,7 +104,8 @@ class TestFields:
         for name in ("theta", "u_t", "u_p", "induced", "mach", "dct", "dcq", "elastic_twist"):
             expected = getattr(many.disk, name)
             error = np.abs(getattr(few.disk, name) - expected)
-            assert np.quantile(error, 0.99) < 5e-3 * np.abs(expected).max(), name
+            near = 8e-3 if name == "elastic_twist" else 5e-3  # Moments where the flow separates are not smooth.
+            assert np.quantile(error, 0.99) < near * np.abs(expected).max(), name
         # Not so near the centre of reverse flow, where an angle of attack turns with the last digits of velocities.
         outside = many.disk.u_t > 0.1
         assert np.degrees(np.abs(few.disk.alpha - many.disk.alpha)[outside]).max() < 0.3
