@@ -36,7 +36,7 @@ from rotor.reproduce import ladder, readings
 #
 # The document's assumptions, read as most of its statements hold, give −16.6, −8.5 and −3.8° in hover, at µ 0.2 and
 # at 0.35. From there one assumption after another is changed to that of the preset ``flight``. Trim by cyclic with µ
-# sin α moves that most: −7.0 to −8.1° at µ 0.35, −2.1 to −2.8° at 0.2, where drag rise, torsion and section data move
+# sin α moves that most: −7.0 to −8.1° at µ 0.35, −2.1 to −2.9° at 0.2, where drag rise, torsion and section data move
 # it as far.
 
 names = tuple(ladder.RUNGS)
