@@ -83,7 +83,7 @@ print(f"best fixed {moving.fixed_deg:.1f}°; moving saves {100 * moving.gain:.2f
 
 # %%
 # Measured, on another rotor: −17.3° needs 5 % more power than −11.5° at 330 km/h and 2.4 % less in hover. Ours gives
-# −0.2 % with the drag of the UH-60A and +3.2 % (3.1 to 5.7 over models) at the usual propulsive force of a tunnel
+# −0.2 % with the drag of the UH-60A and +3.2 % (3.1 to 5.6 over models) at the usual propulsive force of a tunnel
 # test; −0.5 % in hover.
 
 for kmh in (0.0, ladder.FAST_KMH):
