@@ -126,6 +126,7 @@ def build_bending(
     )
     edges = element_edges(disk.dr) * radius
     outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
+    inboard = widths * (r < edges[0]), edges[1] - edges[0]
     bent = along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r))
     turned = 2.0 * (reference + rotor.builtin_twist(disk.r))
     return BladeBending(
@@ -141,11 +142,8 @@ def build_bending(
         load=load,
         in_plane=along[3] @ strips + (0.0 if hingeless else springs[1] / (force * root) * slope),
         precone=precone,
-        share=_with_root(along[1, [first]], shapes[1, [first]], widths * (r < edges[0]), edges[1] - edges[0]),
-        coupling=0.5
-        * (lag - flap)
-        / (force * radius**2)
-        * _with_root(*bent, widths * (r < edges[0]), edges[1] - edges[0]),
+        share=_with_root(along[1, [first]], shapes[1, [first]], *inboard),
+        coupling=0.5 * (lag - flap) / (force * radius**2) * _with_root(*bent, *inboard),
         reference=np.stack([np.cos(turned), np.sin(turned)]),
         r=r / radius,
         strips=strips,

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.inflow.interface import SectionInterface
+from rotor.aero.inflow.interface import SectionInterface, places_of
 from rotor.aero.section import FR, FX, FZ, TH, UP, UR, UT, M, of_double_angle
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -80,13 +80,8 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
         for j in range(c.shape[2]):
             for o in range(forces):
                 out[o, i, j] = f[o, i, j]
-            w, v, kw, kv, b = (
-                c[first, i, j],
-                c[first + 1, i, j],
-                c[first + 2, i, j],
-                c[first + 3, i, j],
-                c[first + 4, i, j],
-            )
+            w, v = c[first, i, j], c[first + 1, i, j]
+            kw, kv, b = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
             out[FZ, i, j], out[FX, i, j], out[FR, i, j] = _back(f[FZ, i, j], f[FX, i, j], f[FR, i, j], w, v)
             sine, cosine = of_double_angle(c[TH, i, j])
             out[M, i, j] -= coupling[i] * ((kw * kw - kv * kv) * sine + 2.0 * kw * kv * cosine)
@@ -155,65 +150,46 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data
                     out[place[o, k], i] = full[o, k]
 
 
-class _BentSection:
-    """The section of an inflow model on a blade that bends."""
-
-    def __init__(self, inner: SectionInterface) -> None:
-        self._inner, self._first, self._forces = inner, inner.channels, inner.forces
-        tilts = self._first + SW + 5, self._first + SV + 5
-        kw, kv, b = (self._first + 5 + channel for channel in (KW, KV, B))
-        known = set(inner.pairs)
-        pairs = list[tuple[int, int]]()
-        self._rows = np.full((inner.forces, inner.channels), -1, dtype=np.int64)
-        self._place = np.full((inner.forces, inner.channels + 2), -1, dtype=np.int64)
-        for k, (force, channel) in enumerate(inner.pairs):
-            self._rows[force, channel] = k
-        turned = {channel for force, channel in known if force in (FX, FZ, FR)}
-        for force in sorted(range(inner.forces), key=lambda o: o == M):  # M last: those of bending follow it.
-            followed = turned if force in (FX, FZ, FR) else {channel for o, channel in known if o == force}
-            for channel in (*sorted(followed | {UT, UP, UR}), *tilts):
-                self._place[force, channel] = len(pairs)
-                pairs.append((force, channel))
-        last = {force: inner.forces + 5 + force for force in BENDING}
-        pairs += [
-            (M, kw), (M, kv), (last[E], tilts[0]), (last[E], tilts[1]), (last[GW], tilts[0]), (last[GW], b),
-            (last[GV], tilts[1]), (last[GV], b), (last[MW], TH), (last[MW], kw), (last[MW], kv), (last[MV], TH),
-            (last[MV], kw), (last[MV], kv),
-        ]  # fmt: skip
-        self.pairs = tuple(pairs)
-
-    def __call__(self, c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        """Forces, derivatives and flow as of `section.section`, with the rows of `pairs`."""
-        first, forces = self._first, self._forces
-        f, d, s = self._inner.section(turned(c, first), data.section, slopes, flow)
-        out, blade = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
-        _turn_back(c, first, f, forces, blade, out)
-        partials = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
-        if slopes:
-            _slopes_back(c, first, f, d, self._rows, self._place, blade, partials)
-        return out, partials, s
-
-    def memory(self, c: Array, data: BentData) -> Memory:
-        """The memory of the section within, its forces turned back and its channels turned."""
-        assert self._inner.memory is not None
-        first = self._first
-        memory = self._inner.memory(turned(c, first), data.section)
-        t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
-        left = np.concatenate([memory.left, np.zeros((5, *memory.left.shape[1:]))])
-        left[FZ], left[FX], left[FR] = _back.py_func(memory.left[FZ], memory.left[FX], memory.left[FR], w, v)
-        right = np.concatenate([memory.right, np.zeros((len(memory.right), 5, *t.shape))], axis=1)
-        by_air = (memory.right[:, channel] for channel in (UT, UP, UR))
-        right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
-            *by_air, t, p, r, w, v
-        )
-        return Memory(left, memory.kernel, right)
-
-
 @lru_cache(maxsize=8)
 def bent(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
-    bent_section = _BentSection(inner)
-    memory = None if inner.memory is None else bent_section.memory
-    return SectionInterface(
-        bent_section, bent_section.pairs, inner.channels + 5, inner.forces + 5, inner.balanced, memory
-    )
+    first, forces = inner.channels, inner.forces
+    tilts, (kw, kv, b) = (first + SW + 5, first + SV + 5), (first + 5 + channel for channel in (KW, KV, B))
+    moved = {channel for force, channel in inner.pairs if force in (FX, FZ, FR)}
+    pairs = list[tuple[int, int]]()
+    for force in sorted(range(forces), key=lambda o: o == M):  # M last: those of bending follow it.
+        followed = moved if force in (FX, FZ, FR) else {channel for o, channel in inner.pairs if o == force}
+        pairs += [(force, channel) for channel in (*sorted(followed | {UT, UP, UR}), *tilts)]
+    rows, place = places_of(inner.pairs, forces, first), places_of(pairs, forces, first + 2)
+    last = {force: forces + 5 + force for force in BENDING}
+    pairs += [
+        (M, kw), (M, kv), (last[E], tilts[0]), (last[E], tilts[1]), (last[GW], tilts[0]), (last[GW], b),
+        (last[GV], tilts[1]), (last[GV], b), (last[MW], TH), (last[MW], kw), (last[MW], kv), (last[MV], TH),
+        (last[MV], kw), (last[MV], kv),
+    ]  # fmt: skip
+
+    def section(c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+        f, d, s = inner.section(turned(c, first), data.section, slopes, flow)
+        out, blade = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
+        _turn_back(c, first, f, forces, blade, out)
+        partials = np.empty((len(pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
+        if slopes:
+            _slopes_back(c, first, f, d, rows, place, blade, partials)
+        return out, partials, s
+
+    def memory(c: Array, data: BentData) -> Memory:
+        """That of the section within, its forces turned back and its channels turned."""
+        assert inner.memory is not None
+        within = inner.memory(turned(c, first), data.section)
+        t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
+        left = np.concatenate([within.left, np.zeros((5, *within.left.shape[1:]))])
+        left[FZ], left[FX], left[FR] = _back.py_func(within.left[FZ], within.left[FX], within.left[FR], w, v)
+        right = np.concatenate([within.right, np.zeros((len(within.right), 5, *t.shape))], axis=1)
+        by_air = (within.right[:, channel] for channel in (UT, UP, UR))
+        right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
+            *by_air, t, p, r, w, v
+        )
+        return Memory(left, within.kernel, right)
+
+    remembers = None if inner.memory is None else memory
+    return SectionInterface(section, tuple(pairs), first + 5, forces + 5, inner.balanced, remembers)

@@ -13,8 +13,25 @@ from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 
 
+class OnDisk:
+    """Values of elements that reach to the tip, at even azimuths."""
+
+    dr: Array
+    psi: Array
+
+    @property
+    def edges(self) -> Array:
+        """Edges of the elements y/R, (elements + 1,)."""
+        return element_edges(self.dr)
+
+    @property
+    def cells(self) -> Array:
+        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        return np.diff(self.edges**2) / len(self.psi)
+
+
 @dataclass(frozen=True, eq=False)
-class Disk:
+class Disk(OnDisk):
     """Element centres, azimuths and the blade's properties there. Radius first, azimuth second."""
 
     r: Array
@@ -55,16 +72,6 @@ class Disk:
     def shape(self) -> tuple[int, int]:
         """(elements, azimuths)"""
         return len(self.r), len(self.psi)
-
-    @property
-    def edges(self) -> Array:
-        """Edges of the elements over R, (elements + 1,)."""
-        return element_edges(self.dr)
-
-    @property
-    def cells(self) -> Array:
-        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
-        return np.diff(self.edges**2) / len(self.psi)
 
     @property
     def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]:

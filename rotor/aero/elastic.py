@@ -20,7 +20,7 @@ moment), and that of first-harmonic flapping on it, which is zero for a hinge at
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -77,21 +77,6 @@ class BladeTorsion:
     """C_m, (sections, α cells, Mach cells, 1, 4, 4)."""
     moment_unit: float
     """ρπR⁵Ω²/N_b [N m]."""
-
-    @property
-    def moment_data(self) -> tuple[Array, Array, Array, Array, Array]:
-        """The last five of `SectionData`."""
-        return self.moment_gain, self.damping, self.lag, self.tables, self.inertia
-
-    @cached_property
-    def modal_inertia(self) -> Array:
-        """∫ Φ_k j dr, (modes,)."""
-        return self.modal(self.inertia)
-
-    @cached_property
-    def modal_tip_mass(self) -> Array:
-        """∫ Φ_k w dr, (modes,)."""
-        return self.modal(self.tip_mass)
 
     def modal(self, along: Array) -> Array:
         """∫ Φ_k f dr of a distribution, (elements,) → (modes,)."""

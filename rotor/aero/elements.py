@@ -1,6 +1,5 @@
 """The blade elements at a trim: velocities, forces and the flow at the sections, and their sums over the disk."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
@@ -38,9 +37,9 @@ class TrimState:
         """The state of eight numbers in the order of the fields."""
         return cls(*np.asarray(values, dtype=float).tolist())
 
-    def array(self, names: Sequence[Unknown] | None = None) -> Array:
-        """The quantities named, in that order; all eight by default."""
-        return np.array([getattr(self, name) for name in names] if names else list(vars(self).values()), dtype=float)
+    def array(self) -> Array:
+        """All eight, in the order of the fields."""
+        return np.array(list(vars(self).values()), dtype=float)
 
 
 STATE_NAMES: tuple[Unknown, ...] = tuple(field.name for field in fields(TrimState))  # pyright: ignore[reportAssignmentType]

@@ -117,11 +117,14 @@ class Problem:
     def grid_data(self, step: int) -> SectionData | StallingData | UnsteadyData | BentData:
         """What `interface` needs beside the channels, on every `step`-th azimuth."""
         plain, bending = self.section_data(step), self.bending
-        arm = 0.5 * self.half_chord + (0.0 if self.torsion is None else self.torsion.lag)
-        mass = math.pi * plain.half_solidity * self.half_chord
         data = plain if self.stall is None else StallingData(plain, self.stall)
-        data = UnsteadyData(plain, data, self.half_chord, arm, mass) if self.unsteady else data
+        data = self.unsteady_data(plain, data) if self.unsteady else data
         return data if bending is None else BentData(data, bending.coupling, bending.reference, bending.share)
+
+    def unsteady_data(self, section: SectionData, within: SectionData | StallingData) -> UnsteadyData:
+        """What a section in unsteady flow needs beside the channels; within: data of the section in it."""
+        arm = 0.5 * self.half_chord + (0.0 if self.torsion is None else self.torsion.lag)
+        return UnsteadyData(section, within, self.half_chord, arm, math.pi * section.half_solidity * self.half_chord)
 
     @cached_property
     def half_chord(self) -> Array:
@@ -131,7 +134,7 @@ class Problem:
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
-        torsion, unloaded = self.torsion, self.unloaded
+        t, unloaded = self.torsion, self.unloaded
         return SectionData(
             *self.disk.section_data,
             self.tip_mach,
@@ -140,7 +143,7 @@ class Problem:
             _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
             NOTHING_ADDED,
             self.scatter,
-            *(NO_MOMENT if torsion is None else torsion.moment_data),
+            *(NO_MOMENT if t is None else (t.moment_gain, t.damping, t.lag, t.tables, t.inertia)),
         )
 
 

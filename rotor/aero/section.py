@@ -43,20 +43,14 @@ _PI = math.pi
 
 
 class SectionData(NamedTuple):
-    """What forces need beside the channels; arrays by element unless said otherwise."""
+    """What forces need beside the channels; arrays by element unless said otherwise. The first eight: see `Disk`."""
 
     half_solidity: Array
-    """½σ(r), (elements,)."""
     section: Integers
-    """Rows of the tables that are blended, (elements, 2)."""
     weight: Array
-    """Weight of the second of the two."""
     offset: Array
-    """Angle by which the chord lines of the two are nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
-    """C_l and C_d, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Tables of the circulation of a lifting line, shaped alike, see `rotor.aero.inflow.lifting_line`."""
     cos_sweep: Array
     sin_sweep: Array
     tip_mach: float

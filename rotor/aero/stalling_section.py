@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, room_for, window
+from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, window
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
 from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
@@ -32,8 +32,8 @@ class StallingData(NamedTuple):
 
 
 @_compile
-def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, inside: Any, zero: Any, right: Any) -> None:
-    """x and M of one row, the angle from zero lift y and its weight; slopes of α and M by the channels in `right`."""
+def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, weight: Any, zero: Any, right: Any) -> None:
+    """x and M of one row, y from zero lift, its weight with slope; slopes of α and M by the channels in `right`."""
     cos, sin, tip = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach
     numbers = stall.numbers[i]
     last = numbers.shape[1] - 1
@@ -47,13 +47,14 @@ def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, insid
         rise = numbers[ZERO, cell + 1] - numbers[ZERO, cell]
         y[j] = wrapped(y[j] - numbers[ZERO, cell] - rise * (place - cell))
         zero[j] = rise * last if v * tip < 1.0 else 0.0
-        inside[j], _ = window(y[j])
-        inputs[0, j], inputs[1, j] = y[j] * inside[j], v * tip
-        if right.shape[2] > 0:
-            square = t * t + p * p + 1e-30
-            right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
-            right[1, UT, i, j], right[1, UP, i, j] = tip * normal * cos / v, tip * p / v
-            right[1, UR, i, j] = -tip * normal * sin / v
+        weight[0, j], weight[1, j] = window(y[j])
+        inputs[0, j], inputs[1, j] = y[j] * weight[0, j], v * tip
+    for j in range(len(y) if right.shape[2] > 0 else 0):
+        t, p, r = c[UT, i, j], c[UP, i, j], c[UR, i, j]
+        normal, square, v = t * cos - r * sin, t * t + p * p + 1e-30, inputs[1, j] / tip
+        right[0, TH, i, j], right[0, UT, i, j], right[0, UP, i, j] = 1.0, p / square, -t / square
+        right[1, UT, i, j], right[1, UP, i, j] = tip * normal * cos / v, tip * p / v
+        right[1, UR, i, j] = -tip * normal * sin / v
 
 
 @_compile
@@ -63,13 +64,14 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     n, m = c.shape[1:]
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
     elements = n if slopes else 0
-    kernel, right = np.zeros((3, 2, elements, m, m)), np.zeros((2, c.shape[0], elements, m))
-    inputs, y, inside, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty(m), np.empty(m)
+    kernel, right = np.empty((3, 2, elements, m, m)), np.zeros((2, c.shape[0], elements, m))
+    inputs, y, weight, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty((2, m)), np.empty(m)
+    inside, falls, by_angle = weight[0], weight[1], np.empty(m)
     added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 2 * m if slopes else 0)), np.empty((len(STATES), m))
-    turned, room = np.empty((3, 2 * m if slopes else 0)), room_for(m)
+    turned = np.empty((3, 2 * m if slopes else 0))
     for i in range(n):
-        _inputs(c, i, section, stall, inputs, y, inside, zero, right)
-        follow(i, inputs[0], inputs[1], stall, room, slopes, added, by, shown)
+        _inputs(c, i, section, stall, inputs, y, weight, zero, right)
+        follow(i, inputs[0], inputs[1], stall, slopes, added, by, shown)
         for j in range(m):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
             out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)
@@ -80,26 +82,23 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
                 states[k, i, j] = shown[k, j] * inside[j]
         for j in range(m):
             states[SEPARATION, i, j] += 1.0 - inside[j]
+        for j in range(m):
+            by_angle[j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
         for j in range(m if slopes else 0):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
             lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
-            share, falls = window(y[j])
             for k in range(2 * m):
-                turned[0, k] = share * (by[0, j, k] * cos + by[1, j, k] * sin)
-                turned[1, k] = share * (by[0, j, k] * sin - by[1, j, k] * cos)
-                turned[2, k] = share * by[2, j, k]
-            turned[0, j] -= share * drag
-            turned[1, j] += share * lift
-            values = (lift, drag, added[2, j])
-            for o in range(3):
+                turned[0, k] = inside[j] * (by[0, j, k] * cos + by[1, j, k] * sin)
+                turned[1, k] = inside[j] * (by[0, j, k] * sin - by[1, j, k] * cos)
+                turned[2, k] = inside[j] * by[2, j, k]
+            turned[0, j] -= inside[j] * drag
+            turned[1, j] += inside[j] * lift
+            for o, value in enumerate((lift, drag, added[2, j])):
                 for k in range(m):
-                    # By y through x = y w(y), by M through the zero-lift angle.
-                    within, fall = window(y[k])
-                    by_y = turned[o, k] * (within + y[k] * fall)
-                    if k == j:
-                        by_y += falls * values[o]
-                    kernel[o, 0, i, j, k] = by_y
-                    kernel[o, 1, i, j, k] = turned[o, m + k] - by_y * zero[k]
+                    kernel[o, 0, i, j, k] = turned[o, k] * by_angle[k]
+                kernel[o, 0, i, j, j] += falls[j] * value
+                for k in range(m):  # By M through the zero-lift angle too.
+                    kernel[o, 1, i, j, k] = turned[o, m + k] - kernel[o, 0, i, j, k] * zero[k]
     return out, states, kernel, right
 
 

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.elements import BladeElements
-from rotor.aero.inflow.interface import SectionInterface
+from rotor.aero.inflow.interface import SectionInterface, places_of
 from rotor.aero.section import FX, FZ, RATE, TH, UP, UT, M, SectionData, of_double_angle
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -65,30 +65,17 @@ def _ahead(b: float, rate: float, t: float, p: float) -> Any:
     g, by_t, by_p = forward / below, 0.5 * (1.0 + t / u), 0.5 * p / u
     g_t, g_p = (by_t - 2.0 * t * g) / below, (by_p - 2.0 * p * g) / below
     share = b * rate
-    return (
-        share * g,
-        share * g_t,
-        share * g_p,
-        b * g,
-        forward * g,
-        by_t * g + forward * g_t,
-        by_p * g + forward * g_p,
-        u,
-    )
+    ahead = share * g, share * g_t, share * g_p, b * g
+    return *ahead, forward * g, by_t * g + forward * g_t, by_p * g + forward * g_p, u
 
 
 @_compile
-def _turn(c: Any, half_chord: Any, out: Any) -> None:
-    """Add b θ' G to the pitch in `out`."""
+def at_three_quarters(c: Any, half_chord: Any) -> Any:
+    """Channels with the pitch of the flow at three quarters of the chord: of the section within."""
+    out = c.copy()
     for i in range(c.shape[1]):
         for j in range(c.shape[2]):
             out[TH, i, j] += _ahead(half_chord[i], c[RATE, i, j], c[UT, i, j], c[UP, i, j])[0]
-
-
-def at_three_quarters(c: Array, half_chord: Array) -> Array:
-    """Channels with the pitch of the flow at three quarters of the chord: of the section within."""
-    out = c.copy()
-    _turn(c, half_chord, out)
     return out
 
 
@@ -104,12 +91,14 @@ def apparent(e: BladeElements, half_chord: Array) -> Array:
 
 
 @_compile
-def _ahead_slopes(c: Any, half_chord: Any, out: Any) -> None:
-    """∂(b θ' G) by U_T, U_P and θ', (3, elements, azimuths)."""
+def slopes_ahead(c: Any, half_chord: Any) -> Any:
+    """Slopes of what `at_three_quarters` adds to the pitch by U_T, U_P and θ', (3, elements, azimuths)."""
+    out = np.empty((3, *c.shape[1:]))
     for i in range(c.shape[1]):
         for j in range(c.shape[2]):
             values = _ahead(half_chord[i], c[RATE, i, j], c[UT, i, j], c[UP, i, j])
             out[0, i, j], out[1, i, j], out[2, i, j] = values[1], values[2], values[3]
+    return out
 
 
 @_compile
@@ -205,60 +194,32 @@ def _push_slopes(
                         out[at, i, j] += full[o, k, j]
 
 
-def slopes_ahead(c: Array, half_chord: Array) -> Array:
-    """Slopes of what `at_three_quarters` adds to the pitch by U_T, U_P and θ', (3, elements, azimuths)."""
-    out = np.empty((3, *c.shape[1:]))
-    _ahead_slopes(c, half_chord, out)
-    return out
-
-
-class _UnsteadySection:
-    """The section of an inflow model in unsteady attached flow."""
-
-    def __init__(self, inner: SectionInterface) -> None:
-        self._inner, self.first = inner, inner.channels
-        self._rows = np.full((inner.forces, inner.channels), -1, dtype=np.int64)
-        self._place = np.full((inner.forces, inner.channels + len(RATES)), -1, dtype=np.int64)
-        for k, pair in enumerate(inner.pairs):
-            self._rows[pair] = k
-        turned = {force for force, channel in inner.pairs if channel == TH}
-        pairs = list(inner.pairs)
-        known = set(pairs)
-        for force in sorted(turned):
-            new = [channel for channel in (UT, UP, RATE) if (force, channel) not in known]
-            pairs += [(force, channel) for channel in new]
-        pairs += [(force, self.first + rate) for force in _PUSHED for rate in RATES]
-        for k, pair in enumerate(pairs):
-            self._place[pair] = k
-        self.pairs = tuple(pairs)
-
-    def __call__(self, c: Array, data: UnsteadyData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        """Forces, derivatives and flow as of `section.section`, with the rows of `pairs`."""
-        section = data.section
-        within = at_three_quarters(c[: self.first], data.half_chord)
-        f, d, s = self._inner.section(within, data.within, slopes, flow)
-        blade = data.half_chord, data.arm, data.mass
-        _push(c, self.first, blade, section.inertia, section.unloaded, f)
-        partials = np.empty((len(self.pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
-        if slopes:
-            _push_slopes(c, self.first, blade, section.inertia, section.unloaded, d, self._rows, self._place, partials)
-        return f, partials, s
-
-    def memory(self, c: Array, data: UnsteadyData) -> Memory:
-        """The memory of the section within, its pitch turned."""
-        assert self._inner.memory is not None
-        memory = self._inner.memory(at_three_quarters(c[: self.first], data.half_chord), data.within)
-        right = np.concatenate([memory.right, np.zeros((len(memory.right), len(RATES), *c.shape[1:]))], axis=1)
-        for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
-            right[:, channel] += memory.right[:, TH] * slope
-        return Memory(memory.left, memory.kernel, right)
-
-
 @lru_cache(maxsize=8)
 def unsteady(inner: SectionInterface) -> SectionInterface:
     """The interface of a section in unsteady attached flow."""
-    unsteady_section = _UnsteadySection(inner)
-    memory = None if inner.memory is None else unsteady_section.memory
-    return SectionInterface(
-        unsteady_section, unsteady_section.pairs, inner.channels + len(RATES), inner.forces, inner.balanced, memory
-    )
+    first, channels = inner.channels, inner.channels + len(RATES)
+    turned = sorted({force for force, channel in inner.pairs if channel == TH})
+    new = [(force, channel) for force in turned for channel in (UT, UP, RATE) if (force, channel) not in inner.pairs]
+    pairs = (*inner.pairs, *new, *((force, first + rate) for force in _PUSHED for rate in RATES))
+    rows, place = places_of(inner.pairs, inner.forces, first), places_of(pairs, inner.forces, channels)
+
+    def section(c: Array, data: UnsteadyData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+        f, d, s = inner.section(at_three_quarters(c[:first], data.half_chord), data.within, slopes, flow)
+        of = (data.half_chord, data.arm, data.mass), data.section.inertia, data.section.unloaded
+        _push(c, first, *of, f)
+        partials = np.empty((len(pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
+        if slopes:
+            _push_slopes(c, first, *of, d, rows, place, partials)
+        return f, partials, s
+
+    def memory(c: Array, data: UnsteadyData) -> Memory:
+        """That of the section within, its pitch turned."""
+        assert inner.memory is not None
+        within = inner.memory(at_three_quarters(c[:first], data.half_chord), data.within)
+        right = np.concatenate([within.right, np.zeros((len(within.right), len(RATES), *c.shape[1:]))], axis=1)
+        for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
+            right[:, channel] += within.right[:, TH] * slope
+        return Memory(within.left, within.kernel, right)
+
+    remembers = None if inner.memory is None else memory
+    return SectionInterface(section, pairs, channels, inner.forces, inner.balanced, remembers)

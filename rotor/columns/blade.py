@@ -145,8 +145,8 @@ class Torsion(Freedom):
         assert torsion is not None
         out = dict[Hashable, float]()
         gain, coupling = torsion.gain.tolist(), (torsion.gain[:, None] * torsion.coupling).tolist()
-        mass = (torsion.gain * torsion.modal_tip_mass).tolist()
-        inertia, dynamic = (torsion.gain * torsion.modal_inertia).tolist(), torsion.dynamic.tolist()
+        mass = (torsion.gain * torsion.modal(torsion.tip_mass)).tolist()
+        inertia, dynamic = (torsion.gain * torsion.modal(torsion.inertia)).tolist(), torsion.dynamic.tolist()
         for k in range(self.modes):
             out |= {("gain", k): gain[k], ("gain of a wave", k): 2.0 * gain[k]}
             out |= {("tip mass", k): mass[k], ("inertia", k): inertia[k]}

@@ -11,13 +11,13 @@ balance by the implicit function theorem. What remains are collective, coning an
 
 import math
 from collections.abc import Hashable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths, section_fields
+from rotor.aero.elements import BladeElements, TrimState, TwistState, Unknown, over_azimuths, section_fields
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
@@ -28,7 +28,7 @@ from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.columns.bending import freedoms_of
 from rotor.columns.blade import Torsion
-from rotor.columns.trims import trim_numbers
+from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers
 from rotor.compiled import compiled
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System
 from rotor.engine.terms import ONE, Shape, Structure
@@ -183,35 +183,24 @@ def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def _structure(modes: int, gives_thrust: bool, cones: bool, numbers: tuple[Hashable, ...]) -> Structure:
-    """Atoms, columns and equations; gives_thrust: whether the collective is solved for; cones: the coning too."""
-    s = Structure(HOVER_PAIRS, len(CHANNELS), len(FORCES) + 1, ("hover", modes, gives_thrust, cones))
+def _structure(modes: int, trim: Trim, numbers: tuple[Hashable, ...]) -> Structure:
+    """Atoms, columns and equations of a trim for thrust and coning, and of steady twist."""
+    s = Structure(HOVER_PAIRS, len(CHANNELS), len(FORCES) + 1, ("hover", modes, trim))
     for number in numbers:
         s.number(number)
-    collective, coning = s.state("collective"), s.state("coning")
-    twist, free, n = Torsion(modes, 1), list[int](), s.numbers
-    for name in twist.states:
+    twist = Torsion(modes, 1)
+    for name in ("collective", "coning", *twist.states):
         s.state(name)
-    s.column(TH, "one", STEADY, 1.0, collective)
-    thrust = s.measure(FZ, "one", STEADY)
-    torque = s.measure(FX, "r", STEADY)
+    s.column(TH, "one", STEADY, 1.0, s.states["collective"])
     for name in ("drag", "motion", "damping"):
         s.sum(name, [])
+    torque = s.measure(FX, "r", STEADY)
     for name in ("torque", "power", "power on a stand"):
         s.sum(name, [(1.0, ONE, ONE, torque)])
-    if gives_thrust:
-        row = s.equation("thrust")
-        s.term(row, 1.0, q=thrust)
-        s.term(row, -1.0, n["weight"])
-        free.append(collective)
-    if cones:
-        row = s.equation("coning")
-        s.term(row, 1.0, q=s.measure(FZ, "arm", STEADY))
-        s.term(row, -1.0, n["coning stiffness"], coning)
-        s.term(row, -1.0, n["blade weight"])
-        free.append(coning)
+    declare_equations(s, trim)
+    add_equations(s, trim, [], [])
     twist.build(s)
-    return s.finish(free + [s.states[name] for name in twist.states])
+    return s.finish([s.states[name] for name in (*trim.unknowns, *twist.states)])
 
 
 def _nothing_made(x: Array) -> tuple[Array, Array, Live]:
@@ -223,14 +212,15 @@ def hover_system(problem: Problem) -> System:
     """The equations of a hovering design, at one azimuth; tolerances are those of the caller."""
     design, disk, torsion = problem.design, problem.disk, problem.torsion
     models, stand = design.models, design.condition.stand
-    given = stand is not None and stand.collective is not None
-    cones = models.flapping and design.rotor.precone is None
+    solved: tuple[Unknown, ...] = () if stand is not None and stand.collective is not None else ("collective",)
+    cones: tuple[Unknown, ...] = ("coning",) if models.flapping and design.rotor.precone is None else ()
+    trim = Trim((*solved, *cones), (*("thrust" for _ in solved), *cones))
     values: dict[Hashable, float] = {**trim_numbers(problem)}
     shapes: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
     for freedom in freedoms_of(problem, 1):
         values |= freedom.numbers(problem)
         shapes |= freedom.shapes(problem)
-    structure = _structure(0 if torsion is None else len(torsion.gain), not given, cones, tuple(values))
+    structure = _structure(0 if torsion is None else len(torsion.gain), trim, tuple(values))
     closed = models.hover_inflow == "closed-form"
     far, none = np.full_like(disk.r, math.inf), np.zeros(0)
     ends = np.stack(
@@ -248,12 +238,8 @@ def hover_system(problem: Problem) -> System:
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
     grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
-    count, along, numbers = (
-        len(structure.equations),
-        Shapes(structure, shapes, disk.dr),
-        np.array([1.0, *values.values()]),
-    )
-    tolerance, limits = np.full(count, problem.scale), np.ones(count)
+    along, numbers = Shapes(structure, shapes, disk.dr), np.array([1.0, *values.values()])
+    tolerance, limits = (size * np.ones(len(structure.equations)) for size in (problem.scale, 1.0))
     return System(structure, along, grid, grid, _annulus_section, _nothing_made, numbers, tolerance, limits)
 
 
@@ -262,26 +248,17 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     disk, torsion, structure = problem.disk, problem.torsion, point.system.structure
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     channels, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
-    coning = float(point.x[states["coning"]])
-    thrust = float(disk.dr @ f[FZ, :, 0])
-    state = TrimState(
-        collective=float(point.x[states["collective"]]),
-        coning=coning,
-        lambda0=axial_inflow(max(thrust, 0.0), problem.climb),
-    )
+    collective, coning = (float(point.x[states[name]]) for name in ("collective", "coning"))
+    lambda0 = axial_inflow(max(float(disk.dr @ f[FZ, :, 0]), 0.0), problem.climb)
+    everywhere = partial(over_azimuths, azimuths=azimuths)
     twist = None
     if torsion is not None:
         coordinates = np.zeros_like(problem.given_torsion)
-        coordinates[:, 0] = steady_twist(point)
-        along = torsion.radial.T @ coordinates[:, 0]
-        twist = TwistState(coordinates, over_azimuths(along, azimuths), over_azimuths(f[M, :, 0], azimuths))
-
-    def everywhere(values: Array) -> Array:
-        return over_azimuths(values, azimuths)
-
+        coordinates[:, 0] = point.x[[atom for name, atom in states.items() if isinstance(name, tuple)]]
+        twist = TwistState(coordinates, everywhere(torsion.radial.T @ coordinates[:, 0]), everywhere(f[M, :, 0]))
     return BladeElements(
-        state=state,
-        flow=DiskFlow(0.0, problem.climb, state.lambda0),
+        state=TrimState(collective=collective, coning=coning, lambda0=lambda0),
+        flow=DiskFlow(0.0, problem.climb, lambda0),
         theta=everywhere(channels[TH]),
         u_t=everywhere(channels[UT]),
         u_p=everywhere(channels[UP]),
@@ -293,15 +270,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
         swirl=disk.r - channels[UT],
         **section_fields(np.repeat(f, azimuths, axis=2), np.repeat(s, azimuths, axis=2)),
         torsion=twist,
-        bent=None,
-        rates=None,
     )
-
-
-def steady_twist(point: Point) -> Array:
-    """Steady elastic twist of each mode [rad], (modes,)."""
-    places = [atom for name, atom in point.system.structure.states.items() if isinstance(name, tuple)]
-    return point.x[places]
 
 
 def _at_balance(point: Point) -> tuple[Array, Array]:

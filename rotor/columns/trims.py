@@ -29,6 +29,7 @@ from rotor.aero.problem import Problem
 from rotor.aero.section import FZ
 from rotor.columns.bending import FLAPPING_STATES, bends
 from rotor.design.design import Design
+from rotor.design.quantities import Flapping
 from rotor.engine.terms import Structure, Sum
 from rotor.engine.waves import COS, SIN, STEADY
 
@@ -61,26 +62,21 @@ def trim_of(design: Design) -> Trim:
     if models.flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
         if design.rotor.precone is None:
             pairs.append(("coning", "coning"))
-        if _cyclic_trims(design):
+        if _flapping(design) == "trimmed":
             pairs += [("cyclic_1c", "flap_1c"), ("cyclic_1s", "flap_1s")]
         else:
             pairs += [("flap_1c", "flap_1c"), ("flap_1s", "flap_1s")]
-    if _moments(design):
-        pairs += [("cyclic_1c", "pitching"), ("cyclic_1s", "rolling")]
+        if _flapping(design) == "hub-moments":
+            pairs += [("cyclic_1c", "pitching"), ("cyclic_1s", "rolling")]
     unknowns, equations = zip(*pairs, ("lambda0", "momentum"), strict=True)
     return Trim(unknowns, equations)
 
 
-def _cyclic_trims(design: Design) -> bool:
-    """Whether cyclic keeps the first-harmonic flapping at its given value, or the blades flap freely."""
-    stand = design.condition.stand
-    return design.models.trim == "propulsive" if stand is None else stand.flapping == "trimmed"
-
-
-def _moments(design: Design) -> bool:
-    """Whether cyclic gives the hub moments asked for on a test stand."""
-    stand = design.condition.stand
-    return design.models.flapping and stand is not None and stand.flapping == "hub-moments"
+def _flapping(design: Design) -> Flapping:
+    """What cyclic does to blades that flap, as `Stand.flapping` names it."""
+    if design.condition.stand is not None:
+        return design.condition.stand.flapping
+    return "trimmed" if design.models.trim == "propulsive" else "free"
 
 
 def with_given_values(problem: Problem, start: TrimState) -> TrimState:
@@ -90,9 +86,9 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     given: dict[str, float] = {"lambda0": max(start.lambda0, 1e-4)}
     if not models.flapping:
         given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0}
-    elif _cyclic_trims(design):
+    elif _flapping(design) == "trimmed":
         given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
-    elif not _moments(design):
+    elif _flapping(design) == "free":
         given |= {"cyclic_1c": stand.cyclic_1c if stand else 0.0, "cyclic_1s": stand.cyclic_1s if stand else 0.0}
     if models.flapping and design.rotor.precone is not None:
         given["coning"] = design.rotor.precone

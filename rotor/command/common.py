@@ -179,7 +179,9 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     limits.add_argument(
         "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg -20,0"
     )
-    limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
+    limits.add_argument(
+        "--stalled-percent", type=finite, metavar="P", help="largest part of the disk beyond the stall angle"
+    )
     limits.add_argument(
         "--index-percent",
         type=finite,

@@ -109,16 +109,10 @@ class BendingModes:
         return out * (radii >= self.beam.nodes[0])
 
     @property
-    def modal_mass(self) -> Array:
-        """∫ m (w² + v²) dr, (modes,)."""
-        at = self.at(self.beam.r)
-        return (at[0] ** 2 + at[3] ** 2) @ (self.beam.mass * self.beam.weight)
-
-    @property
     def flap_share(self) -> Array:
-        """Part of the modal mass that moves in flap, (modes,)."""
-        at = self.at(self.beam.r)
-        return at[0] ** 2 @ (self.beam.mass * self.beam.weight) / self.modal_mass
+        """Part of the modal mass ∫ m (w² + v²) dr that moves in flap, (modes,)."""
+        flap, lag = self.at(self.beam.r)[[0, 3]] ** 2 @ (self.beam.mass * self.beam.weight)
+        return flap / (flap + lag)
 
 
 def bending_modes(beam: BendingBeam, count: int) -> BendingModes:
@@ -185,18 +179,13 @@ def blade_bending_modes(
         return np.interp(r, stations, angles)
 
     beam = bending_beam(structure, angular_speed, root, at, springs)
-    return lowest_by_kind(bending_modes(beam, 4 * max(count)), *count)
-
-
-def lowest_by_kind(modes: BendingModes, flap: int, lag: int) -> BendingModes:
-    """So many of those that move more in flap, and of those that move more in lag."""
+    modes = bending_modes(beam, 4 * max(count))
     flaps = modes.flap_share > 0.5
-    chosen = np.sort(np.concatenate([np.flatnonzero(flaps)[:flap], np.flatnonzero(~flaps)[:lag]]))
+    chosen = np.sort(np.concatenate([np.flatnonzero(flaps)[: count[0]], np.flatnonzero(~flaps)[: count[1]]]))
     return BendingModes(modes.beam, modes.frequency[chosen], modes.nodal[chosen])
 
 
 def frequencies_by_kind(modes: BendingModes) -> tuple[list[float], list[float]]:
     """Frequencies [per rev] of the modes that move more in flap, and of those that move more in lag."""
-    per_rev, flaps = (modes.frequency / modes.beam.angular_speed).tolist(), (modes.flap_share > 0.5).tolist()
-    flap = [frequency for frequency, kind in zip(per_rev, flaps, strict=True) if kind]
-    return flap, [frequency for frequency, kind in zip(per_rev, flaps, strict=True) if not kind]
+    per_rev, flaps = modes.frequency / modes.beam.angular_speed, modes.flap_share > 0.5
+    return per_rev[flaps].tolist(), per_rev[~flaps].tolist()

@@ -21,8 +21,6 @@ class BendingStructure(BladeStructure):
     """EA [N]"""
     section_stiffness: float
     """GJ [N m²] to which the section model is calibrated."""
-    reference_mass: float
-    """Blade mass [kg] to which added mass is compared."""
 
 
 @cache
@@ -65,7 +63,6 @@ def uh60a_structure(radius: float = 8.1788) -> BendingStructure:
         control_stiffness=blade["control_stiffness_nm_rad"],
         pitch_horn=blade["pitch_horn_m"],
         section_stiffness=blade["section_gj_nm2"],
-        reference_mass=blade["reference_mass_kg"],
     )
 
 

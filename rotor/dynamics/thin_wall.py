@@ -211,19 +211,6 @@ def torsional_stiffness(section: WallSection) -> float:
     return 1.0 / respond(section, torque=1.0).twist_rate
 
 
-def axial_stiffness(section: WallSection) -> float:
-    """EA [N], bendings and twist free."""
-    return float(1.0 / _extension_at_centre(section))
-
-
-def _extension_at_centre(section: WallSection) -> float:
-    """ε_x per newton at the tension centre, where a force causes no bending: the least over all points."""
-    base = respond(section, force=1.0)
-    by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
-    compliance = np.array([[e.extension, e.curvature_y, e.curvature_z] for e in (base, by_y, by_z)]).T
-    return float(compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0]))
-
-
 def induced_twist_rate(section: WallSection) -> float:
     """θ'_a of the free section at the full voltage range of its plies [rad/m]."""
     return respond(section, voltage=1.0).twist_rate

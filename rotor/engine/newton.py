@@ -1,4 +1,4 @@
-"""Newton's method on the exact Jacobian, corrected by what its steps have shown.
+"""Newton's method on the Jacobian, corrected by what its steps have shown.
 
 Unknowns mean the same on every number of azimuths, so derivatives are evaluated on few, and a start without derivatives
 is solved there first. Factors are kept over several steps and for the next solution: with each step they are corrected
@@ -6,7 +6,8 @@ by Broyden's rank-one change (Math. Comp. 19, 1965), which needs no new factors,
 
     H ← H + (s − H y)(W s)ᵀ H / (W s)ᵀ H y,    s: step, y: change of R, W: what changes of an unknown do to R.
 
-The residual has to meet the same tolerance, whatever the derivatives of the steps.
+The residual has to meet the same tolerance, whatever the derivatives of the steps. The first two Jacobians of a
+solution leave out what forces remember; all others are exact.
 
 Where a whole step raises the residual, part of it is taken: until the residual falls, or the next step with the same
 derivatives is shorter (natural monotonicity; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).

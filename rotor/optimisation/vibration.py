@@ -36,7 +36,7 @@ from rotor.optimisation.objective import Objective, WeightedCondition, check_ind
 from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import Adjoint, tail_gain
-from rotor.trim.hub_loads import BAND, hub_index, index_of, load_terms, scaled_loads
+from rotor.trim.hub_loads import BAND, hub_index, index_of, load_units, terms_and_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -143,7 +143,7 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
     adjoint = Adjoint(solution)
     problem, point = adjoint.problem, adjoint.point
     structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
-    loads = load_terms(problem, point)
+    loads, values = terms_and_loads(adjoint)
     both = loads.stacked(adjoint.total_terms)
     with one_blas_thread():
         matrix, by_state = jacobian(point, both)
@@ -169,9 +169,8 @@ def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
         states = np.linalg.solve(matrix, np.stack(moved, axis=1))
     slopes = by_measure @ np.stack(direct, axis=1) - by_state @ states
     watts = solution.design.power_unit * tail_gain(solution)
-    units = np.append(scaled_loads(problem, np.ones(2 * len(LOADS))).ravel(), watts)[:, None]
-    values = np.append(scaled_loads(problem, loads.value(point.z, point.q)).ravel(), solution.power.total)
-    return values, slopes * units
+    units = np.append(np.repeat(load_units(problem.design), 2), watts)[:, None]
+    return np.append(values.ravel(), solution.power.total), slopes * units
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ the hovering rotor answers. The chain rule gives the gradient by any twist param
 dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Literal
@@ -80,8 +79,10 @@ class Weights:
     """By θ'."""
     swirl: Array | float = 0.0
     """By the swirl at the same velocities."""
-    terms: Terms | None = None
-    """A sum of terms of the trim's own equations."""
+
+    def over(self, shape: tuple[int, int]) -> list[Array]:
+        """All of them as arrays."""
+        return [np.broadcast_to(weight, shape) for weight in vars(self).values()]
 
 
 class _Linear:
@@ -117,8 +118,8 @@ class _Linear:
         if not len(none):
             return none
         factors, power = self._linearised
-        of_power = measure.terms is self.power_terms and _nothing_else(measure)
-        return factors.solve(power if of_power else transposed(point, none, measure)[0], transposed=True)
+        slopes = power if measure.terms is self.power_terms else transposed(point, none, measure)[0]
+        return factors.solve(slopes, transposed=True)
 
     @property
     def total_terms(self) -> Terms:
@@ -134,8 +135,7 @@ class _Linear:
     def slopes(self, measure: Measure) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
-        of_total = measure.terms is self.total_terms and _nothing_else(measure)
-        multipliers = self.of_total if of_total else self.multipliers(measure)
+        multipliers = self.of_total if measure.terms is self.total_terms else self.multipliers(measure)
         by_channel = transposed(point, -multipliers, measure)[1]
         by_pitch, torsion = by_channel[TH], self.problem.torsion
         if torsion is None:
@@ -151,47 +151,22 @@ class _Linear:
             solution = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
         return solution
 
-    def flight_measure(self, weights: Weights) -> Measure:
-        """Weights as the engine takes them."""
-        terms, shape = self.problem.inflow_terms, self.problem.disk.shape
-        given = {FZ: weights.fz, FX: weights.fx}
-        forces = {
-            force: np.broadcast_to(weight, shape) for force, weight in given.items() if not isinstance(weight, float)
-        }
-        channels = dict[int, Array]()
-        by_channel = {TH: weights.theta, UT: weights.u_t, UP: weights.u_p, UR: weights.u_r, RATE: weights.rate}
-        for channel, weight in by_channel.items():
-            if not isinstance(weight, float):
-                channels[channel] = np.broadcast_to(weight, shape)
-        parts = list[tuple[int, list[Hashable], Array]]()
-        if not isinstance(weights.inflow, float):
-            parts.append((UP, list(terms.names), np.broadcast_to(weights.inflow, shape)))
-        if terms.interface.balanced is not None and weights.terms is None:
-            forces[terms.interface.balanced] = np.broadcast_to(weights.u_p, shape) + np.broadcast_to(
-                weights.inflow, shape
-            )
-        if not isinstance(weights.swirl, float):
-            parts.append((UT, [SWIRL, SWIRL_SLOPE], -np.broadcast_to(weights.swirl, shape)))
-        nodes = None
-        if self.point.system.nodes is not None and not isinstance(weights.inflow, float):
-            nodes = np.broadcast_to(weights.inflow, shape)
-        return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes, terms=weights.terms)
-
-    def hover_measure(self, weights: Weights) -> Measure:
-        """Measure of annuli: U_T and U_P follow the inflow that they balance by themselves."""
-        shape = self.problem.disk.shape
-
-        def summed(weight: Array | float) -> Array:
-            return np.broadcast_to(weight, shape).sum(axis=1)[:, None]
-
-        if weights.terms is not None:
-            return Measure(terms=weights.terms)
-        turning = turning_of(self.point)[:, None]
-        balanced = (
-            summed(weights.inflow) + summed(weights.u_p) + (summed(weights.swirl) - summed(weights.u_t)) * turning
-        )
-        forces = {FZ: summed(weights.fz), FX: summed(weights.fx), BALANCED: balanced}
-        return Measure(forces=forces, channels={TH: summed(weights.theta)})
+    def measure(self, weights: Weights) -> Measure:
+        """Weights as the engine takes them; in annuli U_T and U_P follow the inflow that they balance by themselves."""
+        terms = self.problem.inflow_terms
+        given = weights.over(self.problem.disk.shape)
+        if self.problem.design.hovering:
+            fz, fx, inflow, theta, u_t, u_p, _, _, swirl = (weight.sum(axis=1)[:, None] for weight in given)
+            balanced = inflow + u_p + (swirl - u_t) * turning_of(self.point)[:, None]
+            return Measure(forces={FZ: fz, FX: fx, BALANCED: balanced}, channels={TH: theta})
+        fz, fx, inflow, theta, u_t, u_p, u_r, rate, swirl = given
+        forces = {FZ: fz, FX: fx}
+        if terms.interface.balanced is not None:
+            forces[terms.interface.balanced] = u_p + inflow
+        channels = {TH: theta, UT: u_t, UP: u_p, UR: u_r, RATE: rate}
+        parts = [(UP, list(terms.names), inflow), (UT, [SWIRL, SWIRL_SLOPE], -swirl)]
+        nodes = None if self.point.system.nodes is None else inflow
+        return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes)
 
 
 class Adjoint(_Linear):
@@ -205,14 +180,18 @@ class Adjoint(_Linear):
             same = start.structure == linear.point.system.structure.name
             super().__init__(linear, start.factors if same else None)
 
-    def by_pitch(self, weights: Weights) -> Array:
-        """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
+    def by_pitch(self, weights: Weights | Terms) -> Array:
+        """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,).
+
+        Of weighted fields, or of a sum of terms of the trim's own equations.
+        """
         with one_blas_thread():
-            if self.solution.design.hovering:
-                return self.slopes(self.hover_measure(weights))[0]
-            gradient, by_channel = self.slopes(self.flight_measure(weights))
+            of_terms = isinstance(weights, Terms)
+            gradient, by_channel = self.slopes(Measure(terms=weights) if of_terms else self.measure(weights))
             joined = joined_hover(self.solution.design)
-            return gradient if joined is None else gradient + self._by_difference(*joined, weights, by_channel)
+            if joined is None:
+                return gradient
+            return gradient + self._by_difference(*joined, Weights() if of_terms else weights, by_channel)
 
     def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
@@ -227,11 +206,7 @@ class Adjoint(_Linear):
             swirl=on_swirl[:, None] * around,
         )
         adjoint = _difference_adjoint(difference)
-        return adjoint.slopes(adjoint.hover_measure(hovering))[0]
-
-
-def _nothing_else(measure: Measure) -> bool:
-    return not (measure.forces or measure.channels or measure.parts)
+        return adjoint.slopes(adjoint.measure(hovering))[0]
 
 
 def _linearised(solution: Solution) -> LinearisedTrim:
@@ -272,16 +247,12 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             "trim wind-tunnel."
         )
     if objective == "induced":
-        elements, gain = adjoint.elements, 1.0
-        weights = Weights(
-            fz=cell * elements.induced,
-            fx=cell * elements.swirl[:, None],
-            inflow=cell * elements.fz,
-            swirl=cell * elements.fx,
-        )
+        e = adjoint.elements
+        weights = Weights(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
+        by_element = adjoint.by_pitch(weights)
     else:
-        weights, gain = Weights(terms=adjoint.total_terms), tail_gain(adjoint.solution)
-    by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
+        by_element = adjoint.by_pitch(adjoint.total_terms) * tail_gain(adjoint.solution)
+    by_element = by_element * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 
 

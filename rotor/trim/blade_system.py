@@ -38,8 +38,8 @@ import numpy as np
 from rotor.aero.bending import build_bending, can_bend
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem
-from rotor.aero.section import CHANNELS, FX, FZ, LOSS, RATE, TH, UP, UR, UT, M
-from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, at_three_quarters, unsteady
+from rotor.aero.section import CHANNELS, FX, FZ, RATE, TH, UP, UR, UT, M
+from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, at_three_quarters, slopes_ahead, unsteady
 from rotor.arrays import Array
 from rotor.dynamics.periodic import first_order
 from rotor.trim.newton import LinearisedTrim
@@ -116,8 +116,7 @@ class BladeSystem:
     def only(self, kinds: tuple[str, ...]) -> "BladeSystem":
         """This blade with the other kinds of modes held."""
         kept = [k for k, name in enumerate(self.names) if name.split()[0] in kinds]
-        pair, n = np.ix_(kept, kept), len(self.names)
-        both = [*kept, *(n + k for k in kept)]
+        pair, both = np.ix_(kept, kept), [*kept, *(len(self.names) + k for k in kept)]
         lags = self.lags
         if lags is not None:
             rates, drives, forces, once = lags
@@ -270,13 +269,10 @@ def _air(
     """Generalised forces of the air by q, q' and q'', (azimuths, n, n), and the lags of shed vorticity."""
     problem, e = linear.problem, linear.elements
     plain = problem.section_data()
-    arm = 0.5 * problem.half_chord + (0.0 if problem.torsion is None else problem.torsion.lag)
-    data = UnsteadyData(plain, plain, problem.half_chord, arm, np.pi * plain.half_solidity * problem.half_chord)
+    data = problem.unsteady_data(plain, plain)
     c = np.zeros((_FIRST + 3, *e.theta.shape))
-    for channel, value in ((TH, e.theta), (UT, e.u_t), (UP, e.u_p), (UR, e.u_r), (LOSS, e.loss), (RATE, e.rate)):
-        c[channel] = value
-    turned = np.broadcast_to(c[RATE], e.theta.shape)
-    for channel, source in ((DTH, turned), (DUT, c[UT]), (DUP, c[UP] - e.induced)):
+    c[:_FIRST] = e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate
+    for channel, source in ((DTH, c[RATE]), (DUT, c[UT]), (DUP, c[UP] - e.induced)):
         c[_FIRST + channel] = _derivative(source)
     interface = unsteady(PLAIN)
     _, slopes, _ = interface.section(c, data, True, False)
@@ -301,24 +297,19 @@ def _air(
 
 def _motion(u_t: Array, u_p: Array, u_r: Array, beta: Array, shapes: Array, phi: Array) -> _Motion:
     """What the modes do to the channels; shapes: W, W', W'', V, V', V'' of bending, phi: of torsion."""
-    n_bend, (elements, azimuths) = shapes.shape[1], u_t.shape
-    n = n_bend + len(phi)
-    none = np.zeros((n, elements, azimuths))
+    n_bend, none = shapes.shape[1], np.zeros((shapes.shape[1] + len(phi), *u_t.shape))
 
     def of_bending(value: Array) -> Array:
         out = none.copy()
         out[:n_bend] = value
         return out
 
-    def of_torsion() -> Array:
-        out = none.copy()
-        out[n_bend:] = phi[:, :, None]
-        return out
-
+    twisted = none.copy()
+    twisted[n_bend:] = phi[:, :, None]
     w, w_slope, v, v_slope = (shapes[k][:, :, None] for k in (0, 1, 3, 4))
     motion: _Motion = {
-        TH: (of_torsion(), none, none),
-        RATE: (none, of_torsion(), none),
+        TH: (twisted, none, none),
+        RATE: (none, twisted, none),
         UT: (of_bending(v_slope * u_r), of_bending(v), none),
         UP: (of_bending(w_slope * u_r + beta * (v - v_slope * u_t)), of_bending(w), none),
         UR: (of_bending(v - v_slope * u_t - w_slope * u_p), none, none),
@@ -335,7 +326,7 @@ def _lags(
     """The four of `BladeSystem.lags`: two states an element."""
     problem = linear.problem
     half_chord, inertia = problem.half_chord[:, None], data.section.inertia
-    within = at_three_quarters(c[:_FIRST], problem.half_chord)
+    within, (_, _, ahead) = at_three_quarters(c[:_FIRST], problem.half_chord), slopes_ahead(c, problem.half_chord)
     _, slopes, _ = PLAIN.section(within, data.section, True, False)
     by_alpha = {force: slope for (force, channel), slope in zip(PLAIN.pairs, slopes, strict=True) if channel == TH}
     if len(inertia):
@@ -343,7 +334,7 @@ def _lags(
     forced = sum(np.einsum("ai,ij->aij", weights[f] * problem.disk.dr, by_alpha[f]) for f in weights if f in by_alpha)
     square = c[UT] ** 2 + c[UP] ** 2 + 1e-30
     felt = [
-        motion[TH][k] + (c[UP] * motion[UT][k] - c[UT] * motion[UP][k]) / square + _ahead(c, half_chord, motion, k)
+        motion[TH][k] + (c[UP] * motion[UT][k] - c[UT] * motion[UP][k]) / square + motion[RATE][k] * ahead
         for k in range(2)
     ]
     alpha = np.concatenate(felt)  # By q, then by q', (2n, elements, azimuths).
@@ -353,9 +344,3 @@ def _lags(
     forces = np.concatenate([forced * (a * b) for a, b in JONES], axis=1).transpose(2, 0, 1)
     once = -sum(a for a, _ in JONES) * np.einsum("aij,bij->jab", forced, alpha)
     return rates, drives, forces, once
-
-
-def _ahead(c: Array, half_chord: Array, motion: _Motion, k: int) -> Array:
-    """What a motion does to the pitch of the flow at three quarters of the chord by its own rate, b θ' G."""
-    speed = np.hypot(c[UT], c[UP])
-    return motion[RATE][k] * half_chord * 0.5 * (c[UT] + speed) / (speed**2 + 0.01)

@@ -85,14 +85,13 @@ class Doubt:
     def sureness(self) -> str | None:
         """`sure`, `likely` or `cannot be told`: whether the sign of the change is known; None without a change."""
         change, band = self.change, self.change_band
-        if change is None or band is None:
-            return None
-        return sureness(change, band)
+        return None if change is None or band is None else sureness(change, band)
 
     @property
     def sentence(self) -> str:
         """In words: `Power 901 ± 52 kW. It saves 1.8 ± 0.7 % against A: sure.`"""
-        said = f"Power {self.power / 1e3:.0f} ± {_two_digits(self.band / 1e3)} kW."
+        kilowatts = self.band / 1e3
+        said = f"Power {self.power / 1e3:.0f} ± {kilowatts:.{decimals(kilowatts)}f} kW."
         change, band = self.change, self.change_band
         if change is None or band is None or not self.against:
             return said
@@ -138,10 +137,6 @@ def decimals(band: float) -> int:
         return 1
     first = math.floor(math.log10(band))
     return max(0, -first + (band / 10.0**first < 2.0))
-
-
-def _two_digits(value: float) -> str:
-    return f"{value:.{decimals(value)}f}"
 
 
 def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = None, *, models: bool = False) -> Doubt:
@@ -209,9 +204,8 @@ def other_models(design: Design) -> dict[str, Design]:
     models, designs = design.models, dict[str, Design]()
     if design.hovering:
         line = replace(models, inflow=INFLOWS[0], low_speed="wake")
-        return (
-            {f"inflow {INFLOWS[0]}": replace(design.at(mu=SLOWEST), models=line)} if models.disk_axial_flow else designs
-        )
+        slow = replace(design.at(mu=SLOWEST), models=line)
+        return {f"inflow {INFLOWS[0]}": slow} if models.disk_axial_flow else designs
     for inflow in INFLOWS:
         if inflow != models.inflow:
             designs[f"inflow {inflow}"] = replace(design, models=replace(models, inflow=inflow))

@@ -17,19 +17,15 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rotor.aero.bending import BladeBending, can_bend
-from rotor.aero.problem import Problem
-from rotor.aero.section import FR, FX, FZ
+from rotor.aero.bending import can_bend
 from rotor.arrays import Array, read_only
 from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
-from rotor.engine.linearise import Point
 from rotor.engine.terms import Terms
-from rotor.engine.waves import wave_grid, waves_at
-from rotor.trim.adjoint import Adjoint, Weights
+from rotor.engine.waves import waves_at
+from rotor.trim.adjoint import Adjoint
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
-from rotor.units import GRAVITY
 
 SLOWEST = 0.2
 """Advance ratio below which the wake model decides the loads."""
@@ -78,16 +74,14 @@ def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoad
         solution = solve(design, replace(solution.start, factors=None))
         if not solution.converged:
             return None
-    adjoint = Adjoint(solution)
-    problem, point = adjoint.problem, adjoint.point
-    values = scaled_loads(problem, load_terms(problem, point).value(point.z, point.q))
+    _, values = terms_and_loads(Adjoint(solution))
     index = 100.0 * index_of(design, values)[0]
     others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
     sizes: dict[str, float] = dict(zip(LOADS, amplitudes, strict=True))
     angles: dict[str, float] = dict(zip(LOADS, phases, strict=True))
     ends = (min([index, *others]), max([index, *others])) if band else None
-    return HubLoads(design.rotor.blades, sizes, angles, index, ends, *root_loads(problem, point))
+    return HubLoads(design.rotor.blades, sizes, angles, index, ends)
 
 
 def _indices(design: Design, solve: Solve) -> list[float]:
@@ -101,16 +95,17 @@ def _indices(design: Design, solve: Solve) -> list[float]:
     return indices
 
 
-def load_terms(problem: Problem, point: Point) -> Terms:
+def terms_and_loads(adjoint: Adjoint) -> tuple[Terms, Array]:
+    """The terms of `LOADS`, and what they are in a trim: cosine and sine [N, N m], (loads, 2)."""
+    problem, point = adjoint.problem, adjoint.point
     assert problem.bending is not None
-    return hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+    terms = hub_load_terms(point.system.structure, problem.design.rotor.blades, problem.bending)
+    return terms, terms.value(point.z, point.q).reshape(-1, 2) * load_units(problem.design)
 
 
-def scaled_loads(problem: Problem, values: Array) -> Array:
-    """N and N m from units of the equations: cosine and sine of each load in turn → (loads, 2)."""
-    design = problem.design
-    lengths = np.array([1.0] * 3 + [design.rotor.radius] * 2)
-    return values.reshape(-1, 2) * (design.thrust_unit * lengths)[:, None]
+def load_units(design: Design) -> Array:
+    """N and N m by units of the equations, (loads, 1)."""
+    return design.thrust_unit * np.array([1.0] * 3 + [design.rotor.radius] * 2)[:, None]
 
 
 def index_gains(design: Design) -> Array:
@@ -134,59 +129,16 @@ def index_of(design: Design, values: Array) -> tuple[float, Array]:
 
 def hub_index(adjoint: Adjoint) -> float:
     """The index [%] of a trim that has hub loads, with blades that bend."""
-    problem, point = adjoint.problem, adjoint.point
-    loads = load_terms(problem, point).value(point.z, point.q)
-    return 100.0 * index_of(problem.design, scaled_loads(problem, loads))[0]
+    return 100.0 * index_of(adjoint.problem.design, terms_and_loads(adjoint)[1])[0]
 
 
 def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     """The index [%], and its slope by each element's pitch [%/rad], (elements,)."""
-    problem, point = adjoint.problem, adjoint.point
-    terms = load_terms(problem, point)
-    index, slopes = index_of(problem.design, scaled_loads(problem, terms.value(point.z, point.q)))
-    weights = 100.0 * scaled_loads(problem, np.ones(2 * len(LOADS))) * slopes
+    design, (terms, loads) = adjoint.problem.design, terms_and_loads(adjoint)
+    index, slopes = index_of(design, loads)
+    weights = 100.0 * load_units(design) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
-    return 100.0 * index, adjoint.by_pitch(Weights(terms=summed))
-
-
-def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
-    """Loads of one blade on its root: force outward, forward and up [N], and moment in flap and in lag [N m].
-
-    (3, azimuths) and (2, azimuths): air loads and weight less mass times acceleration. Moments are positive up and
-    forward; at a hinge or a sprung root they are those of springs and damper, up to what the modes leave and small
-    angles neglect: the mean lag moment of HART II on a soft spring by 5 % with any number of modes; that of the UH-60A
-    on stiff springs by 17 %, less with more modes. Loads on the hub are made of the forces.
-    """
-    b, disk, forces = problem.bending, problem.disk, point.forces
-    assert b is not None
-    rotor = problem.design.rotor
-    u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
-    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(deflection) for deflection in (u, v, w))
-    acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
-    acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
-    air = np.stack([forces[FR], -forces[FX], forces[FZ]])
-    force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
-
-    def moment(along: int, moved: Array) -> Array:
-        """Moment of the forces along one axis times their distance from the root, less those outward times theirs."""
-        moved = moved - moved[0]
-        columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
-        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
-        return of_air - (b.r - b.r[0]) * b.strips @ acceleration[along] + b.strips @ (moved * acceleration[0])
-
-    return force * b.force, np.stack([moment(2, w), moment(1, v)]) * (b.force * rotor.radius)
-
-
-def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tuple[Array, Array, Array]:
-    """u outward, v forward with the offset y0, and w up over R at the stations of a blade: (stations, azimuths)."""
-    q = q.copy()
-    q[b.first, 0] -= b.precone
-    around = q @ wave_grid(q.shape[1], azimuths).at
-    w = b.precone * (b.r - b.r[0])[:, None] + b.along[0].T @ around
-    v = offset + b.along[3].T @ around
-    slopes = (b.precone + b.along[1].T @ around) ** 2 + (b.along[4].T @ around) ** 2
-    u = -0.5 * (b.r[1] - b.r[0]) * (np.cumsum(slopes, axis=0) - 0.5 * (slopes + slopes[0]))
-    return u, v, w
+    return 100.0 * index, adjoint.by_pitch(summed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,12 +192,3 @@ def _deflections(solution: Solution) -> Deflections | None:
     up[:, : min(3, up.shape[1])] -= np.outer(b.r - b.r[0], flapping)[:, : up.shape[1]]
     radius = solution.design.rotor.radius
     return Deflections(b.r[steps], radius * up[steps], radius * (b.along[3].T @ q)[steps])
-
-
-def _rates(field: Array) -> tuple[Array, Array]:
-    """First and second derivative by ψ of a periodic field, (…, azimuths)."""
-    count = field.shape[-1]
-    harmonic: Array = np.arange(count // 2 + 1, dtype=float)
-    spectrum = np.fft.rfft(field)
-    first = np.where(2.0 * harmonic == count, 0.0, 1j * harmonic)
-    return np.fft.irfft(first * spectrum, count), np.fft.irfft(-(harmonic**2) * spectrum, count)

@@ -18,13 +18,12 @@ from rotor.aero.section import EARLIER_RISE, MORE_DRAG, MORE_LIFT, MORE_MOMENT, 
 from rotor.arrays import Array
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
-from rotor.design.blade import BladeStructure
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.low_speed import hover_share
-from rotor.trim.power import outside_power, tail_power
+from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
 _PART = 0.1
@@ -52,8 +51,8 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
 
 def _hover_induced(solution: Solution) -> float:
     """Induced power [W], as far as the wake is that of hover, and what the tail rotor takes for it."""
-    power, mu = solution.power, solution.design.condition.advance_ratio
-    return hover_part(mu, solution.ct) * power.induced * (1.0 + tail_power(solution.design, power.main_rotor)[1])
+    part = hover_part(solution.design.condition.advance_ratio, solution.ct)
+    return part * solution.power.induced * tail_gain(solution)
 
 
 def hover_part(mu: float, thrust: float) -> float:
@@ -69,10 +68,9 @@ class _Near:
     """A trim, and the power of designs near it."""
 
     def __init__(self, adjoint: Adjoint) -> None:
-        solution = adjoint.solution
         self.problem, self._point, self._terms = adjoint.problem, adjoint.point, adjoint.total_terms
         self._multipliers = adjoint.of_total
-        self._gain = 1.0 + tail_power(solution.design, solution.power.main_rotor)[1]
+        self._gain = tail_gain(adjoint.solution)
         self._start = self._main(self.problem, self._point.z, self._point.q)
 
     def _main(self, problem: Problem, z: Array, q: Array) -> float:
@@ -116,38 +114,30 @@ def _rebuilt(problem: Problem, design: Design) -> Problem:
     return replace(build_problem(design), course=problem.course, joined=problem.joined, freedoms=problem.freedoms)
 
 
-def _drag_area(problem: Problem, amount: float) -> Problem | None:
-    design = problem.design
-    fuselage = design.fuselage
-    if not fuselage.drag_area or design.hovering or design.condition.stand is not None:
-        return None
-    return _rebuilt(
-        problem, replace(design, fuselage=replace(fuselage, drag_area=fuselage.drag_area * (1.0 + 0.01 * amount)))
-    )
+def _fuselage(name: str, counts: Callable[[Design], bool]) -> Change:
+    def change(problem: Problem, amount: float) -> Problem | None:
+        design = problem.design
+        fuselage, value = design.fuselage, getattr(design.fuselage, name)
+        if not (value and counts(design)) or design.condition.stand is not None:
+            return None
+        larger = replace(fuselage, **{name: value * (1.0 + 0.01 * amount)})
+        return _rebuilt(problem, replace(design, fuselage=larger))
+
+    return change
 
 
-def _download(problem: Problem, amount: float) -> Problem | None:
-    design = problem.design
-    fuselage, models = design.fuselage, design.models
-    if not (fuselage.hover_download and models.has("download")) or design.condition.stand is not None:
-        return None
-    download = fuselage.hover_download * (1.0 + 0.01 * amount)
-    return _rebuilt(problem, replace(design, fuselage=replace(fuselage, hover_download=download)))
-
-
-def _structure(change: Callable[[BladeStructure, float], BladeStructure]) -> Change:
-    def changed(problem: Problem, amount: float) -> Problem | None:
+def _structure(name: str) -> Change:
+    def change(problem: Problem, amount: float) -> Problem | None:
         design, structure = problem.design, problem.design.rotor.blade.structure
         if problem.torsion is None or structure is None:
             return None
-        blade = replace(design.rotor.blade, structure=change(structure, 1.0 + 0.01 * amount))
+        value: float | tuple[float, ...] = getattr(structure, name)
+        factor = 1.0 + 0.01 * amount
+        larger = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
+        blade = replace(design.rotor.blade, structure=replace(structure, **{name: larger}))
         return _rebuilt(problem, replace(design, rotor=replace(design.rotor, blade=blade)))
 
-    return changed
-
-
-def _times(values: tuple[float, ...], factor: float) -> tuple[float, ...]:
-    return tuple(factor * value for value in values)
+    return change
 
 
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
@@ -169,17 +159,11 @@ _CHANGES: Mapping[str, Change] = {
     "section_lift_percent": _section(MORE_LIFT, 0.01),
     "section_moment": _section(MORE_MOMENT),
     "drag_rise_mach": _section(EARLIER_RISE),
-    "drag_area_percent": _drag_area,
-    "download_percent": _download,
-    "torsional_stiffness_percent": _structure(
-        lambda value, factor: replace(value, torsional_stiffness=_times(value.torsional_stiffness, factor))
-    ),
-    "control_stiffness_percent": _structure(
-        lambda value, factor: replace(value, control_stiffness=factor * value.control_stiffness)
-    ),
-    "torsional_inertia_percent": _structure(
-        lambda value, factor: replace(value, torsional_inertia=_times(value.torsional_inertia, factor))
-    ),
+    "drag_area_percent": _fuselage("drag_area", lambda design: not design.hovering),
+    "download_percent": _fuselage("hover_download", lambda design: design.models.has("download")),
+    "torsional_stiffness_percent": _structure("torsional_stiffness"),
+    "control_stiffness_percent": _structure("control_stiffness"),
+    "torsional_inertia_percent": _structure("torsional_inertia"),
     "wake_transport_percent": _wake_transport,
     "tip_loss_percent": _tip_loss,
 }

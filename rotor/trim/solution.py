@@ -16,7 +16,7 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
-from rotor.aero.disk import element_edges
+from rotor.aero.disk import OnDisk
 from rotor.aero.display import STALLED, pitch_of_alpha
 from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
@@ -53,7 +53,7 @@ class Caveat:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DiskFields(ShortRepr):
+class DiskFields(OnDisk, ShortRepr):
     """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise.
 
     On at least the azimuths that the models ask for, also where the trim was solved on fewer.
@@ -113,16 +113,6 @@ class DiskFields(ShortRepr):
         beyond = self.stall_margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED
         return beyond & (self.u_t >= 0.0)
 
-    @property
-    def edges(self) -> Array:
-        """Edges of the elements y/R, (elements + 1,)."""
-        return element_edges(self.dr)
-
-    @property
-    def cells(self) -> Array:
-        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
-        return np.diff(self.edges**2) / len(self.psi)
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ElasticTwist(ShortRepr):
@@ -166,8 +156,8 @@ class ElasticTwist(ShortRepr):
         }
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class HubLoads(ShortRepr):
+@dataclass(frozen=True)
+class HubLoads:
     """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
 
     per_rev: int
@@ -180,10 +170,6 @@ class HubLoads(ShortRepr):
     """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
     band: tuple[float, float] | None
     """Least and largest index over several inflow models [%]."""
-    root_force: Array
-    """Force of one blade on its hinge, or where it is held, outward, forward and up [N], (3, azimuths)."""
-    root_moment: Array
-    """There in flap, positive up, and in lag, positive forward [N m], (2, azimuths)."""
 
     def record(self) -> dict[str, Any]:
         """For `solve --json`."""

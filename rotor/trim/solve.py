@@ -103,6 +103,11 @@ def _largest(solution: Solution, options: SolverOptions) -> tuple[float | None, 
     return mass, mu
 
 
+def _stalled_thrust(result: TrimResult) -> float:
+    """Stalled part of the thrust of a trim; of none, too much."""
+    return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _NO_TRIM
+
+
 def _reach(solution: Solution, name: str, easy: float, wanted: float, options: SolverOptions) -> float | None:
     """How far from an easy value of a quantity towards the one wanted it trims; None where not even there."""
     freedoms, few = solution.freedoms, replace(options, max_passes=FOLLOWING_PASSES)
@@ -113,7 +118,7 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
     if easy >= wanted:
         return None
     result = trim_on_course(problem_at(easy), None, options)
-    if not result.converged or stalled_parts(result.problem, result.linear.elements)[1] > MOST_STALLED:
+    if _stalled_thrust(result) > MOST_STALLED:
         return None
     trims = {easy: result}
 
@@ -121,11 +126,11 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
         """Stalled part of the thrust over what counts; what is wanted has too much, and so has what does not trim."""
         near = trims[max(trims)]
         if value == easy:
-            return stalled_parts(near.problem, near.linear.elements)[1] - MOST_STALLED
+            return _stalled_thrust(near) - MOST_STALLED
         if value == wanted or options.asked_to_stop:
             return _NO_TRIM - MOST_STALLED
         ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
-        share = stalled_parts(ahead.problem, ahead.linear.elements)[1] if ahead.converged else _NO_TRIM
+        share = _stalled_thrust(ahead)
         if share <= MOST_STALLED:
             trims[value] = ahead
         return share - MOST_STALLED
@@ -147,12 +152,15 @@ def _once(
         near = hover(problem) if design.hovering else newton(problem, first_guess(problem), once)
         return _assemble(replace(near, converged=False), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
-    result = (
-        hover(problem, guess, options) if design.hovering else trim_on_course(problem, guess, options, _limit(problem))
-    )
+    if design.hovering:
+        return _assemble(hover(problem, guess, options), begin)
+    result = trim_on_course(problem, guess, options, _limit(problem))
     solution = _assemble(result, begin)
-    other_branch = _may_be_of_another_branch(solution, result)
-    return _least_of_branches(solution, _limit(problem), options) if other_branch else solution
+    # With so much stall, or so implausible, it may not be the trim of least power.
+    doubtful = solution.stalled_thrust > MOST_STALLED or not solution.converged
+    if design.condition.stand is not None or not (result.converged and doubtful):
+        return solution
+    return _least_of_branches(solution, _limit(problem), options)
 
 
 def _least_of_branches(solution: Solution, most_stalled: float, options: SolverOptions) -> Solution:
@@ -167,15 +175,6 @@ def _least_of_branches(solution: Solution, most_stalled: float, options: SolverO
     if not solution.converged or not other.converged:
         return other if other.converged else solution
     return other if other.power.total < solution.power.total else solution
-
-
-def _may_be_of_another_branch(solution: Solution, result: TrimResult) -> bool:
-    """Whether forward flight closes with so much stall, or so implausibly, that it may not be the trim of least power.
-
-    Free of charge for every other design.
-    """
-    flight = not solution.design.hovering and solution.design.condition.stand is None
-    return flight and result.converged and (solution.stalled_thrust > MOST_STALLED or not solution.converged)
 
 
 def _guess(design: Design, earlier: Solution) -> Guess | None:

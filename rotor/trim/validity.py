@@ -1,11 +1,10 @@
 """The limits of validity of a solution, and why a design did not trim or a trim is refused, in sentences for the user.
 
-Caveats are a table of name, condition and sentence; it makes the file long, and is read from top to bottom. The
-sentences of failures below share its limits.
+Caveats are listed in the order of their conditions here.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +46,7 @@ FAST_PITCH = 0.2
 
 @dataclass(frozen=True)
 class Trimmed:
-    """A converged trim, and what several caveats read of it."""
+    """A converged trim, and what caveats read of it."""
 
     problem: Problem
     total: DiskSums
@@ -75,296 +74,185 @@ class Trimmed:
         """Whether the inflow does not respond to where the lift is."""
         return not self.problem.inflow.load_dependent
 
-    @property
-    def twist(self) -> float:
-        """From root to tip [rad]."""
-        ends = self.design.twist(np.array([self.design.rotor.blade.root_cutout, 1.0]))
-        return float(ends[1] - ends[0])
-
-    @property
-    def loading(self) -> float:
-        """C_T/σ."""
-        return self.total.thrust / self.design.rotor.solidity
-
-    @property
-    def descent(self) -> tuple[float, float]:
-        """Rate of descent, and that at which the vortex ring state begins, over the induced velocity in hover."""
-        inflow = math.sqrt(0.5 * self.design.weight_coefficient)
-        return -self.design.climb_ratio / inflow, -vortex_ring_edge(self.mu / inflow)
-
-    @property
-    def highest_wave(self) -> int:
-        """The highest harmonic of rotor speed in the pitch."""
-        return max((harmonic.per_rev for wave in self.design.pitch_waves for harmonic in wave.harmonics), default=0)
-
-    @property
-    def reduced_frequency(self) -> float:
-        """ωc/2V of that harmonic at 0.75 R."""
-        return self.highest_wave * self.design.rotor.reference_chord / (1.5 * self.design.rotor.radius)
-
-    @property
-    def beyond_stops(self) -> list[str]:
-        """What each control that is beyond its stops needs, and what it has, in words."""
-        stops, state, words = self.design.aircraft.controls, self.state, list[str]()
-        if stops is None:
-            return words
-        ranges = {"collective": stops.collective, "lateral": stops.lateral, "longitudinal": stops.longitudinal}
-        for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
-            if not 0.0 <= place <= 1.0:
-                low, high = (math.degrees(end) for end in ranges[name])
-                what = name if name == "collective" else f"{name} cyclic"
-                words.append(f"{what} {low + place * (high - low):.1f}° of {low:.1f} to {high:.1f}°")
-        return words
-
-    @property
-    def control_power(self) -> float:
-        """What pitch links and actuators put into the blades [W]."""
-        return 0.0 if self.elastic is None else self.elastic.control_power
-
-    @property
-    def top_mach(self) -> float:
-        return float(self.fields.mach.max())
-
-    @property
-    def by_polynomials(self) -> bool:
-        """Whether section data are polynomials of one Mach number."""
-        return self.problem.disk.fit_range is not None
-
-    @property
-    def clamped(self) -> float:
-        """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
-        if self.problem.disk.fit_range is None:
-            return 0.0
-        low, high = self.problem.disk.fit_range
-        outside = ((self.fields.alpha < low) | (self.fields.alpha > high)) & (self.fields.u_t >= 0.0)
-        return float(self.fields.cells @ outside.sum(axis=1))
-
-
-@dataclass(frozen=True)
-class _Rule:
-    name: str
-    applies: Callable[[Trimmed], object]
-    sentence: Callable[[Trimmed], str]
-
-
-_RULES = (
-    _Rule(
-        "teetering",
-        lambda trim: trim.design.aircraft.hub == "teetering" and trim.design.rotor.precone is None,
-        lambda trim: "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
-    ),
-    _Rule(
-        "twist-beyond-built",
-        lambda trim: trim.design.twist != trim.design.rotor.builtin_twist and abs(trim.twist) > LARGEST_BUILT_TWIST,
-        lambda trim: (
-            f"The blade twists by {math.degrees(trim.twist):.0f}° from root to tip; helicopter blades are built with "
-            "about 20° or less. Read the result as an extrapolation."
-        ),
-    ),
-    _Rule(
-        "no-tail-rotor",
-        lambda trim: trim.design.tail_rotor is None and trim.design.models.tail_rotor_solved and not trim.on_stand,
-        lambda trim: (
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
-        ),
-    ),
-    _Rule(
-        "thesis-models",
-        lambda trim: trim.design.preset == "thesis" and trim.design.aircraft.stated is None,
-        lambda trim: (
-            f"The document does not treat the {trim.design.aircraft.name}: these are its models with this rotor's "
-            "blade."
-        ),
-    ),
-    _Rule(
-        "no-blade-structure",
-        lambda trim: trim.design.models.has("elastic_twist") and trim.design.rotor.blade.structure is None,
-        lambda trim: (
-            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
-            "degrees in flight."
-        ),
-    ),
-    _Rule("switched-off", lambda trim: switched_off(trim.design.models), lambda trim: _switches(trim.design)),
-    _Rule(
-        "rigid-blades", lambda trim: not trim.design.models.flapping and trim.mu > 0.0, lambda trim: _rigid(trim.moment)
-    ),
-    _Rule(
-        "rigid-blades-linear-inflow",
-        lambda trim: not trim.design.models.flapping and trim.mu > 0.0 and trim.fixed_inflow,
-        lambda trim: "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
-    ),
-    _Rule(
-        "active-twist-rests",
-        lambda trim: trim.design.active_twist and trim.design.hovering,
-        lambda trim: "Active twist is off in hover, where only the twist law acts.",
-    ),
-    _Rule(
-        "root-pitch-rests",
-        lambda trim: trim.design.pitch_per_rev and trim.design.hovering,
-        lambda trim: "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth.",
-    ),
-    _Rule(
-        "fast-pitch",
-        lambda trim: trim.reduced_frequency > FAST_PITCH and not trim.problem.unsteady,
-        lambda trim: (
-            f"At {trim.highest_wave}/rev the reduced frequency at 0.75 R is {trim.reduced_frequency:.2f}; section data "
-            "are steady, and only the wake that a lifting line sheds and the damping of the pitch rate answer to it."
-        ),
-    ),
-    _Rule(
-        "control-power",
-        lambda trim: trim.design.pitch_waves and abs(trim.control_power) > CONTROL_SHARE * abs(trim.power.main_rotor),
-        lambda trim: (
-            f"Pitch links and actuators put {trim.control_power / 1e3:.1f} kW into the pitching blades; that is not "
-            "part of the power here."
-        ),
-    ),
-    _Rule(
-        "torque-without-drag",
-        lambda trim: trim.design.models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0,
-        lambda trim: (
-            f"Only the thrust is trimmed, so the shaft's torque carries {trim.power.shaft / 1e3:.0f} kW; with the "
-            f"drag of the airframe the rotor takes {trim.power.main_rotor / 1e3:.0f} kW, the sum of its parts."
-        ),
-    ),
-    _Rule(
-        "low-speed-inflow",
-        lambda trim: 0.0 < trim.mu < LOW_SPEED and trim.fixed_inflow,
-        lambda trim: f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {trim.mu:.3f}.",
-    ),
-    _Rule(
-        "low-speed-inflow",
-        lambda trim: 0.0 < trim.mu < LOWEST_SPEED and not trim.fixed_inflow,
-        lambda trim: f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {trim.mu:.3f}.",
-    ),
-    _Rule(
-        "low-speed-not-matched",
-        lambda trim: hover_share(trim.design) and trim.problem.joined is None,
-        lambda trim: (
-            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
-        ),
-    ),
-    _Rule(
-        "vortex-ring",
-        lambda trim: (
-            trim.design.condition.climb_speed < 0.0
-            and trim.descent[0] > -VORTEX_RING_ONSET
-            and trim.descent[1] < math.inf
-        ),
-        lambda trim: (
-            f"The descent is {trim.descent[0]:.2f} of the induced velocity in hover: at this low speed measured inflow "
-            f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {trim.descent[1]:.2f} the vortex "
-            "ring state begins."
-        ),
-    ),
-    _Rule(
-        "beyond-autorotation",
-        lambda trim: trim.power.main_rotor < 0.0 and not trim.on_stand,
-        lambda trim: (
-            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
-            "engine off the rotor turns faster."
-        ),
-    ),
-    _Rule(
-        "installed-power",
-        lambda trim: trim.power.total > (trim.design.aircraft.installed_power or math.inf) and not trim.on_stand,
-        lambda trim: (
-            f"The rotors take {1e-3 * trim.power.total:.0f} kW; the engines give "
-            f"{1e-3 * (trim.design.aircraft.installed_power or 0.0):.0f} kW at sea level, and less at altitude."
-        ),
-    ),
-    _Rule(
-        "controls",
-        lambda trim: not trim.on_stand and trim.beyond_stops,
-        lambda trim: f"The trim needs more than the controls give: {', '.join(trim.beyond_stops)}.",
-    ),
-    _Rule(
-        "high-speed",
-        lambda trim: trim.mu > HIGH_SPEED,
-        lambda trim: (
-            f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall decide, which the sections here describe "
-            "roughly."
-        ),
-    ),
-    _Rule(
-        "blade-loading",
-        lambda trim: trim.design.hovering and trim.loading > HOVER_CAUTION,
-        lambda trim: (
-            f"C_T/σ {trim.loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes "
-            f"out too low. {_nearest_to_stall(trim.fields.stall_margin, trim.problem.disk.r)}"
-        ),
-    ),
-    _Rule(
-        "stall",
-        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is None,
-        lambda trim: (
-            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall."
-        ),
-    ),
-    _Rule(
-        "no-dynamic-stall",
-        lambda trim: (
-            trim.design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not trim.design.hovering
-        ),
-        lambda trim: (
-            f"The inflow {trim.design.models.inflow} balances the load at each point by itself, which sections that "
-            "stall with lags do not allow: they are steady here."
-        ),
-    ),
-    _Rule(
-        "stall",
-        lambda trim: trim.stalled > STALL_SHARE and trim.fields.unsteady is not None,
-        lambda trim: (
-            f"{100.0 * trim.stalled:.1f} % of the disk is stalled; the lags of dynamic stall are those of a NACA 0012."
-        ),
-    ),
-    _Rule(
-        "no-compressibility",
-        lambda trim: trim.by_polynomials and trim.top_mach > 0.5,
-        lambda trim: f"The section polar holds for one Mach number; the tip reaches Mach {trim.top_mach:.2f}.",
-    ),
-    _Rule(
-        "mixed-section-data",
-        lambda trim: (
-            trim.by_polynomials
-            and any(not span.section.startswith(THESIS_NAME) for span in trim.design.rotor.blade.spans)
-        ),
-        lambda trim: (
-            f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest "
-            "tables with Mach number: their difference is one of data, not of airfoils."
-        ),
-    ),
-    _Rule(
-        "polynomial-clamped",
-        lambda trim: trim.clamped > 0.0,
-        lambda trim: (
-            f"{100.0 * trim.clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
-        ),
-    ),
-    _Rule(
-        "mach-outside-data",
-        lambda trim: not trim.by_polynomials and trim.top_mach > trim.problem.disk.mach_limit,
-        lambda trim: (
-            f"The tip reaches Mach {trim.top_mach:.2f}; section data end at {trim.problem.disk.mach_limit:.2f} and are "
-            "constant above."
-        ),
-    ),
-)
-"""Caveats in the order in which they are listed."""
-
 
 def caveats(trim: Trimmed) -> Iterator[Caveat]:
-    """The limits of validity that a converged solution exceeds."""
+    """The limits of validity that a converged solution exceeds, in the order in which they are listed."""
     for remark in trim.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    for rule in _RULES:
-        if rule.applies(trim):
-            yield Caveat(rule.name, rule.sentence(trim))
+    said = _of_the_rotor(trim) | _of_the_models(trim) | _of_the_flight(trim) | _of_the_sections(trim)
+    for name, sentence in said.items():
+        yield Caveat(name, sentence)
 
 
-def _switches(design: Design) -> str:
-    names = ", ".join(switch.title.lower() for switch in switched_off(design.models))
-    return f"Switched off: {names}. The result is for teaching, not for the aircraft."
+def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
+    design, models = trim.design, trim.design.models
+    said = dict[str, str]()
+    if design.aircraft.hub == "teetering" and design.rotor.precone is None:
+        said["teetering"] = (
+            "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft."
+        )
+    if design.twist != design.rotor.builtin_twist:
+        root, tip = design.twist(np.array([design.rotor.blade.root_cutout, 1.0])).tolist()
+        if abs(tip - root) > LARGEST_BUILT_TWIST:
+            said["twist-beyond-built"] = (
+                f"The blade twists by {math.degrees(tip - root):.0f}° from root to tip; helicopter blades are built "
+                "with about 20° or less. Read the result as an extrapolation."
+            )
+    if design.tail_rotor is None and models.tail_rotor_solved and not trim.on_stand:
+        said["no-tail-rotor"] = (
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
+        )
+    if design.preset == "thesis" and design.aircraft.stated is None:
+        said["thesis-models"] = (
+            f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade."
+        )
+    if models.has("elastic_twist") and design.rotor.blade.structure is None:
+        said["no-blade-structure"] = (
+            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "degrees in flight."
+        )
+    return said
+
+
+def _of_the_models(trim: Trimmed) -> dict[str, str]:
+    design, models, power = trim.design, trim.design.models, trim.power
+    said = dict[str, str]()
+    if off := switched_off(models):
+        names = ", ".join(switch.title.lower() for switch in off)
+        said["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
+    if not models.flapping and trim.mu > 0.0:
+        said["rigid-blades"] = _rigid(trim.moment)
+        if trim.fixed_inflow:
+            said["rigid-blades-linear-inflow"] = (
+                "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low."
+            )
+    if design.active_twist and design.hovering:
+        said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
+    if design.pitch_per_rev and design.hovering:
+        said["root-pitch-rests"] = (
+            "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
+        )
+    highest = max((harmonic.per_rev for wave in design.pitch_waves for harmonic in wave.harmonics), default=0)
+    frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)  # ωc/2V at 0.75 R.
+    if frequency > FAST_PITCH and not trim.problem.unsteady:
+        said["fast-pitch"] = (
+            f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and only "
+            "the wake that a lifting line sheds and the damping of the pitch rate answer to it."
+        )
+    control_power = 0.0 if trim.elastic is None else trim.elastic.control_power
+    if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
+        said["control-power"] = (
+            f"Pitch links and actuators put {control_power / 1e3:.1f} kW into the pitching blades; that is not part of "
+            "the power here."
+        )
+    if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
+        said["torque-without-drag"] = (
+            f"Only the thrust is trimmed, so the shaft's torque carries {power.shaft / 1e3:.0f} kW; with the drag of "
+            f"the airframe the rotor takes {power.main_rotor / 1e3:.0f} kW, the sum of its parts."
+        )
+    return said
+
+
+def _of_the_flight(trim: Trimmed) -> dict[str, str]:
+    design, mu, power = trim.design, trim.mu, trim.power
+    said = dict[str, str]()
+    if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
+        said["low-speed-inflow"] = f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+    if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
+        said["low-speed-inflow"] = (
+            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
+        )
+    if hover_share(design) and trim.problem.joined is None:
+        said["low-speed-not-matched"] = (
+            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
+        )
+    if design.condition.climb_speed < 0.0:
+        inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
+        descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
+        if descent > -VORTEX_RING_ONSET and edge < math.inf:
+            said["vortex-ring"] = (
+                f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
+                f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {edge:.2f} the vortex ring "
+                "state begins."
+            )
+    if power.main_rotor < 0.0 and not trim.on_stand:
+        said["beyond-autorotation"] = (
+            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
+            "engine off the rotor turns faster."
+        )
+    installed = design.aircraft.installed_power
+    if installed and power.total > installed and not trim.on_stand:
+        said["installed-power"] = (
+            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
+            "and less at altitude."
+        )
+    if not trim.on_stand and (beyond := _beyond_stops(trim)):
+        said["controls"] = f"The trim needs more than the controls give: {', '.join(beyond)}."
+    if mu > HIGH_SPEED:
+        said["high-speed"] = (
+            f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall decide, which the sections here describe "
+            "roughly."
+        )
+    loading = trim.total.thrust / design.rotor.solidity
+    if design.hovering and loading > HOVER_CAUTION:
+        said["blade-loading"] = (
+            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
+            f"too low. {_nearest_to_stall(trim.fields.stall_margin, trim.problem.disk.r)}"
+        )
+    return said
+
+
+def _of_the_sections(trim: Trimmed) -> dict[str, str]:
+    design, fields, disk = trim.design, trim.fields, trim.problem.disk
+    said = dict[str, str]()
+    if trim.stalled > STALL_SHARE:
+        what = "section data are steady, without dynamic stall"
+        if fields.unsteady is not None:
+            what = "the lags of dynamic stall are those of a NACA 0012"
+        said["stall"] = f"{100.0 * trim.stalled:.1f} % of the disk is stalled; {what}."
+    if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
+        said["no-dynamic-stall"] = (
+            f"The inflow {design.models.inflow} balances the load at each point by itself, which sections that stall "
+            "with lags do not allow: they are steady here."
+        )
+    top_mach = float(fields.mach.max())
+    if disk.fit_range is None:  # Tables, not polynomials of one Mach number.
+        if top_mach > disk.mach_limit:
+            said["mach-outside-data"] = (
+                f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant "
+                "above."
+            )
+        return said
+    if top_mach > 0.5:
+        said["no-compressibility"] = (
+            f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}."
+        )
+    if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
+        said["mixed-section-data"] = (
+            f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest tables "
+            "with Mach number: their difference is one of data, not of airfoils."
+        )
+    low, high = disk.fit_range
+    outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
+    if (clamped := float(fields.cells @ outside.sum(axis=1))) > 0.0:
+        said["polynomial-clamped"] = (
+            f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
+        )
+    return said
+
+
+def _beyond_stops(trim: Trimmed) -> list[str]:
+    """What each control that is beyond its stops needs, and what it has, in words."""
+    stops, state, words = trim.design.aircraft.controls, trim.state, list[str]()
+    if stops is None:
+        return words
+    ranges = {"collective": stops.collective, "lateral": stops.lateral, "longitudinal": stops.longitudinal}
+    for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
+        if not 0.0 <= place <= 1.0:
+            low, high = (math.degrees(end) for end in ranges[name])
+            what = name if name == "collective" else f"{name} cyclic"
+            words.append(f"{what} {low + place * (high - low):.1f}° of {low:.1f} to {high:.1f}°")
+    return words
 
 
 def _nearest_to_stall(margin: Array, r: Array) -> str:
@@ -450,7 +338,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     near = easier_condition(design, reached)
     how_far = ""
     if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
-        how_far = f" A trim exists only up to {math.floor(near.mass)} kg."
+        how_far = f" A trim was found only up to {math.floor(near.mass)} kg."
     elif reached > 0.0:
         how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (

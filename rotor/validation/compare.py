@@ -39,8 +39,8 @@ LABELS = {
     "tip_mach": "Tip Mach number",
 }
 """Labels of axes and columns."""
-ALSO = {"xv15-forward-15deg": ("uniform",), "xv15-forward-0deg": ("uniform",)}
-"""Inflow models that the trust page shows beside that of `flight`."""
+ALSO = {"xv15-forward-15deg": ("uniform",)}
+"""Inflow models that the trust page shows beside that of `flight`, where they give a trim."""
 
 
 @dataclass(frozen=True)

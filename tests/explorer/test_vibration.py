@@ -33,9 +33,10 @@ from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Adjoint
-from rotor.trim.hub_loads import displacements, hub_loads
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import HubLoads, Solution
 from rotor.trim.solve import solve
+from tests.rotor.root_loads import displacements
 
 FAST = Inputs(law="builtin", advance_ratio=0.3, bending=True)
 VIEW = ViewState(exaggeration=1.0)
@@ -70,7 +71,7 @@ def on_disk(solution: Solution, psi: float, points: Array) -> Array:
 class TestDrawnBlade:
     @pytest.mark.parametrize("psi", [0.4, 2.0, 5.1])
     def test_it_is_moved_by_ten_times_what_the_trim_says(self, bent: Solution, psi: float):
-        """Against displacements that the hub loads are made of, less flapping; a flapped blade is 4° steep: 1 %."""
+        """Against displacements by which hub loads are tested, less flapping; a flapped blade is 4° steep: 1 %."""
         adjoint = Adjoint(bent)
         b = adjoint.problem.bending
         assert b is not None

@@ -17,6 +17,8 @@ from itertools import starmap
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.engine.linearise import evaluate
@@ -50,6 +52,9 @@ TARGETS_MS = {
     "doubt": 8.0,
 }
 """Targets of the project [ms], on the grid of each model, one core of an idle machine."""
+
+TARGETS_UNSTEADY = {"cold": 1.3, "warm": 1.3, "gradient": 1.4}
+"""Targets of the project: time with unsteady flow and dynamic stall over that with steady sections."""
 
 _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 _SEARCH_ADVANCE_RATIOS = (0.1, 0.2, 0.3)
@@ -108,6 +113,8 @@ def main(argv: list[str] | None = None) -> int:
     answer: dict[str, Any] = {
         "ms": measure(),
         "targets_ms": TARGETS_MS,
+        "unsteady_over_steady": measure_unsteady(),
+        "targets_unsteady": TARGETS_UNSTEADY,
         "seconds": measure_searches(long=args.long),
         "targets_s": TARGETS_S,
         "trims_per_second_and_core": measure_batch(),
@@ -121,11 +128,14 @@ def main(argv: list[str] | None = None) -> int:
 
 def report(answer: dict[str, Any]) -> str:
     batch, targets = answer["trims_per_second_and_core"], answer["targets_ms"] | answer["targets_s"]
+    unsteady: dict[str, float] = answer["unsteady_over_steady"]
     minutes = 1e5 / (2.0 * 60.0 * batch["as a study works them off"])
     lines = [
         "milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade",
         "where nothing else is said, linear inflow on 40 × 120\n",
         *(_line(name, value, "10.3f", targets.get(name), "≤") for name, value in answer["ms"].items()),
+        "\nunsteady flow and dynamic stall over steady sections, medians of pairs\n",
+        *(_line(name, value, "10.2f", TARGETS_UNSTEADY[name], "≤") for name, value in unsteady.items()),
         "\nseconds, lifting line, elastic blade\n",
         *(_line(name, value, "10.2f", targets.get(name), "≤") for name, value in answer["seconds"].items()),
         "\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n",
@@ -197,6 +207,36 @@ def measure() -> dict[str, float]:
         figures[f"{beside}doubt"] = _mean(power_changes, [Adjoint(solution) for solution in solutions], 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
     return figures
+
+
+def measure_unsteady(pairs: int = 30) -> dict[str, float]:
+    """Time with unsteady flow and dynamic stall over that with steady sections, by name; mean over speed.
+
+    Taken in turn, so that whatever else the machine does slows both.
+    """
+    ratios: dict[str, list[float]] = {name: [] for name in TARGETS_UNSTEADY}
+    for mu in _ADVANCE_RATIOS:
+        cases: list[tuple[Design, Design, Solution]] = []
+        for off in (None, "unsteady,dynamic-stall"):
+            begun, nearby = (make_design(twist=twist, mu=mu, off=off) for twist in ("linear:-16", "linear:-15.5"))
+            start = solve(begun)
+            power_gradient(start)
+            cases.append((begun, nearby, start))
+        times = np.array([[_three(*case) for case in cases] for _ in range(pairs + 1)])[1:]
+        for name, ratio in zip(ratios, np.median(times[:, 0] / times[:, 1], axis=0).tolist(), strict=True):
+            ratios[name].append(ratio)
+    return {name: statistics.fmean(each) for name, each in ratios.items()}
+
+
+def _three(design: Design, nearby: Design, start: Solution) -> tuple[float, float, float]:
+    """Processor times of a cold trim, a warm one and its gradient [s]."""
+    begin = time.process_time()
+    solve(design)
+    cold = time.process_time()
+    solution = solve(nearby, start)
+    warm = time.process_time()
+    power_gradient(solution)
+    return cold - begin, warm - cold, time.process_time() - warm
 
 
 def _designs(faster: float, twist: str, models: dict[str, Any]) -> list[Design]:

@@ -152,7 +152,7 @@ def _wrong(solution: Solution) -> str:
     if not solution.converged:
         return "" if message.startswith("Not trimmed") else f"message {message!r}"
     for field in fields(solution.disk):
-        if field.name == "unsteady":  # A value of its own arrays.
+        if field.name in ("unsteady", "find_apparent"):  # A value of its own arrays, and no value.
             continue
         values = getattr(solution.disk, field.name)
         if values is not None and not np.isfinite(values).all():

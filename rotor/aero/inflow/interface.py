@@ -17,7 +17,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import DiskFlow
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 from rotor.design.design import Models
 from rotor.design.quantities import LossOn
 from rotor.engine.linearise import Nodes
@@ -50,6 +50,14 @@ class SectionInterface:
     """The force in whose place it returns the inflow that it balances by itself; None without."""
     memory: Callable[[Array, Any], Memory] | None = None
     """How its forces follow the channels at other azimuths; None where they do not."""
+
+
+def places_of(pairs: Sequence[tuple[int, int]], forces: int, channels: int) -> Integers:
+    """Row of each force and channel among partial derivatives, −1 where they have none, (forces, channels)."""
+    out = np.full((forces, channels), -1, dtype=np.int64)
+    for row, pair in enumerate(pairs):
+        out[pair] = row
+    return out
 
 
 PLAIN = SectionInterface(section, PAIRS, len(CHANNELS), len(FORCES))

@@ -45,7 +45,6 @@ def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyratio
         axial_stiffness=1.3e8,
         tension_gyration=gyration,
         section_stiffness=gj,
-        reference_mass=60.0,
         control_stiffness=1e5,
         pitch_horn=0.2,
     )

@@ -23,7 +23,6 @@ from rotor.dynamics.thin_wall import (
     Material,
     Panel,
     WallSection,
-    axial_stiffness,
     build_section,
     free_strain_in_wall_axes,
     induced_twist_rate,
@@ -47,6 +46,14 @@ def blocked_shear_flow(layer: Layer) -> float:
 def actuation_moment(section: WallSection) -> float:
     """M_a = GJ θ'_a: the end moment that twists the passive section by the same rate [N m]."""
     return torsional_stiffness(section) * induced_twist_rate(section)
+
+
+def axial_stiffness(section: WallSection) -> float:
+    """EA [N], bendings and twist free: of a force at the tension centre, where ε_x is the least over all points."""
+    base = respond(section, force=1.0)
+    by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
+    compliance = np.array([[e.extension, e.curvature_y, e.curvature_z] for e in (base, by_y, by_z)]).T
+    return float(1.0 / (compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0])))
 
 
 def ply(id: str) -> PiezoPly:

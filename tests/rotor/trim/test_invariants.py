@@ -104,7 +104,7 @@ def test_few_azimuths_stand_for_all(inflow: str, mu: float):
     assert system.thin.waves.azimuths == LEAST_AZIMUTHS
     matrices = [jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)]
     left = np.eye(len(matrices[0])) - np.linalg.solve(matrices[1], matrices[0])
-    assert np.abs(np.linalg.eigvals(left)).max() < 1e-2
+    assert np.abs(np.linalg.eigvals(left)).max() < 2e-2
 
 
 def test_azimuths_that_cannot_be_thinned():
