@@ -17,13 +17,12 @@ import matplotlib.pyplot as plt
 import rotor
 
 # %%
-# Static twist, at three speeds. At speed every degree of it costs: the strongly twisted blade saves power in hover and
-# pays at the other end.
+# Static twist, at three speeds. At speed strong twist costs: it saves power in hover and pays at the other end.
 #
 # The shaded band is what the same design has with other inflow models, from uniform inflow to the lifting line; it
-# belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though
-# not by how much. At µ 0.2 the lifting line has its least near −12°, where power has it too, and linear inflow does
-# not. Below that the wake decides, and a sentence stands in place of the index.
+# belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though not by how much; but for the
+# lifting line at µ 0.3, which has its least near −4°. At µ 0.2 it has it near −12°, as power has, and linear inflow has
+# none. Below that the wake decides, and a sentence stands in place of the index.
 
 rates = [0, -4, -8, -12, -16, -20]
 for mu in (0.2, 0.3, 0.35):

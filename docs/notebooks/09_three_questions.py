@@ -8,14 +8,14 @@ angle of attack and Mach number, hinge offset, a blade elastic in torsion, propu
 line. ``thesis`` uses the models of that document, so that its figures can be checked: ``python -m rotor reproduce
 OUT``.
 
-**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −11.2° at µ 0.2 and
-−11.5° at 0.35 (−9.7 to −12.4° over the inflow models, −6.8° without fuselage drag). A twist that follows saves 0.1 %
+**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −11.3° at µ 0.2 and
+−11.7° at 0.35 (−9.8 to −12.5° over the inflow models, −6.8° without fuselage drag). A twist that follows saves 0.1 %
 beyond the best fixed one, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly in hover (``schedule``, eight speeds
 from hover to µ 0.35; from µ 0.1 up 0.6 kW). That it saves something is sure: the sign held for every input and model
 that was varied; the size did not.
 
-**Which concept has advantages?** None that can be told: two or three segments, or a quadratic twist, save 0.2 % more
-than one linear twist that moves. One good fixed twist saves 0.6 % against −16°.
+**Which concept has advantages?** None that can be told: two or three segments, or a quadratic twist, save 0.2 to 0.3 %
+more than one linear twist that moves. One good fixed twist saves 0.6 % against −16°.
 
 **Which actuator?** None on the blade as it is: of 24 pairs of actuator and concept the best costs 24 kW on balance,
 for its mass. What unlimited twist would gain, 3 kW, is an eighth of that cost.
@@ -36,7 +36,7 @@ from rotor.reproduce import ladder, readings
 #
 # The document's assumptions, read as most of its statements hold, give −16.6, −8.5 and −3.8° in hover, at µ 0.2 and
 # at 0.35. From there one assumption after another is changed to that of the preset ``flight``. Trim by cyclic with µ
-# sin α moves that most: −7.0 to −8.1° at µ 0.35, −2.1 to −2.8° at 0.2, where drag rise, torsion and section data move
+# sin α moves that most: −7.0 to −8.1° at µ 0.35, −2.1 to −2.9° at 0.2, where drag rise, torsion and section data move
 # it as far.
 
 names = tuple(ladder.RUNGS)
@@ -83,7 +83,7 @@ print(f"best fixed {moving.fixed_deg:.1f}°; moving saves {100 * moving.gain:.2f
 
 # %%
 # Measured, on another rotor: −17.3° needs 5 % more power than −11.5° at 330 km/h and 2.4 % less in hover. Ours gives
-# −0.2 % with the drag of the UH-60A and +3.2 % (3.1 to 5.7 over models) at the usual propulsive force of a tunnel
+# −0.2 % with the drag of the UH-60A and +3.2 % (3.1 to 5.6 over models) at the usual propulsive force of a tunnel
 # test; −0.5 % in hover.
 
 for kmh in (0.0, ladder.FAST_KMH):

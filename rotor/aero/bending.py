@@ -37,7 +37,7 @@ from rotor.units import GRAVITY
 
 MODES = 4, 3
 """In flap and in lag: with the third lag mode, at 13.6/rev of the UH-60A, a blade can bend in flap about its own axes
-where its pitch is not that of reference. With more, Fx and Fy at the hub change by less than 3 %, Fz by less than 5 %
+where its pitch is not that of reference. With more, Fx and Fy at the hub change by less than 3 %, Fz by less than 6 %
 (tested)."""
 HARMONICS = 8
 """Highest harmonic of bending, and of the elastic twist with it."""

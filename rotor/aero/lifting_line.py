@@ -53,7 +53,8 @@ GRADIENT = 0.5
 """E/χ. With 1, which others take, HART II agrees better, the XV-15 and the Gazelle worse: rotor/validation/hart2.py."""
 SKEWED = 2.5
 """µ_x over √(C_T/2) from which a wake is wholly that of forward flight: µ 0.144 for a UH-60A at sea level, where it
-trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 1 to 3 % less, further below momentum theory."""
+trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 0.5 to 1.6 % less, further below momentum
+theory."""
 
 
 @dataclass(frozen=True)

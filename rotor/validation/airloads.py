@@ -68,7 +68,7 @@ def _pitch_link_test(mu: float) -> dict[str, Any]:
 
 HART2_BASELINE = FlownCase("hart2-airloads", "BL", "hart2", _tunnel(1.2055, 341.7, 109.12, 20.0))
 """The baseline case as OpenCOPTER's case files state it; shaft wall-corrected. The signs of the hub moments are not
-checked: 20 N m is 0.3 % of thrust times radius, and the other sign moves power by 1.5 % and the twist of the tip by
+checked: 20 N m is 0.3 % of thrust times radius, and the other sign moves power by 1.6 % and the twist of the tip by
 0.01°."""
 CASES = (
     HART2_BASELINE,

@@ -3,7 +3,7 @@
     λ_i = d/(4 r F V) + λ0 k_x r cos ψ,      V = √(µ_x² + (µ_z + λ0)²)
 
 The first term is the annulus balance (2.24) taken point by point: the part w = p/2V of the linear actuator disk that
-leaves out all coupling along the wake. Beyond µ 0.3 it is too favourable: induced power 17–39 % low. The second term
+leaves out all coupling along the wake. Beyond µ 0.3 it is too favourable: induced power 17–37 % low. The second term
 restores the fore-aft gradient of the skewed wake, which does not change the power but corrects the lateral cyclic.
 
 So the section balances itself: it finds λ with λ = g F_z(…, U_P + λ), g = 1/(4 r F V), at every point, and its
@@ -119,7 +119,7 @@ class LocalMomentumInflow(InflowModel):
     name = "local-momentum"
     title = "Local momentum (sectors)"
     explanation = (
-        "Each sector responds to its own load, plus a fore-aft gradient: induced power 17–39 % low above µ 0.3."
+        "Each sector responds to its own load, plus a fore-aft gradient: induced power 17–37 % low above µ 0.3."
     )
     tip: bool = True
 
