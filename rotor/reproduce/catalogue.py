@@ -137,7 +137,8 @@ def _grid(known: dict[str, Report]) -> TrustSet:
             1e-3,
             test="test_the_grid_of_the_default_model",
             against="48 × 48",
-            note="At µ 0.1 by its azimuths.",
+            note=f"With linear inflow the lags of stall are followed on the azimuths of the trim: {error:.1e} at 100. "
+            "The default model at µ 0.1: by its azimuths.",
         ),
         words.share(
             "Reverse-flow area, µ 0.30, counted in cells",
