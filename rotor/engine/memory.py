@@ -74,9 +74,10 @@ class Memory:
         (elements, forces, waves, inputs, azimuths)
         """
         forces, outputs, elements, azimuths = self.left.shape
-        weighted = np.einsum("okei,ip->eopki", self.left, waves.mean).reshape(elements, -1, outputs * azimuths)
-        whole = weighted @ self.kernel.transpose(2, 0, 3, 1, 4).reshape(elements, outputs * azimuths, -1)
-        return whole.reshape(elements, forces, -1, self.kernel.shape[1], azimuths)
+        weighted = np.einsum("okei,ip->keopi", self.left, waves.mean).reshape(outputs, 1, elements, -1, azimuths)
+        whole = sum(part @ kernel for part, kernel in zip(weighted, self.kernel, strict=True))  # N is not copied.
+        assert not isinstance(whole, int)
+        return np.moveaxis(whole, 0, 2).reshape(elements, forces, -1, self.kernel.shape[1], azimuths)
 
     def by_channel(self, by_inputs: Array, channel: int) -> Array:
         """∂ of the same means by one channel at all azimuths, (forces, waves, elements, azimuths)."""
