@@ -68,7 +68,7 @@ class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
         codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
-        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (refined(fast, grid).margin < 0.0)
+        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (refined(fast, grid).attached < 0.0)
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
         assert share == pytest.approx(fast.stalled_area, abs=0.02)
@@ -97,7 +97,7 @@ class TestHatch:
         regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
         plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = refined(fast, grid).margin < math.radians(-0.6)
+        stalled = refined(fast, grid).attached < -0.02
         row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
         x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
         y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)
