@@ -149,7 +149,7 @@ class SetDescription:
     def bound(self, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
         """A row whose error is rounding or discretisation: its size matters, not its digits."""
         met, target = abs(error) <= below, f"below {below:.0e}"
-        shown = target if met else f"{abs(error):.0e}"
+        shown = target if met else f"{abs(error):.1e}"
         return self.row(what, shown, abs(error), below, test=test, target=target, met=met, against=against)
 
     def page(
