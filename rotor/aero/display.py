@@ -135,8 +135,9 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
-    """Stalled parts of πR² and of the thrust, on the azimuths of the problem."""
-    disk, e = problem.disk, elements
+    """Stalled parts of πR² and of the thrust, on the azimuths that are shown."""
+    problem, e = as_asked(problem, elements)
+    disk = problem.disk
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
     return areas(disk, e, margin)[1:]
 

@@ -292,4 +292,4 @@ def _stalled(result: TrimResult, last: float) -> float:
     """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
     if result.nearest is None:
         return last
-    return stalled_parts(*as_asked(result.nearest.problem, result.nearest.linear.elements))[0]
+    return stalled_parts(result.nearest.problem, result.nearest.linear.elements)[0]
