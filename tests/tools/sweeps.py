@@ -29,7 +29,7 @@ STEPS = {
     "load_factor": (0.5, 2.0, 0.0125),
 }  # fmt: skip
 """Sliders of the page, each from its easy end in its steps; mass over that of the aircraft, twist linear [°/R]."""
-_ENOUGH = 6
+_ENOUGH = 3
 """Refusals in a row after which a sweep ends."""
 
 
