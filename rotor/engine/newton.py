@@ -27,8 +27,8 @@ from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, tran
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
-_NEARLY = 10.0
-"""Expected residual over its tolerance at which a step may well be the last. Our choice."""
+_NEARLY = 3.0
+"""Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
 _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
