@@ -56,7 +56,7 @@ class Disk(OnDisk):
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Tables of a lifting line's circulation, `section_table.held_beyond_peak`; no sections where there is none."""
+    """Tables of a lifting line's circulation and of the course of its wake, `section_table.held_beyond_peak`."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array
@@ -168,7 +168,7 @@ def _disk(
         weight=weight,
         offset=offset,
         tables=coefficients,
-        held=np.stack([held_beyond_peak(each) for each in coefficients]) if fine_tip else coefficients[:0],
+        held=np.stack([held_beyond_peak(each) for each in coefficients]),
         cos_sweep=np.cos(sweep),
         sin_sweep=np.sin(sweep),
         stall=np.stack([table.stall_alpha(mach) for table in tables]),
