@@ -234,7 +234,8 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     ages = np.arange(near, turns + 1, dtype=np.float64) * step
     old = course.nodes(psi, ages, line.edges[picked])
     begin, end = turns * step, LENGTH / max(course.speed, LENGTH / OLDEST)
-    oldest = np.linspace(begin, max(end, begin + FAR_STEP), max(math.ceil((end - begin) / FAR_STEP), 1) + 1)
+    end = max(end, begin + FAR_STEP)  # The last piece is as long as is left: nothing jumps with the number of pieces.
+    oldest = np.append(np.arange(begin, end - 1e-9, FAR_STEP), end)
     last = course.nodes(psi, oldest, line.edges[picked])
     parts = _Parts(len(psi))
 
