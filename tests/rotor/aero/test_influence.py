@@ -100,7 +100,7 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
             yield node(age, low), node(age, high), mean(age, s) - (mean(age - 1, s) if age > 1 else 0.0), SHED
     steady = [sum(strip(k, s) for k in range(LINE.azimuths)) / LINE.azimuths for s in range(len(STRIPS))] + [0.0]
     begin, end = turns * STEP, 8.0 / math.hypot(course.mu_x, course.mu_z + course.lambda0)
-    ages = np.linspace(begin, end, math.ceil((end - begin) / (math.pi / 6.0)) + 1) / STEP
+    ages = np.append(np.arange(begin, end - 1e-9, math.pi / 6.0), end) / STEP
     for young, old in pairwise(ages.tolist()):
         for s, e in enumerate(borders):
             inner = steady[s - 1] if s else 0.0
