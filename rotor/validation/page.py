@@ -215,6 +215,7 @@ def _source(data: TrustSet) -> str:
 def _page(*parts: str) -> str:
     """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
     text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(parts))
+    text = re.sub(r"\b(\d\.\d)e-0*(\d+)\b", lambda number: f"{number[1]} · 10⁻{number[2].translate(_RAISED)}", text)
     text = re.sub(r"\b1e-0*(\d+)\b", lambda number: "10⁻" + number[1].translate(_RAISED), text).replace(" %", "\u00a0%")
     return re.sub(r"\b([CUc])_(\w)\b", lambda index: index[1] + str(tag("sub", index[2])), text) + "\n"
 

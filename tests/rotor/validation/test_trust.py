@@ -32,6 +32,7 @@ def tables(path: Path) -> list[list[str]]:
 def as_printed(text: str) -> str:
     """A shown error with the page's signs and spaces."""
     raised = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+    text = re.sub(r"(\d\.\d)e-0*(\d+)", lambda found: f"{found[1]} · 10⁻{found[2].translate(raised)}", text)
     text = re.sub(r"1e-0*(\d+)", lambda found: "10⁻" + found[1].translate(raised), text)
     return text.replace("-", "−").replace(" %", "\u00a0%")
 
