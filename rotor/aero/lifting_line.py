@@ -70,7 +70,7 @@ class WakeCourse(DiskFlow):
 
     @property
     def skewed(self) -> float:
-        """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; |C_T| is 2 |λ0| V."""
+        """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; C_T is 2 λ0 V."""
         share = min(self.mu_x / (SKEWED * math.sqrt(max(abs(self.lambda0), 1e-9) * self.speed)), 1.0)
         return share * share * (3.0 - 2.0 * share)
 
