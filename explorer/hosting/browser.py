@@ -6,12 +6,13 @@ import secrets
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, Unpack
 
 import viser
 
 from explorer.hosting.messages import PRESSES, PageFacts, checked_press, read_facts
 from explorer.hosting.viser_compat import run_in_page, widget_id
+from explorer.parts import Parts
 
 _log = logging.getLogger(__name__)
 
@@ -79,7 +80,7 @@ class Bridge:
         if at_once:
             self._at_once.add(name)
 
-    def set(self, **parts: Any) -> None:
+    def set(self, **parts: Unpack[Parts]) -> None:
         """Show these parts of the page's state; what has not changed is not sent."""
         with self._lock:
             texts = {
