@@ -7,14 +7,14 @@ the numbers of the lecture are asked for as the design changes.
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import viser
 
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
 from rotor.worker_process import Task
 
@@ -106,22 +106,6 @@ class BackgroundWork:
         if not isinstance(news, JobProgress) or now - self._woken > FRAME:
             self._woken = now
             self._wake()
-
-
-@dataclass(frozen=True)
-class Call:
-    """A task of the pool: a function of a module and its arguments. It pickles; equal ones have one answer."""
-
-    function: Callable[..., Any]
-    arguments: tuple[Hashable, ...]
-
-    def run(self, tell: object = None, stop: object = None) -> Any:
-        """What the function returns; for a ValueError or RuntimeError its sentence."""
-        del tell, stop  # Some seconds at most.
-        try:
-            return self.function(*self.arguments)
-        except (ValueError, RuntimeError) as error:
-            return str(error)
 
 
 _KEPT = 64

@@ -18,13 +18,14 @@ from explorer.model.units import BLANK, SI, UNITS, Units, number
 from explorer.picture.blade_mesh import inset
 from explorer.picture.picture import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.live_charts import ChartStrip, against
 from explorer.text import readout
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, status_panel, trust_page, validated
 from explorer.text.why import why
+from explorer.workers.call import Call
 from rotor import Solution, doubt
 from rotor.markup import Markup
 from rotor.trim import Analysis, PitchGradient

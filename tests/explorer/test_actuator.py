@@ -12,13 +12,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.model.inputs import ViewState, baseline_of
-from explorer.model.units import number
-from explorer.picture.picture import make_picture
-from explorer.tabs.actuator import actuator_words
-from explorer.tabs.actuator import lifted_blade as lifted
-from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
     drive_of,
@@ -28,9 +22,16 @@ from explorer.tabs.actuator.actuator_inputs import (
     verdict_on,
     verdict_tasks,
 )
+from explorer.model.inputs import ViewState, baseline_of
+from explorer.model.units import number
+from explorer.picture.picture import make_picture
+from explorer.tabs.actuator import actuator_words
+from explorer.tabs.actuator import lifted_blade as lifted
+from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
 from explorer.tabs.actuator.actuator_words import section_svg
 from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
+from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
 from rotor.actuator.verdict import Verdict, verdict_sentence

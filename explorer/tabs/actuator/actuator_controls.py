@@ -8,8 +8,7 @@ import viser
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import BASELINE, NOW, THIS
-from explorer.model.units import number
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     AGAINST,
     BLADES,
     CONCEPTS,
@@ -19,6 +18,7 @@ from explorer.tabs.actuator.actuator_inputs import (
     Question,
     drive_of,
 )
+from explorer.model.units import number
 from explorer.tabs.form import Form
 from explorer.tabs.live_charts import PanelChart
 from rotor.actuator import (

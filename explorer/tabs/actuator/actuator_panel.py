@@ -4,10 +4,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from explorer.sharing.share import Address
-from explorer.tabs.actuator import actuator_words as words
-from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     AGAINST,
     MOST_SEGMENTS,
     ActuatorInputs,
@@ -17,14 +14,18 @@ from explorer.tabs.actuator.actuator_inputs import (
     question_of,
     verdict_tasks,
 )
+from explorer.sharing.share import Address
+from explorer.tabs.actuator import actuator_words as words
+from explorer.tabs.actuator.actuator_controls import ActuatorControls, reach_chart, table_panel
 from explorer.tabs.actuator.flight_bar import FlightBar
 from explorer.tabs.actuator.lifted_picture import LiftedScene, flown_twist, lifted_picture
 from explorer.tabs.actuator.per_rev import Fitted
 from explorer.tabs.actuator.what_would_pay import WhatWouldPay
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
 from explorer.workers import solver
+from explorer.workers.call import Call
 from rotor import Design, Solution
 from rotor.actuator import InstalledActuator, Verdict, actuator_stability
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade

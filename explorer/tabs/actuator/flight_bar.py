@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from explorer.model.actuator_inputs import flight_legs
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_inputs import flight_legs
 from explorer.tabs.context import TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint

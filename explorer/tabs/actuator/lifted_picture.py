@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from explorer.colours import Rgb, css
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
+from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.units import number
 from explorer.picture.blade_mesh import Mesh
 from explorer.tabs.actuator import lifted_blade as lifted
-from explorer.tabs.actuator.actuator_inputs import ActuatorInputs
 from rotor import Design, Solution
 from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
 from rotor.arrays import Array

@@ -14,9 +14,10 @@ import numpy as np
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.design_words import harmonic_words
+from explorer.workers.call import Call
 from rotor import Design, t_matrix
 from rotor.actuator import (
     EffectInFlight,

@@ -13,9 +13,10 @@ import numpy as np
 
 from explorer.model.units import SI, Units, number
 from explorer.sharing.share import Address
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.text.readout import fuel_words, needs, needs_words
+from explorer.workers.call import Call
 from rotor.actuator import BreakEven, ConditionPair, Supposed, Verdict, break_even, pay_sentence, suppose
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
 from rotor.trim.doubt import sureness

@@ -17,10 +17,11 @@ from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, facts_at
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from rotor.markup import tag
 from rotor.processes import JobEnded, JobEvent, JobFailed
 

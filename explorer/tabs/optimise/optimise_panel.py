@@ -11,7 +11,7 @@ from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
 from explorer.sharing.share import Address, code_of, design_from
-from explorer.tabs.background import FRAME, BackgroundWork, Call, PoolAnswers
+from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
 from explorer.tabs.layout import by_hand
@@ -19,6 +19,7 @@ from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist

@@ -1,0 +1,132 @@
+"""What the panels are functions of, and what a panel is."""
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol
+
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import SessionState
+from explorer.model.units import SI, UNITS, Units
+from explorer.workers.call import Call
+from rotor import Design
+
+Mode = Literal["explore", "optimise", "actuate"]
+
+
+@dataclass(frozen=True)
+class Ui:
+    """What of the page is open."""
+
+    mode: Mode = "explore"
+    drawer: str = ""
+    """Empty: none."""
+    held: bool = False
+    """Whether a presenter moves the page."""
+
+
+@dataclass(frozen=True)
+class Hand:
+    """What the hand has set beside the inputs of the design."""
+
+    actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
+
+
+@dataclass(frozen=True, eq=False)
+class Memory:
+    """What is remembered from one update to the next."""
+
+
+@dataclass(frozen=True, eq=False)
+class Now:
+    """All that a panel may show at one instant."""
+
+    inputs: Inputs
+    """On the sliders."""
+    sliders: Design | None
+    """The design that they mean, without the actuator's twist; None where they mean none."""
+    state: SessionState | None
+    """The last converged one; None before the first."""
+    problem: str = ""
+    """Why the present inputs have no solution, in one sentence; empty where they have one."""
+    ui: Ui = Ui()
+    hand: Hand = Hand()
+    memory: Memory = Memory()
+    answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
+    """What is known: of worker processes by `Call`, of the page's own work by the key of `Work`. For a question that
+    failed, the sentence that says why."""
+
+    @property
+    def units(self) -> Units:
+        return SI if self.state is None else UNITS[self.state.view.units]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Questions of a panel to the worker processes, the first one first."""
+
+    urgency: int
+    """As in `Processes.begin`."""
+    calls: tuple[Call, ...]
+    delay: float
+    """How long nothing must have moved before they are worked on [s]."""
+
+
+class Work(Protocol):
+    """What a panel wants computed by the page's own thread, once the page rests."""
+
+    @property
+    def key(self) -> Hashable:
+        """By which `Now.answers` has the result."""
+        ...
+
+    def run(self, superseded: Callable[[], bool]) -> Any:
+        """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+        ...
+
+
+@dataclass(frozen=True)
+class Drag:
+    """Move the sliders as a hand does."""
+
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class Put:
+    """Move the sliders to a design that comes by no hand."""
+
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class Grab:
+    """Something was taken by the hand, or let go: what moves in between is one step of undo."""
+
+    held: bool
+
+
+@dataclass(frozen=True)
+class SetHand:
+    """What the hand has set beside the inputs."""
+
+    hand: Hand
+
+
+Effect = Drag | Put | Grab | SetHand
+Press = Callable[[Now, Any], tuple[Effect, ...]]
+"""What a press does, from what is known now and the value that came with it."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A panel of the page, or what belongs together of it."""
+
+    view: Callable[[Now], Mapping[str, Any]]
+    """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
+    seen: Callable[[Ui], bool] = lambda ui: True
+    """Where it is not, nothing is asked, worked out or viewed."""
+    asks: Callable[[Now], tuple[Asked, ...]] = lambda now: ()
+    works: Callable[[Now], tuple[Work, ...]] = lambda now: ()
+    presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
+    """By name in `messages.PRESSES`. While a presenter holds the page they do nothing."""
