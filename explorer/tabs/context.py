@@ -10,16 +10,14 @@ import viser
 
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Pinboard, SessionState
+from explorer.model.session_state import Analyses, Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import UNITS, Units
 from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
-from rotor import Solution
 from rotor.processes import Processes
-from rotor.trim import Analysis
 from rotor.user_input import brief
 
 _log = logging.getLogger(__name__)
@@ -47,22 +45,6 @@ class Tab:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-
-
-_SHOWN = 4
-"""Solutions at once: of the sliders, the reference, the optimiser's, and one that is on its way."""
-
-
-class Analyses:
-    """Analyses of the solutions that a page shows: its parts ask for slopes and bands of the same ones."""
-
-    def __init__(self) -> None:
-        self._kept: tuple[Analysis, ...] = ()
-
-    def of(self, solution: Solution) -> Analysis:
-        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
-        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
-        return found
 
 
 class TabContext:

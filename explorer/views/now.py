@@ -1,15 +1,19 @@
 """What the panels are functions of, and what a panel is."""
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol
 
+from explorer.charts.measured import FlownPowers, MeasuredChart
+from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Analyses, SessionState
 from explorer.model.units import SI, UNITS, Units
+from explorer.parts.results import Best
 from explorer.workers.call import Call
-from rotor import Design
+from rotor import Design, Solution
+from rotor.chart import Chart
 
 Mode = Literal["explore", "optimise", "actuate"]
 
@@ -33,8 +37,41 @@ class Hand:
 
 
 @dataclass(frozen=True, eq=False)
+class Counted:
+    """The solutions that the change since a grab lies between."""
+
+    before: Solution | None = None
+    last: Solution | None = None
+    power: float | None = None
+    """Of the solution before the grab [W]."""
+
+    def then(self, solution: Solution, reference: float | None) -> "Counted":
+        """With one more; `reference`: power before the grab [W], as `PowerTracker` has it."""
+        before = self.before
+        if reference != self.power:
+            before = solution if reference == solution.power.total else self.last
+        return Counted(before, solution, reference)
+
+
+@dataclass(frozen=True)
+class HeldStation:
+    """The station of the blade that is in the hand."""
+
+    place: str
+    """In words."""
+    best: Best | None
+    """Its twist of least power, with that power in W; None until it is known."""
+
+
+@dataclass(frozen=True, eq=False)
 class Memory:
     """What is remembered from one update to the next."""
+
+    counted: Counted = Counted()
+    ranges: Mapping[str, Range] = field(default_factory=dict[str, Range])
+    """Axes of charts, which hold as long as they serve."""
+    latest: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    """The last result of the page's own work, by its name: it stands until that of the present design is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +87,20 @@ class Now:
     problem: str = ""
     """Why the present inputs have no solution, in one sentence; empty where they have one."""
     ui: Ui = Ui()
-    hand: Hand = Hand()
-    memory: Memory = Memory()
+    hand: Hand = field(default_factory=Hand)
+    station: HeldStation | None = None
+    change: float | None = None
+    """Power less that before the grab [W]; None while nothing was moved."""
+    rival: Solution | None = None
+    """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    curve: PowerCurve | None = None
+    """Power over µ; None before the first."""
+    index: Chart | None = None
+    """Vibration index over µ, of blades that bend."""
+    measured: MeasuredChart = field(default_factory=MeasuredChart)
+    flown: FlownPowers = field(default_factory=FlownPowers)
+    analyses: Analyses = field(default_factory=Analyses)
+    memory: Memory = field(default_factory=Memory)
     answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
     """What is known: of worker processes by `Call`, of the page's own work by the key of `Work`. For a question that
     failed, the sentence that says why."""
@@ -59,6 +108,11 @@ class Now:
     @property
     def units(self) -> Units:
         return SI if self.state is None else UNITS[self.state.view.units]
+
+    def latest(self, work: "Work") -> tuple[Any, bool]:
+        """The result of work, and True; until it is known the last of its name, or None, and False."""
+        known = self.answers.get(work.key)
+        return (self.memory.latest.get(work.name), False) if known is None else (known, True)
 
 
 @dataclass(frozen=True)
@@ -72,15 +126,23 @@ class Asked:
     """How long nothing must have moved before they are worked on [s]."""
 
 
+Tell = Callable[[], None]
+"""Says that there is more to show before work is done."""
+
+
 class Work(Protocol):
     """What a panel wants computed by the page's own thread, once the page rests."""
+
+    name: str
+    soon: bool
+    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
 
     @property
     def key(self) -> Hashable:
         """By which `Now.answers` has the result."""
         ...
 
-    def run(self, superseded: Callable[[], bool]) -> Any:
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> Any:
         """The result; None where newer input came first: it is called again once the page rests, and goes on."""
         ...
 
@@ -127,6 +189,8 @@ class Panel:
     seen: Callable[[Ui], bool] = lambda ui: True
     """Where it is not, nothing is asked, worked out or viewed."""
     asks: Callable[[Now], tuple[Asked, ...]] = lambda now: ()
-    works: Callable[[Now], tuple[Work, ...]] = lambda now: ()
+    works: Callable[[Now], Sequence[Work]] = lambda now: ()
+    turns: bool = False
+    """Whether it follows the azimuth of the reference blade."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
     """By name in `messages.PRESSES`. While a presenter holds the page they do nothing."""

@@ -1,0 +1,183 @@
+"""What each part of the physics costs: the waterfall of power, and each switch off alone."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from explorer.colours import PARTS
+from explorer.model.units import SI, Units, number
+from explorer.text import readout
+from explorer.text.readout import part_titles
+from explorer.views.now import Now, Panel, Tell
+from rotor import Design
+from rotor.aero.switches import SWITCHES, with_switches
+from rotor.markup import Markup, group, tag
+from rotor.study.series import WaterfallStep, waterfall_steps
+
+WIDTH = 312
+"""[px] of the drawing; the panel scales it."""
+_BAR_LEFT, _BAR_RIGHT = 98.0, 258.0
+_ROW, _BAR_HEIGHT = 31.0, 11.0
+_MORE, _LESS = "#d9480f", "#0ca678"
+_LONG_NOTE = 38
+"""Characters of a note that fit between the left ends of the bars and the right edge."""
+_THINNEST = 1.6
+"""[px] of a bar that stands for next to nothing."""
+
+
+def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup:
+    """Rows from everything off to everything on; "Computing …" without steps."""
+    if not steps:
+        return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
+    top = 1.04 * max((_length(step) for step in steps if step.power is not None), default=1.0)
+    rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
+    if steps[-1].power is not None:
+        rows.append(_whole("All switched on", steps[-1], 2.0 + len(steps) * _ROW, top, units))
+    height = (len(steps) + 1) * _ROW - 8.0
+    box = f"0 0 {WIDTH} {height:.0f}"
+    drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
+    key = _key(steps[0], units)
+    return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
+
+
+def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
+    if step.power is None:
+        sentence, words = tag("title", step.solution.message), _words(0, y + 11, step.title)
+        return tag("g", sentence, words, _words(_BAR_LEFT, y + 11, "has no trim", "rx-w-bad"))
+    change, added = step.change, step.added
+    if change is None or added is None or step.against is None:
+        return _whole(step.title, step, y, top, units)
+    unit = units.power[0]
+    before, after = _x(step.against.power.total, top), _x(step.power, top)
+    left, width = min(before, after), abs(after - before)
+    if width < _THINNEST:
+        left, width = 0.5 * (before + after - _THINNEST), _THINNEST
+    colour = _MORE if added > 0.0 else _LESS
+    bar = None if step.note else _rect(left, y + 2, width, colour)
+    link = tag("line.rx-w-link", x1=before, x2=before, y1=y - 12, y2=y + 13)
+    beneath = _patches(change, y, units)
+    if step.note:  # From the bars on; one too long for that ends at the right edge.
+        long = len(step.note) > _LONG_NOTE
+        place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
+        beneath = _words(place, y + 24, step.note, look)
+    shown = number(unit.of(added), 1, sign=True)
+    power = _words(WIDTH, y + 11, shown, "rx-w-number")
+    return tag("g", tag("title", _spoken(step, units)), link, _words(0, y + 11, step.title), bar, power, beneath)
+
+
+def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
+    """A bar of all parts from zero."""
+    power, x, rects = step.solution.power, _BAR_LEFT, []
+    titles = part_titles(step.solution.design)
+    for part in titles:
+        width = max(_x(getattr(power, part), top) - _BAR_LEFT, 0.0)
+        rects.append(_rect(x, y + 2, width, PARTS[part]))
+        x += width
+    unit = units.power[0]
+    parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in titles)
+    total = _words(WIDTH, y + 11, number(unit.of(power.total), 1), "rx-w-number rx-w-strong")
+    title = tag("title", f"{name}: {unit.text(power.total, 1)}; {parts}")
+    return tag("g", title, _words(0, y + 11, name, "rx-w-strong"), rects, total)
+
+
+def _patches(change: dict[str, float], y: float, units: Units) -> Markup:
+    """The change by part: a patch of the part's colour and a number, for parts that change."""
+    x, drawn = _BAR_LEFT, []
+    for part, value in change.items():
+        text = number(units.power[0].of(value), 0, sign=True)
+        if text == "0":
+            continue
+        drawn.append(tag("rect", x=x, y=y + 18, width=6, height=6, rx=1.5, fill=PARTS[part]))
+        drawn.append(_words(x + 9, y + 24, text, "rx-w-note"))
+        x += 17.0 + 5.6 * len(text)
+    return group(drawn)
+
+
+def _spoken(step: WaterfallStep, units: Units) -> str:
+    """The step in words, for those who point at it or have it read out."""
+    change, unit = step.change or {}, units.power[0]
+    titles = part_titles(step.solution.design)
+    parts = ", ".join(f"{part} {unit.text(change[part], 1, sign=True)}" for part in titles if part in change)
+    what = step.switch.on if step.switch else ""
+    return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
+
+
+def _length(step: WaterfallStep) -> float:
+    """The power of the parts that need any [W]: the total but for what a descent gives."""
+    power = step.solution.power
+    return max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS))
+
+
+def _key(step: WaterfallStep, units: Units) -> Markup:
+    """The parts' colours, and the unit of every number above."""
+    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(step.solution.design)]
+    return tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
+
+
+def _x(power: float, top: float) -> float:
+    return _BAR_LEFT + (_BAR_RIGHT - _BAR_LEFT) * power / top
+
+
+def _rect(x: float, y: float, width: float, colour: str) -> Markup:
+    return tag("rect", x=x, y=y, width=width, height=_BAR_HEIGHT, fill=colour)
+
+
+def _words(x: float, y: float, text: str, look: str = "") -> Markup:
+    return tag("text.rx-w", text, x=x, y=y, class_=look)
+
+
+WATERFALL_WORDS = (
+    "The same condition without flapping, losses, reverse flow, compressibility and fuselage drag, then with one more "
+    "at a time; every row is a trim. The cost of an effect depends on the others: what each alone adds to the "
+    "whole stands beside its switch, under Model."
+)
+_CLIMB = len(SWITCHES) + 1
+"""Steps from everything off to everything on; those with each switch off alone follow."""
+
+
+class Steps:
+    """All steps of a design: some twenty trims."""
+
+    name, soon = "waterfall", False
+
+    def __init__(self, design: Design) -> None:
+        """`design`: with everything on."""
+        self.key = self.name, design
+        self._coming: Iterator[WaterfallStep] = waterfall_steps(design)
+        self._found: list[WaterfallStep] = []
+
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
+        """Goes on where it was interrupted. Whole, or not at all: it would grow under the eyes."""
+        del tell
+        while not superseded():
+            if (step := next(self._coming, None)) is None:
+                return tuple(self._found)
+            self._found.append(step)
+        return None
+
+
+def steps_asked(now: Now) -> tuple[Steps, ...]:
+    return () if now.state is None else (Steps(with_switches(now.state.solution.design, ())),)
+
+
+def waterfall(now: Now) -> dict[str, Any]:
+    """The drawing in its drawer, and what each switch costs beside it. The last ones stay, greyed, until those of the
+    design on the page are known."""
+    asked = steps_asked(now)
+    steps, current = now.latest(asked[0]) if asked else (None, False)
+    if steps is None:
+        return {"details.waterfall": waterfall_chart(())}
+    drawn = waterfall_chart(steps[:_CLIMB], now.units)
+    costs = {step.switch.name: cost_words(step, now.units) for step in steps[_CLIMB:] if step.switch is not None}
+    return {"details.waterfall": drawn if current and not now.problem else readout.faded(drawn), "switch.costs": costs}
+
+
+WATERFALL = Panel(waterfall, works=steps_asked)
+
+
+def cost_words(step: WaterfallStep, units: Units) -> str:
+    """What a switch adds to the power, from the trim without it."""
+    if step.note:
+        return step.note
+    if step.added is None:
+        return "does not trim without it"
+    return f"{units.watts(-step.added, 1, sign=True)} here"
