@@ -1,11 +1,11 @@
 """The live charts: those of the panels, and the strip below the scene."""
 
-import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import msgspec
 import viser
 
 from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
@@ -16,7 +16,7 @@ from explorer.model.inputs import baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from rotor import Design, Solution
-from rotor.chart import Chart, as_json
+from rotor.chart import Chart, drawn_chart
 from rotor.markup import Markup, tag
 
 _HEIGHT = 94.0
@@ -25,7 +25,7 @@ _HEIGHT = 94.0
 
 def chart_box(chart: Chart, height: float = _HEIGHT) -> Markup:
     """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
-    told = json.dumps(as_json(chart), ensure_ascii=False, separators=(",", ":"))
+    told = msgspec.json.encode(drawn_chart(chart)).decode()
     return tag("div.rx-chart", data_chart=told, data_high=height)
 
 
@@ -109,7 +109,7 @@ class ChartStrip:
         """In the place of the one before; None: it goes."""
         self._charts.pop(name, None)
         if chart is not None:
-            self._charts[name], self._told[name] = chart, as_json(chart)
+            self._charts[name], self._told[name] = chart, msgspec.to_builtins(drawn_chart(chart))
 
     @property
     def _compared(self) -> Role:
