@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import msgspec
+
 
 class Bridge:
     """Keeps what the frame was told, and the actions that it would call."""
@@ -14,4 +16,5 @@ class Bridge:
         self.actions[name] = action
 
     def set(self, **parts: Any) -> None:
+        msgspec.json.encode(parts)  # Whatever is told must be JSON.
         self.state |= parts

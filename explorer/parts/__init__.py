@@ -4,7 +4,10 @@
 This package imports only words and numbers of `rotor`.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
+
+from explorer.parts.results import Hand, Inset, Power, StripChart, Worth
 
 
 class Parts(TypedDict, total=False):
@@ -19,21 +22,21 @@ class Parts(TypedDict, total=False):
     earns: Any
     field: Any
     flight: Any
-    hand: Any
+    hand: Hand | None
     hub_labels: Any
     idle: Any
-    inset: Any
+    inset: Inset
     lecture: Any
     lifted_labels: Any
     notice: Any
     plan: Any
-    power: Any
+    power: Power
     probe_label: Any
     prompt: Any
     ride: Any
     rubber: Any
     steps: Any
-    strip: Any
+    strip: Sequence[StripChart]
     suppose: Any
     turn: Any
     twist: Any
@@ -41,4 +44,4 @@ class Parts(TypedDict, total=False):
     views: Any
     wipe: Any
     wiped: Any
-    worth: Any
+    worth: Mapping[str, Worth]

@@ -1,8 +1,10 @@
 """Power, the charts below the scene, what a step of each slider changes, and the inset of the blade."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
+
+from rotor.chart import DrawnChart
 
 Kind = Literal["", "good", "bad"]
 """The colour of a change."""
@@ -108,7 +110,7 @@ class StripChart:
     kind: Kind
     pinned: bool
     faded: bool
-    chart: Any
+    chart: DrawnChart
     speeds: Speeds | None = None
 
 
@@ -179,5 +181,3 @@ class Hand:
     rival: float | None
     """Power of the optimiser's design."""
 
-
-Worths = Mapping[str, Worth]

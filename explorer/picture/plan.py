@@ -16,7 +16,7 @@ from explorer.picture.picture import disk_png
 from explorer.picture.polar import Drawn, PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
 from rotor import Solution
 from rotor.arrays import Array
-from rotor.chart import AZIMUTH, Axis, Chart, as_json
+from rotor.chart import AZIMUTH, Axis, Chart, drawn_chart
 
 _OUTLINED = 80, 240
 """Radii and azimuths between which an outline is looked for."""
@@ -167,7 +167,7 @@ def plan(
         "unit": field.unit,
         "regions": _regions(solution, view, pinned),
         "flight": UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
-        "around": as_json(around_chart(solution)),
+        "around": drawn_chart(around_chart(solution)),
         "mu": round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
     }
     if at_rest:

@@ -30,7 +30,7 @@ from explorer.scene.still_scene import embedded_viewer, point_record, shape_reco
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
-from rotor.chart import Axis, Band, Chart, Line, Series, as_json, bar_ticks
+from rotor.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
 from rotor.markup import end_of, with_title
 from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import check_writable, write_whole
@@ -74,7 +74,7 @@ def answer_record(step: LectureStep, facts: Facts, units: Units) -> dict[str, An
     return {
         "right": facts.right,
         "answer": step.text.answer.format_map(_words(facts, units)),
-        "chart": _chart_record(facts, units),
+        **_chart_record(facts, units),
     }
 
 
@@ -102,7 +102,7 @@ def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
     x_axis = Axis(x_title, (x[0], x[-1]), (x[0], x[-1]), words)
     colours = [_colour(dot) for dot in chart.dots or [line.colour for line in chart.lines]]
     return {
-        **as_json(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
+        "chart": drawn_chart(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
         "dots": [
             [
                 [round(wide * at, 4), round(y / size, 4), colour]

@@ -24,7 +24,7 @@ from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, as_json
+from rotor.chart import Axis, Chart, Line, drawn_chart
 from rotor.trim import DiskFields
 
 _OUTLINE = 61
@@ -388,7 +388,7 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> dict[str, Any]:
         ],
         "angles": _rounded(angles),
         "curves": [_rounded(curve, 3) for curve in curves],
-        "chart": as_json(chart),
+        "chart": drawn_chart(chart),
     }
 
 

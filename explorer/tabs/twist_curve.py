@@ -15,7 +15,7 @@ from explorer.model.units import SI
 from explorer.tabs.context import TabContext
 from rotor import Design, Solution
 from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Series, as_json
+from rotor.chart import Axis, Band, Chart, Series, drawn_chart
 from rotor.design import REFERENCE_RADIUS as DATUM
 
 FLOWN = LOOKS["flown"][0]
@@ -186,7 +186,7 @@ class TwistCurveEditor:
         ]
         # The blade in the hand is drawn from them.
         places = {"this": len(parts) - 1, "reference": 1 if flown is not None else 0}
-        self._context.bridge.set(twist={**as_json(chart), "knots": handles, "places": places})
+        self._context.bridge.set(twist={"chart": drawn_chart(chart), "knots": handles, "places": places})
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""

@@ -17,7 +17,7 @@ from explorer.parts.results import Kind, Speeds, StripChart
 from explorer.text.design_words import against
 from explorer.views.now import Memory, Now, Panel, Tell
 from rotor import Design, Solution
-from rotor.chart import Chart, as_json
+from rotor.chart import Chart, drawn_chart
 
 _NOTICEABLE = 500.0
 """Changes of power below this [W] have no colour."""
@@ -34,7 +34,7 @@ def strip(now: Now) -> dict[str, Any]:
     drawn = list[StripChart]()
 
     def add(name: str, chart: Chart, kind: Kind = "", speeds: Speeds | None = None) -> None:
-        drawn.append(StripChart(name, kind, pinned, bool(now.problem), as_json(chart), speeds))
+        drawn.append(StripChart(name, kind, pinned, bool(now.problem), drawn_chart(chart), speeds))
 
     if (measured := now.measured.chart(solution, held("measured"))) is not None:
         add("measured", measured)
@@ -53,10 +53,10 @@ def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart
     design, reference, failed = state.solution.design, state.reference, bool(now.problem)
     # A preview, such as the flight of a schedule, is elsewhere than the sliders.
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
+    held = now.memory.ranges.get(_axis(now, "power"))
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
     kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
     if design == reference.design:
-        name, held = "power", now.memory.ranges.get("power")
         marks = now.flown.marks(state.solution, units)
         total = None if failed else state.solution.power.total
         chart = total_power_chart(curve, mu, total, units, held, marks, design)
@@ -65,7 +65,7 @@ def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
         name = against(design, pinned).removeprefix(f"{design.aircraft.name} ")
-        chart = power_change_chart(curve, mu, change, name, units, now.memory.ranges.get("power-change"))
+        chart = power_change_chart(curve, mu, change, name, units, held)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)
@@ -73,10 +73,16 @@ def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart
     return "power", chart, kind, Speeds(mu, math.floor(200.0 * fastest) / 200.0) if told else None
 
 
-def remember_ranges(memory: Memory, shown: Mapping[str, Any]) -> Memory:
+def remember_ranges(now: Now, shown: Mapping[str, Any]) -> Memory:
     """The axes that the next charts hold."""
-    ranges = {f"{one.name}{_unit(one)}": tuple(one.chart["y"]["range"]) for one in shown.get("strip", ())}
-    return replace(memory, ranges={**memory.ranges, **ranges})
+    ranges = {_axis(now, one.name): one.chart.y.range for one in shown.get("strip", ())}
+    return replace(now.memory, ranges={**now.memory.ranges, **ranges})
+
+
+def _axis(now: Now, name: str) -> str:
+    """Power over µ has another axis where it is the change."""
+    changed = now.state is not None and now.state.solution.design != now.state.reference.design
+    return f"{name}-change" if name == "power" and changed else name
 
 
 @dataclass(frozen=True, eq=False)

@@ -102,9 +102,9 @@
       if (place.dataset.stamp === stamp && place.childElementCount) continue;
       place.dataset.stamp = stamp;
       const focus = document.activeElement?.dataset?.knot;
-      const width = place.offsetWidth, height = place.offsetHeight, frame = Charts.frame(now, width, height, {left: 34});
+      const width = place.offsetWidth, height = place.offsetHeight, frame = Charts.frame(now.chart, width, height, {left: 34});
       const knots = now.knots.map(k => `<circle cx="${frame.X(k.r).toFixed(1)}" cy="${frame.Y(k.theta).toFixed(1)}" r="5" tabindex="0" role="slider" data-knot="${k.name}" aria-label="${text(k.title)}" aria-valuenow="${k.theta}" aria-valuetext="${k.theta}° at ${k.r} R"><title>${text(k.title)}</title></circle>`).join('');
-      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${Charts.axes(now, frame)}${Charts.inside(now, frame)}${keyOf(now, frame)}${knots}</svg>`;
+      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${Charts.axes(now.chart, frame)}${Charts.inside(now.chart, frame)}${keyOf(now.chart, frame)}${knots}</svg>`;
       place.frame = frame;
       if (focus) place.querySelector(`[data-knot="${focus}"]`)?.focus();
     }

@@ -18,7 +18,7 @@
     }, true);
 
   // Twist less that at 0.75 R [°] of a line of the twist chart.
-  const line = role => RX.state.twist?.series[RX.state.twist.places[role]];
+  const line = role => RX.state.twist?.chart.series[RX.state.twist.places[role]];
   const twist = (curve, r) => {
     const {x, y} = curve, k = clamp(x.findIndex(one => one >= r), 1, x.length - 1);
     return lerp(y[k - 1], y[k], clamp((r - x[k - 1]) / (x[k] - x[k - 1]), 0, 1));

@@ -22,7 +22,7 @@ from rotor import Design
 from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict
 from rotor.actuator.verdict import reference
 from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
+from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
@@ -74,7 +74,7 @@ def flight_state(
         "flown": flown and not stopped,
         "frozen": frozen,
         "tip": f"{number(tip, 2, sign=True)}°",
-        "chart": as_json(flight_chart(flight, (len(legs) - 1) / HALVES, frozen)),
+        "chart": drawn_chart(flight_chart(flight, (len(legs) - 1) / HALVES, frozen)),
     }
     return state
 

@@ -31,7 +31,7 @@ from rotor.actuator import (
 )
 from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
-from rotor.chart import Axis, Chart, Line, Points, Rule, as_json, round_ticks, tick_text
+from rotor.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.design import Harmonic, TwistLaw
 from rotor.markup import tag
 from rotor.optimisation.vibration import TMatrix, front_twists, with_harmonics
@@ -259,7 +259,7 @@ class TwistDial:
                 "held": self._context.held,
             },
             dial_matrix=None if found is None else found.numbers,
-            dial_front=as_json(front_chart(self._dots)),
+            dial_front=drawn_chart(front_chart(self._dots)),
         )
 
     def stop(self) -> None:

@@ -18,7 +18,7 @@ from explorer.tabs.context import TabContext
 from explorer.text.readout import fuel_words, needs, needs_words
 from explorer.workers.call import Call
 from rotor.actuator import BreakEven, ConditionPair, Supposed, Verdict, break_even, pay_sentence, suppose
-from rotor.chart import Axis, Band, Chart, Line, Points, Series, as_json
+from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 from rotor.trim.doubt import sureness
 
 _URGENCY = 4
@@ -111,7 +111,7 @@ class WhatWouldPay:
         if isinstance(found, str):
             note = found
         return {
-            "chart": as_json(mass_chart(even, verdicts, units)),
+            "chart": drawn_chart(mass_chart(even, verdicts, units)),
             "at": [degrees, mass],
             "words": words + more,
             "note": note,
