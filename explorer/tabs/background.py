@@ -7,7 +7,7 @@ the numbers of the lecture are asked for as the design changes.
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any
 
@@ -114,10 +114,10 @@ _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
 
 
-def all_known() -> dict[Call, Any]:
+def all_known() -> dict[Hashable, Any]:
     """Every answer there is, of all pages."""
     with _lock:
-        return dict(_known)
+        return {**_known}
 
 
 class PoolAnswers(BackgroundWork):
@@ -153,10 +153,10 @@ class PoolAnswers(BackgroundWork):
             return None if task is None else _known.get(task, self._failures.get(task))
 
     @property
-    def failures(self) -> dict[Call, str]:
+    def failures(self) -> dict[Hashable, str]:
         """Why there is no answer, by what is asked now."""
         with self._lock:
-            return dict(self._failures)
+            return {**self._failures}
 
     def stop(self) -> None:
         """The browser has left."""

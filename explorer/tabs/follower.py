@@ -1,4 +1,4 @@
-"""Brings panels to the page: asks their questions, views what is seen, sends what changed, and does what a press says."""
+"""Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import partial
@@ -41,11 +41,8 @@ class Follower:
 
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not."""
-        found: dict[Hashable, Any] = {}
-        for queue in (queue for queues in self._queues for queue in list(queues.values())):
-            found.update(queue.failures)
-        found.update(all_known())
-        return found
+        queues = [queue for each in self._queues for queue in list(each.values())]
+        return {call: why for queue in queues for call, why in queue.failures.items()} | all_known()
 
     def follow(self, now: Now) -> None:
         """Ask and view what is seen, and send what is other than before."""
