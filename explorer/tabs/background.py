@@ -7,7 +7,7 @@ the numbers of the lecture are asked for as the design changes.
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any
 
@@ -114,6 +114,12 @@ _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
 
 
+def all_known() -> dict[Hashable, Any]:
+    """Every answer there is, of all pages."""
+    with _lock:
+        return {**_known}
+
+
 class PoolAnswers(BackgroundWork):
     """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
 
@@ -145,6 +151,12 @@ class PoolAnswers(BackgroundWork):
         """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
         with _lock:
             return None if task is None else _known.get(task, self._failures.get(task))
+
+    @property
+    def failures(self) -> dict[Hashable, str]:
+        """Why there is no answer, by what is asked now."""
+        with self._lock:
+            return {**self._failures}
 
     def stop(self) -> None:
         """The browser has left."""

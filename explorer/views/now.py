@@ -34,6 +34,18 @@ class Hand:
     """What the hand has set beside the inputs of the design."""
 
     actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
+    lifted: bool = False
+    """Whether the blade with its actuator is out of the rotor."""
+    flown: float | None = None
+    """Where on the flight bar the voltages follow the flight; None where a hand set them."""
+    stopped: bool = False
+    """Whether the actuator has stopped: voltages stay as they are, wherever it flies."""
+    pulled: tuple[tuple[float, ...], float] = (), 0.0
+    """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
+    on_stage: bool = False
+    """Whether the stage shows what would pay in place of the balance of power."""
+    place: tuple[float, float] | None = None
+    """Range of twist [°] and mass of all blades [kg] of the supposed actuator; None until it is dragged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,12 +182,27 @@ class Grab:
 
 @dataclass(frozen=True)
 class SetHand:
-    """What the hand has set beside the inputs."""
+    """Of what the hand has set beside the inputs, these fields of `Hand`; others may move meanwhile."""
 
-    hand: Hand
+    changes: Mapping[str, Any]
 
 
-Effect = Drag | Put | Grab | SetHand
+@dataclass(frozen=True)
+class SetActuator:
+    """Move widgets of the actuator: these fields of `ActuatorInputs`."""
+
+    changes: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class SetAddress:
+    """Write a value into the address of the page; None removes it."""
+
+    name: str
+    value: str | None
+
+
+Effect = Drag | Put | Grab | SetHand | SetActuator | SetAddress
 Press = Callable[[Now, Any], tuple[Effect, ...]]
 """What a press does, from what is known now and the value that came with it."""
 
@@ -193,4 +220,4 @@ class Panel:
     turns: bool = False
     """Whether it follows the azimuth of the reference blade."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
-    """By name in `messages.PRESSES`. While a presenter holds the page they do nothing."""
+    """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""

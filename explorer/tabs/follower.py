@@ -1,0 +1,80 @@
+"""Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from explorer.hosting.browser import Bridge
+from explorer.tabs.background import PoolAnswers, all_known
+from explorer.views.now import Asked, Effect, Grab, Now, Panel, Press
+from rotor.processes import Processes
+
+_NOTHING = object()
+
+
+class Follower:
+    """One page's. `follow` is called on the session's thread, presses run on that of the bridge."""
+
+    def __init__(
+        self,
+        panels: Sequence[Panel],
+        bridge: Bridge,
+        texts: Mapping[str, Callable[[Any], None]],
+        pool: Processes,
+        wake: Callable[[], None],
+        now: Callable[[], Now],
+        perform: Callable[[Effect], None],
+    ) -> None:
+        """`texts`: what shows a value that is no part of the frame, by its name. `now`: what is known at a press.
+
+        `wake`: called when an answer has come; `perform`: does one effect of a press.
+        """
+        self._panels, self._bridge, self._texts = tuple(panels), bridge, texts
+        self._pool, self._wake, self._now, self._perform = pool, wake, now, perform
+        self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
+        """Of each panel, by urgency."""
+        self._sent: dict[str, Any] = {}
+        self._place: tuple[Hashable, ...] = ()
+        for panel in self._panels:
+            for name, press in panel.presses.items():
+                bridge.on(name, partial(self._press, press))
+
+    def answers(self) -> dict[Hashable, Any]:
+        """What worker processes have answered by now, and why not what they could not."""
+        queues = [queue for each in self._queues for queue in list(each.values())]
+        return {call: why for queue in queues for call, why in queue.failures.items()} | all_known()
+
+    def follow(self, now: Now) -> None:
+        """Ask and view what is seen, and send what is other than before."""
+        moved, self._place = (now.inputs, now.hand) != self._place, (now.inputs, now.hand)
+        changed: dict[str, Any] = {}
+        for panel, queues in zip(self._panels, self._queues, strict=True):
+            seen = panel.seen(now.ui)
+            self._ask(queues, panel.asks(now) if seen else (), moved)
+            shown = panel.view(now) if seen else {}
+            changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}
+        self._sent |= changed
+        for name in changed.keys() & self._texts.keys():
+            self._texts[name](changed.pop(name))
+        if changed:
+            self._bridge.set(**changed)
+
+    def stop(self) -> None:
+        """The browser has left."""
+        for queues in self._queues:
+            for queue in queues.values():
+                queue.stop()
+
+    def _ask(self, queues: dict[int, PoolAnswers], asks: Sequence[Asked], moved: bool) -> None:
+        by_urgency = {one.urgency: one for one in asks}
+        for urgency in by_urgency.keys() - queues.keys():
+            queues[urgency] = PoolAnswers(self._pool, urgency, self._wake)
+        for urgency, queue in queues.items():
+            one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
+            queue.ask(one.calls, one.delay, moved)
+
+    def _press(self, press: Press, value: Any) -> None:
+        now = self._now()
+        for effect in press(now, value):
+            if not now.ui.held or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.
+                self._perform(effect)
