@@ -4,7 +4,6 @@ import msgspec
 import viser
 
 from explorer.charts.plots import Range
-
 from rotor.chart import Chart, drawn_chart
 from rotor.markup import Markup, tag
 

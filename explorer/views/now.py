@@ -139,7 +139,7 @@ class Asked:
 
 
 Tell = Callable[[], None]
-"""Says that there is more to show before work is done."""
+"""Says, before work is done, that there is more to show."""
 
 
 class Work(Protocol):
@@ -219,5 +219,7 @@ class Panel:
     works: Callable[[Now], Sequence[Work]] = lambda now: ()
     turns: bool = False
     """Whether it follows the azimuth of the reference blade."""
+    remember: Callable[[Now, Mapping[str, Any]], Memory] = lambda now, shown: now.memory
+    """What is remembered of what it showed."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
     """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""
