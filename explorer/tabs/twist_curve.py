@@ -90,8 +90,8 @@ class TwistCurveEditor:
         )
 
     def learn(self, inputs: Inputs, power: float, by_input: Mapping[str, float]) -> None:
-        """Power [W] of these inputs, which tells where the station is best; and its change with a unit of each, which is
-        empty until the page rests."""
+        """Take the power [W] of these inputs, and its change with a unit of each, which is empty until the page rests:
+        they tell where the station is best."""
         if self._grab is None:
             return
         turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
