@@ -17,6 +17,7 @@ from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
+from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import ghost_of
@@ -323,7 +324,7 @@ class Page:
         """What to do first, until something was done."""
         wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
         tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        words = {"text": "Pull the blade tip up or down", "node": "/rotor/blade_0", "at": tip} if wanted else None
+        words = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
         self.context.bridge.set(prompt=words)
 
     def _hold(self, held: bool) -> None:

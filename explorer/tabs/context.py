@@ -76,7 +76,7 @@ class TabContext:
         self.client, self.gui, self.pool = client, client.gui, pool
         self.analyses = Analyses()
         self.bridge = Bridge(client)
-        self.keyboard = Keyboard(client)
+        self.keyboard = Keyboard(client, self.bridge)
         self.pinboard = Pinboard()
         self.tracker = PowerTracker()
         self.wake, self.state = callbacks.wake, callbacks.state
