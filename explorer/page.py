@@ -18,6 +18,7 @@ from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
+from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import ghost_of
@@ -81,7 +82,8 @@ class Page:
         self._pause, self._touched = 0.0, False
         self._theme()
         client.gui.set_panel_label("Rotor explorer")
-        bridge, tracker, keyboard = Bridge(client), PowerTracker(), Keyboard(client)
+        bridge, tracker = Bridge(client), PowerTracker()
+        keyboard = Keyboard(client, bridge)
         banner = client.gui.add_folder(None)
         layout = self.layout = Layout(client.gui, bridge)
         layout.watchers.append(callbacks.wake)
@@ -378,7 +380,7 @@ class Page:
         """What to do first, until something was done."""
         wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
         tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        words = {"text": "Pull the blade tip up or down", "node": "/rotor/blade_0", "at": tip} if wanted else None
+        words = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
         self.context.bridge.set(prompt=words)
 
     def _hold(self, held: bool) -> None:

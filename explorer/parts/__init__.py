@@ -7,41 +7,52 @@ This package imports only words and numbers of `rotor`.
 from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
 
-from explorer.parts.results import Hand, Inset, Power, StripChart, Worth
+from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
+from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
+from explorer.parts.stage import (
+    FieldPart,
+    PlanPart,
+    RidePart,
+    RubberPart,
+    SceneLabel,
+    TurnPart,
+    TwistPart,
+    VibrationPart,
+)
 
 
 class Parts(TypedDict, total=False):
     """Every part by its name, and what it is."""
 
-    bar: Any
-    big: Any
-    coarse: Any
+    bar: BarPart
+    big: bool
+    coarse: int
     dial: Any
     dial_front: Any
     dial_matrix: Any
     earns: Any
-    field: Any
+    field: FieldPart
     flight: Any
-    hand: Hand | None
-    hub_labels: Any
-    idle: Any
-    inset: Inset
-    lecture: Any
+    hand: HandPart | None
+    hub_labels: Sequence[SceneLabel]
+    idle: int
+    inset: InsetPart
+    lecture: LecturePart | None
     lifted_labels: Any
-    notice: Any
-    plan: Any
-    power: Power
-    probe_label: Any
-    prompt: Any
-    ride: Any
-    rubber: Any
-    steps: Any
+    notice: NoticePart | None
+    plan: PlanPart | None
+    power: PowerPart
+    probe_label: Sequence[SceneLabel]
+    prompt: SceneLabel | None
+    ride: RidePart | None
+    rubber: RubberPart | None
+    steps: Sequence[StepPart]
     strip: Sequence[StripChart]
     suppose: Any
-    turn: Any
-    twist: Any
-    vibration: Any
-    views: Any
-    wipe: Any
-    wiped: Any
+    turn: TurnPart
+    twist: TwistPart
+    vibration: VibrationPart | None
+    views: ViewsPart
+    wipe: bool
+    wiped: float
     worth: Mapping[str, Worth]

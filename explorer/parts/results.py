@@ -57,7 +57,7 @@ class Sureness:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Power(Sureness):
+class PowerPart(Sureness):
     """The power card."""
 
     status: Status
@@ -144,7 +144,7 @@ class InsetBlade:
 
 
 @dataclass(frozen=True)
-class Inset(InsetBlade):
+class InsetPart(InsetBlade):
     """The inset with the names of its two blades."""
 
     name: str
@@ -166,7 +166,7 @@ class Best:
 
 
 @dataclass(frozen=True)
-class Hand:
+class HandPart:
     """Power beside the blade, while a station of it is held."""
 
     power: str

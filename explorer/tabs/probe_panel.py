@@ -13,6 +13,7 @@ from explorer import colours
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
+from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist, rotate
@@ -69,7 +70,7 @@ class Cursor:
             at += 0.0 if bent is None else bent[0]
         words = f"α {number(math.degrees(probe.alpha), 1)}°"
         above = (at + np.array([0.0, 0.0, _LABEL_ABOVE])).round(3).tolist()
-        self._bridge.set(probe_label=[{"text": words, "node": node, "at": above}])
+        self._bridge.set(probe_label=[SceneLabel(words, node, above)])
         wanted = None if pitch is None else (rotor, probe.r, pitch, at.tolist())
         if wanted == self._drawn:
             return

@@ -13,6 +13,7 @@ from explorer.model.session_state import SessionState
 from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
 from explorer.model.units import SI
 from explorer.parts.results import Best
+from explorer.parts.stage import Knot, RoleLines, RubberPart, TwistPart
 from explorer.tabs.context import TabContext
 from explorer.views.now import HeldStation
 from rotor import Design, Solution
@@ -76,17 +77,17 @@ class TwistCurveEditor:
         places = stations(grab.inputs)
         before, response = self._response(grab)
         ends = sorted(
-            [before + response * turn, slider(name, SI).label] for turn, name in turn_ends(grab.inputs, grab.station)
+            (before + response * turn, slider(name, SI).label) for turn, name in turn_ends(grab.inputs, grab.station)
         )
         self._context.bridge.set(
-            rubber={
-                "press": self._presses,
-                "knot": str(grab.station.index),
-                "by": by,
-                "stations": [place.r for place in places],
-                "titles": [place.title for place in places],
-                "ends": ends,
-            }
+            rubber=RubberPart(
+                press=self._presses,
+                knot=str(grab.station.index),
+                by=by,
+                stations=[place.r for place in places],
+                titles=[place.title for place in places],
+                ends=ends,
+            )
         )
 
     def learn(self, inputs: Inputs, power: float, by_input: Mapping[str, float]) -> None:
@@ -183,13 +184,9 @@ class TwistCurveEditor:
         chart = Chart("Twist", Axis("r/R", (0.1, 1.03)), Axis(range=axis, unit="°"), tuple(parts))
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
-        handles = [
-            {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
-            for k in movable
-        ]
-        # The blade in the hand is drawn from them.
-        places = {"this": len(parts) - 1, "reference": 1 if flown is not None else 0}
-        self._context.bridge.set(twist={"chart": drawn_chart(chart), "knots": handles, "places": places})
+        handles = [Knot(str(k.index), k.title, k.r, round(float(twist(np.array([k.r]))[0]), 2)) for k in movable]
+        places = RoleLines(this=len(parts) - 1, reference=1 if flown is not None else 0)
+        self._context.bridge.set(twist=TwistPart(drawn_chart(chart), handles, places))
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""

@@ -6,12 +6,12 @@ wakes and curves over speed are computed while the page rests.
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from explorer.charts.strip import Role
 from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
+from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
@@ -131,16 +131,15 @@ class VibrationPanel:
 
     def _say_how_bent(self) -> None:
         """The words in the scene: bending is drawn larger."""
-        state, labels = self._state, list[dict[str, Any]]()
+        state, labels = self._state, list[SceneLabel]()
         if state is not None and deflections(state.solution) is not None:
             rotor = state.solution.design.rotor
             tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
             title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
-            words = {"text": f"bending × {BENDING_SHOWN:g}", "title": title}
-            labels.append({**words, "node": f"{ROTOR}/blade_0", "at": tip})
+            labels.append(SceneLabel(f"bending × {BENDING_SHOWN:g}", f"{ROTOR}/blade_0", tip, title))
         self._context.bridge.set(hub_labels=labels)
 
-    def _card(self, state: SessionState) -> dict[str, Any] | None:
+    def _card(self, state: SessionState) -> VibrationPart | None:
         """The row of the power card; None without bending."""
         design = state.solution.design
         if not design.models.bending:
@@ -148,21 +147,20 @@ class VibrationPanel:
         reason, loads = why_no_hub_loads(design), self._loads.get(state.solution)
         if reason is not None or loads is None:
             sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
-            return {"index": "", "sentence": sentence, "change": "", "title": sentence}
+            return VibrationPart(sentence, sentence=sentence)
         band = "band over inflow models: computing"
         if loads.band is not None:
             band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over inflow models"
         change, kind = self._change(state, loads)
-        return {
-            "index": number(loads.index, 1),
-            "unit": index_unit(design),
-            "at": f"at {loads.per_rev}/rev",
-            "sentence": "",
-            "band": band,
-            "change": change,
-            "kind": kind,
-            "title": _title(loads),
-        }
+        return VibrationPart(
+            _title(loads),
+            index=number(loads.index, 1),
+            unit=index_unit(design),
+            at=f"at {loads.per_rev}/rev",
+            band=band,
+            change=change,
+            kind=kind,
+        )
 
     def _change(self, state: SessionState, loads: HubLoads) -> tuple[str, str]:
         """Against A, or the blade as built; and its class."""

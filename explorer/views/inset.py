@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from explorer.parts.results import Inset
+from explorer.parts.results import InsetPart
 from explorer.picture.blade_mesh import inset
 from explorer.picture.picture import flown_twist, follows_azimuth, ghost_twist
 from explorer.text.design_words import against
@@ -31,7 +31,7 @@ def blade_inset(now: Now) -> dict[str, Any]:
         jig = "jig", "The blade as built, without the loads of flight."
         names = "flown", hint, *((compared, _GHOST_HINT) if changed else jig)
     shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
-    return {"inset": Inset(**vars(shown), **dict(zip(_NAMES, names, strict=True)))}
+    return {"inset": InsetPart(**vars(shown), **dict(zip(_NAMES, names, strict=True)))}
 
 
 _NAMES = "name", "name_hint", "ghost_name", "ghost_hint"

@@ -7,7 +7,7 @@ from typing import Any
 from explorer.charts.doubt import card_words
 from explorer.model.session_state import SessionState
 from explorer.model.units import BLANK, UNITS, Units, number
-from explorer.parts.results import Hand, Kind, Power, Share, Since, Status, Sureness
+from explorer.parts.results import HandPart, Kind, PowerPart, Share, Since, Status, Sureness
 from explorer.text.design_words import against
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
@@ -30,7 +30,7 @@ def power_card(now: Now) -> dict[str, Any]:
     """The numbers of the last trim; without one now they stay, greyed, beside the sentence that says why."""
     state = now.state
     if state is None:
-        card = Power(status=Status("problem", "no trim", now.problem))
+        card = PowerPart(status=Status("problem", "no trim", now.problem))
     else:
         card = replace(_numbers(state, now.units), **_change(now, state), **vars(sureness(now)))
     if now.problem:
@@ -67,7 +67,7 @@ def _change(now: Now, state: SessionState) -> dict[str, Any]:
     return {"since": since, "why": why(before, solution, units)}
 
 
-def _numbers(state: SessionState, units: Units) -> Power:
+def _numbers(state: SessionState, units: Units) -> PowerPart:
     """Power and its parts, beside those of the reference."""
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
@@ -87,7 +87,7 @@ def _numbers(state: SessionState, units: Units) -> Power:
         share = round(value / whole, 5) if whole > 0.0 else 0.0
         parts.append(Share(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
     ideal = ideal_induced(solution)
-    return Power(
+    return PowerPart(
         status=_status(state),
         total=number(unit.of(power.total), digits),
         unit=unit.symbol,
@@ -140,7 +140,7 @@ def hand(now: Now) -> dict[str, Any]:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
     digits = fineness(power)
-    shown = Hand(
+    shown = HandPart(
         power=now.units.watts(power.total, digits),
         change=unit.text(change, digits, sign=True),
         kind=_kind(change, power.total),

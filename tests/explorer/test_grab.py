@@ -231,8 +231,8 @@ class TestTwistCurve:
     def test_a_pressed_blade_is_shown_from_the_tip_and_its_station_held_at_the_best_angle(self):
         editor, bridge, now, took = editor_of(TWO)
         editor.grab(0.9)
-        assert bridge.state["rubber"]["knot"] == "2"
-        assert bridge.state["rubber"]["stations"] == pytest.approx([ROOT, 0.5, 1.0])
+        assert bridge.state["rubber"].knot == "2"
+        assert bridge.state["rubber"].stations == pytest.approx([ROOT, 0.5, 1.0])
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         for turn, power, slope in ((0.0, 1225.0, -300.0), (0.5, 1100.0, -200.0)):
             editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
@@ -255,7 +255,7 @@ class TestTwistCurve:
         editor.grab(1.0)
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         wanted = [(start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")]
-        for (theta, title), (expected, name) in zip(bridge.state["rubber"]["ends"], wanted, strict=True):
+        for (theta, title), (expected, name) in zip(bridge.state["rubber"].ends, wanted, strict=True):
             assert (theta, title) == (pytest.approx(expected, abs=0.02), name)
         bridge.actions["knot"](["2", [None, 60.0]])
         assert now[0].two_outer == limits("two_outer")[1]

@@ -12,6 +12,7 @@ import viser
 from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
 from explorer.model.session_state import SessionState, same_but_flight
 from explorer.model.units import UNITS
+from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, facts_at
@@ -302,17 +303,17 @@ class LecturePanel(Tab):
         figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],
-            lecture={
-                "at": place.step,
-                "guess": place.guess,
-                "answer": answer_record(step, facts, units) if guessed and facts is not None else None,
-                "stop": place.stop,
-                "figures": figures,
-                "busy": state is None,
-                "problem": answer if isinstance(answer, str) else "",
-                "held": self._context.held,
-                "finish": "Fly it",
-            },
+            lecture=LecturePart(
+                at=place.step,
+                guess=place.guess,
+                answer=answer_record(step, facts, units) if guessed and facts is not None else None,
+                stop=place.stop,
+                figures=figures,
+                busy=state is None,
+                problem=answer if isinstance(answer, str) else "",
+                held=self._context.held,
+                finish="Fly it",
+            ),
         )
 
     def _fly(self, advance_ratio: float) -> None:

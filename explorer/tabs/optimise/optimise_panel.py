@@ -4,12 +4,12 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS
+from explorer.parts.frame import NoticePart
 from explorer.sharing.share import Address, code_of, design_from
 from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
 from explorer.tabs.context import TabContext
@@ -208,7 +208,7 @@ class OptimisePanel(BackgroundWork):
         self._best.stop()
         super().stop()
 
-    def notice(self, design: Design | None) -> dict[str, object] | None:
+    def notice(self, design: Design | None) -> NoticePart | None:
         """The bar over the scene while it shows a search instead of the sliders."""
         run = self.run
         if run is None or not self._offered or design is None or not run.matches(design):
@@ -216,11 +216,11 @@ class OptimisePanel(BackgroundWork):
         best, units = run.best, self._context.units
         if run.under_way:
             words = " …" if best is None else f": {units.watts(best.power)}"
-            return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
+            return NoticePart(f"Searching{words}", [("halt", "Stop")])
         if len(run.frames) < 2:
             return None
         beat = [("beat", "Beat it by hand")] if self._beatable(run) else []
-        return {"text": "Previewing optimum", "actions": [("apply", "Apply"), *beat, ("discard", "Discard")]}
+        return NoticePart("Previewing optimum", [("apply", "Apply"), *beat, ("discard", "Discard")])
 
     @staticmethod
     def _beatable(run: SearchRun) -> bool:
@@ -290,14 +290,14 @@ class Rival:
         """The optimiser's trim in the present flight; None without one."""
         return None if self._now is None else self._now[1]
 
-    def notice(self) -> dict[str, Any] | None:
+    def notice(self) -> NoticePart | None:
         """The bar over the scene."""
         if self._now is None:
             return None
         state, other = self._now
         own, best = self._context.analyses.of(state.solution), self._context.analyses.of(other)
         words = text.comparison(own, best, UNITS[state.view.units])
-        return {"text": words, "actions": [("rival_take", "Take its twist"), ("rival_end", "End")]}
+        return NoticePart(words, [("rival_take", "Take its twist"), ("rival_end", "End")])
 
     def _take(self) -> None:
         if self._design is not None and not self._context.held:
