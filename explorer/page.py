@@ -47,6 +47,7 @@ from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.inset import INSET
+from explorer.views.notice import NOTICE
 from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
@@ -56,7 +57,7 @@ from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-PANELS = (POWER, HAND, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL)
+PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
@@ -228,6 +229,7 @@ class Page:
             station=self._curve.held,
             change=self.context.tracker.change,
             rival=self.rival.solution,
+            searching=self.optimise.notice(self._now.sliders),
             index=self.vibration.chart,
             memory=self.follower.memory,
             answers=self.follower.answers(),
@@ -373,8 +375,6 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-        notice = self.optimise.notice(reading.sliders) or self.rival.notice()
-        context.bridge.set(notice=notice)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""

@@ -10,6 +10,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import Analyses, SessionState
 from explorer.model.units import SI, UNITS, Units
+from explorer.parts.frame import NoticePart
 from explorer.parts.results import Best
 from explorer.workers.call import Call
 from rotor import Design, Solution
@@ -105,6 +106,8 @@ class Now:
     """Power less that before the grab [W]; None while nothing was moved."""
     rival: Solution | None = None
     """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    searching: NoticePart | None = None
+    """What is said while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None
     """Power over µ; None before the first."""
     index: Chart | None = None
@@ -145,9 +148,13 @@ Tell = Callable[[], None]
 class Work(Protocol):
     """What a panel wants computed by the page's own thread, once the page rests."""
 
-    name: str
-    soon: bool
-    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def soon(self) -> bool:
+        """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+        ...
 
     @property
     def key(self) -> Hashable:
