@@ -24,14 +24,14 @@ from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.per_rev import TwistDial
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
+from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Layout, Sections
+from explorer.tabs.layout import Layout, Sections, by_hand
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
@@ -43,6 +43,11 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.tabs.waterfall import WaterfallPanel
+from explorer.views.actuator import ACTUATOR
+from explorer.views.dial import DIAL
+from explorer.views.flight import FLIGHT, stop_here
+from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
+from explorer.views.pay import PAY
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
@@ -70,6 +75,7 @@ class Page:
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
+        self._sliders: Design | None = None
         self._theme()
         client.gui.set_panel_label("Rotor explorer")
         context = self.context = TabContext(client, shared.pool, callbacks)
@@ -97,7 +103,16 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
-            self.dial = TwistDial(context, self._grabbed, self.actuator.top)
+            self.follower = Follower(
+                (ACTUATOR, FLIGHT, PAY, DIAL),
+                bridge,
+                self.actuator.texts,
+                shared.pool,
+                callbacks.wake,
+                self._now,
+                self._perform,
+            )
+            by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
         self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         with layout.in_drawer("details"):
@@ -133,7 +148,7 @@ class Page:
         bridge.on("aim", lambda _: self.camera.come_back())
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.pay.on_stage:
+        if self.actuator.hand().on_stage:
             layout.show_mode("actuate")
         self.file.begin(problems)
         self.top.refresh()
@@ -155,7 +170,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.results, self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
+        for part in (self.results, self.optimise, self.map, self.schedule, self.actuator, self.follower, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -166,7 +181,7 @@ class Page:
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
-        self._actuator_inputs = self.actuator.inputs()
+        self._actuator_inputs, self._sliders = self.actuator.inputs(), design
         return self._actuator_inputs.apply(design)
 
     def preview(self, design: Design) -> Design | None:
@@ -202,8 +217,9 @@ class Page:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
-        if self._actuator_in_frame and (not only_azimuth or solution.design.active_twist is not None):
-            self._show_actuator(reading, solution)
+        if not only_azimuth or solution.design.active_twist is not None:
+            design = reading.sliders or solution.design
+            self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
 
     def show_power_number(self, state: SessionState) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
@@ -221,7 +237,7 @@ class Page:
         self._refresh(reading)
         self.results.show(state, self._pause)
         self.vibration.show(state)
-        self.dial.show(state, self.actuator.fitted)
+        self._follow_panels(reading, state)
         self._curve.show(state)
         self._show_hand(state)
         self.display.show(state)
@@ -231,12 +247,7 @@ class Page:
         self.results.strip.show_power(state, curve, failed)
 
     def follow(self, reading: Reading, state: SessionState) -> None:
-        """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
-        if not self._actuator_in_frame:
-            if self.layout.mode == "actuate":
-                self._show_actuator(reading, state.solution)
-            else:
-                self.actuator.rest()
+        """Update all other tabs."""
         for tab in self.tabs:
             tab.show(state)
 
@@ -268,7 +279,7 @@ class Page:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
         self._refresh(reading)
-        self.actuator.show_problem(failure.message)
+        self._follow_panels(reading, self.context.state(), failure.message)
         self.results.problem(failure.message)
         self.vibration.problem()
         for tab in self.tabs:
@@ -293,20 +304,35 @@ class Page:
         """An update failed with an exception."""
         self.results.problem(brief(sentence))
 
-    @property
-    def _actuator_in_frame(self) -> bool:
-        return self.actuator.lifted or self._actuator_inputs.driven
+    def _follow_panels(self, reading: Reading, state: SessionState | None, problem: str = "") -> None:
+        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
+        now = replace(self._now(), inputs=reading.inputs, state=state, problem=problem, hand=hand)
+        self.follower.follow(now)
 
-    def _show_actuator(self, reading: Reading, solution: Solution) -> None:
-        design, azimuth = reading.sliders or solution.design, math.radians(reading.view.azimuth_deg)
-        self.actuator.show(self._actuator_inputs, design, solution, azimuth)
+    def _now(self) -> Now:
+        """What is known at this moment; the design is that of the last update."""
+        context = self.context
+        ui = Ui(self.layout.mode, self.layout.drawer, context.held)
+        memory, answers = self.follower.memory, self.follower.answers()
+        inputs, state, hand = context.inputs(), context.state(), self.actuator.hand()
+        return Now(inputs, self._sliders, state, ui=ui, hand=hand, memory=memory, answers=answers)
+
+    def _perform(self, effect: Effect) -> None:
+        match effect:
+            case Drag(inputs):
+                self.context.drag_to(inputs)
+            case Put(inputs):
+                self.context.set_inputs(inputs)
+            case Grab(held):
+                self._grabbed(held)
+            case _:
+                self.actuator.perform(effect)
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
         inputs, context = reading.inputs, self.context
         self.controls.follow(_on_sliders(reading))
         self.controls.refresh(inputs, context.units)
-        self.dial.refresh(inputs)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
@@ -375,7 +401,7 @@ class Page:
         if self.layout.mode == "explore":
             self.controls.default(label, self._opening)
         else:
-            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
+            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""

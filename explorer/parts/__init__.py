@@ -7,7 +7,9 @@ This package imports only words and numbers of `rotor`.
 from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
 
+from explorer.parts.actuate import Dial, DialMatrix, Earns, Flight, LiftedLabel, Suppose
 from explorer.parts.results import Hand, Inset, Power, StripChart, Worth
+from rotor.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
@@ -16,18 +18,18 @@ class Parts(TypedDict, total=False):
     bar: Any
     big: Any
     coarse: Any
-    dial: Any
-    dial_front: Any
-    dial_matrix: Any
-    earns: Any
+    dial: Dial
+    dial_front: DrawnChart
+    dial_matrix: DialMatrix | None
+    earns: Earns | None
     field: Any
-    flight: Any
+    flight: Flight | None
     hand: Hand | None
     hub_labels: Any
     idle: Any
     inset: Inset
     lecture: Any
-    lifted_labels: Any
+    lifted_labels: Sequence[LiftedLabel]
     notice: Any
     plan: Any
     power: Power
@@ -37,7 +39,7 @@ class Parts(TypedDict, total=False):
     rubber: Any
     steps: Any
     strip: Sequence[StripChart]
-    suppose: Any
+    suppose: Suppose | None
     turn: Any
     twist: Any
     vibration: Any

@@ -180,4 +180,3 @@ class Hand:
     best: Best | None
     rival: float | None
     """Power of the optimiser's design."""
-

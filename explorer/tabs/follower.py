@@ -1,12 +1,13 @@
 """Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from explorer.hosting.browser import Bridge
 from explorer.tabs.background import PoolAnswers, all_known
-from explorer.views.now import Asked, Effect, Grab, Now, Panel, Press
+from explorer.views.now import Asked, Effect, Grab, Memory, Now, Panel, Press
 from rotor.processes import Processes
 
 _NOTHING = object()
@@ -33,11 +34,12 @@ class Follower:
         self._pool, self._wake, self._now, self._perform = pool, wake, now, perform
         self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
         """Of each panel, by urgency."""
+        self.memory = Memory()
         self._sent: dict[str, Any] = {}
         self._place: tuple[Hashable, ...] = ()
         for panel in self._panels:
             for name, press in panel.presses.items():
-                bridge.on(name, partial(self._press, press))
+                bridge.on(name, partial(self.press, press))
 
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not."""
@@ -48,16 +50,21 @@ class Follower:
         """Ask and view what is seen, and send what is other than before."""
         moved, self._place = (now.inputs, now.hand) != self._place, (now.inputs, now.hand)
         changed: dict[str, Any] = {}
+        effects: tuple[Effect, ...] = ()
         for panel, queues in zip(self._panels, self._queues, strict=True):
             seen = panel.seen(now.ui)
             self._ask(queues, panel.asks(now) if seen else (), moved)
             shown = panel.view(now) if seen else {}
+            effects += panel.reacts(now) if seen else ()
+            self.memory = panel.remember(replace(now, memory=self.memory), shown)
             changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}
         self._sent |= changed
         for name in changed.keys() & self._texts.keys():
             self._texts[name](changed.pop(name))
         if changed:
             self._bridge.set(**changed)
+        for effect in effects:
+            self._perform(effect)
 
     def stop(self) -> None:
         """The browser has left."""
@@ -73,7 +80,8 @@ class Follower:
             one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
             queue.ask(one.calls, one.delay, moved)
 
-    def _press(self, press: Press, value: Any) -> None:
+    def press(self, press: Press, value: Any) -> None:
+        """Do what it says; of a widget too."""
         now = self._now()
         for effect in press(now, value):
             if not now.ui.held or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.

@@ -13,7 +13,7 @@ from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.now import Now, Panel
-from explorer.views.work import Doubted, doubted
+from explorer.views.work import doubted
 from rotor import Solution
 
 _NOTICEABLE = 0.05
@@ -34,7 +34,9 @@ def power_card(now: Now) -> dict[str, Any]:
     else:
         card = replace(_numbers(state, now.units), **_change(now, state), **vars(sureness(now)))
     if now.problem:
-        sentence = re.sub(r" The nearest trim found is at .*?\.(?= |$)", "", now.problem)  # The button may find another.
+        sentence = re.sub(
+            r" The nearest trim found is at .*?\.(?= |$)", "", now.problem
+        )  # The button may find another.
         problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
         card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
     return {"power": card}

@@ -1,13 +1,12 @@
 """What the panels of power want computed once the page rests."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any
 
 from explorer.model.session_state import Analyses
 from explorer.model.sliders import SliderSensitivity, flight_sensitivities
-from explorer.views.now import Now, Tell, Work
+from explorer.views.now import Now, Tell
 from rotor import Design, Solution, doubt
 from rotor.trim import PitchGradient
 from rotor.trim.doubt import Doubt
