@@ -12,11 +12,12 @@ from functools import partial
 import viser
 
 from explorer.charts.plots import PowerCurve
-from explorer.hosting.browser import set_query
+from explorer.hosting.browser import Bridge, set_query
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
+from explorer.model.undo import PowerTracker
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import ghost_of
@@ -31,27 +32,33 @@ from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Layout, Sections, by_hand
+from explorer.tabs.layout import Keyboard, Layout, Sections, by_hand
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import ResultsPanel
+from explorer.tabs.results import drawer_texts
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
-from explorer.tabs.waterfall import WaterfallPanel
 from explorer.views.actuator import ACTUATOR
 from explorer.views.dial import DIAL
+from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT, stop_here
+from explorer.views.inset import INSET
 from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
 from explorer.views.pay import PAY
+from explorer.views.power import HAND, POWER
+from explorer.views.strip import STRIP
+from explorer.views.waterfall import WATERFALL
+from explorer.views.worth import WORTH, twist_slopes
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
+PANELS = (POWER, HAND, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, ACTUATOR, FLIGHT, PAY, DIAL)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
@@ -75,23 +82,25 @@ class Page:
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
-        self._sliders: Design | None = None
         self._theme()
         client.gui.set_panel_label("Rotor explorer")
-        context = self.context = TabContext(client, shared.pool, callbacks)
-        bridge = context.bridge
-        self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""), facts.page)
-        layout = context.layout = self.layout = Layout(client.gui, bridge)
+        bridge, tracker, keyboard = Bridge(client), PowerTracker(), Keyboard(client)
+        banner = client.gui.add_folder(None)
+        layout = self.layout = Layout(client.gui, bridge)
         layout.watchers.append(callbacks.wake)
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
-        context.display = self.display
         with layout.in_mode("explore"):
-            self.controls = DesignControls(client.gui, bridge, start, context.tracker, callbacks)
-            context.controls = self.controls
+            self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
+        context = self.context = TabContext(
+            client, bridge, keyboard, layout, self.display, self.controls, tracker, shared.pool, callbacks
+        )
+        with banner:
+            secret = facts.kept.get(PRESENT, "")
+            self._presence = Presence(context, shared.presentations, address, secret, facts.page)
         self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
-        self.scene = SceneController(client, rotor, self.display, facts.dark)
-        self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
+        self.camera = FittedCamera(client, rotor.radius)
+        self.scene = SceneController(client, self.camera, rotor, self.display, facts.dark)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
@@ -103,23 +112,13 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
-            self.follower = Follower(
-                (ACTUATOR, FLIGHT, PAY, DIAL),
-                bridge,
-                self.actuator.texts,
-                shared.pool,
-                callbacks.wake,
-                self._now,
-                self._perform,
-            )
-            by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
-        self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
-        with layout.in_drawer("details"):
-            self.waterfall = WaterfallPanel(context)
+        self._now = Now(start, None, None, analyses=context.analyses)
+        """As of the last update; `now` has the rest."""
+        texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context, self.results.strip)
+        self.vibration = VibrationPanel(context, self._follow_strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -136,7 +135,11 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        following = self.top, self.probe, self.waterfall, settings, self.history, self.file
+        self.follower = Follower(
+            PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
+        )
+        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
+        following = self.top, self.probe, settings, self.history, self.file
         self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
@@ -170,7 +173,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.results, self.optimise, self.map, self.schedule, self.actuator, self.follower, *self.tabs):
+        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -181,7 +184,7 @@ class Page:
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
-        self._actuator_inputs, self._sliders = self.actuator.inputs(), design
+        self._actuator_inputs = self.actuator.inputs()
         return self._actuator_inputs.apply(design)
 
     def preview(self, design: Design) -> Design | None:
@@ -221,32 +224,77 @@ class Page:
             design = reading.sliders or solution.design
             self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
 
-    def show_power_number(self, state: SessionState) -> None:
+    def now(self) -> Now:
+        """All that is known, for the panels that are functions of it; safe from any thread."""
+        return replace(
+            self._now,
+            ui=Ui(self.layout.mode, self.layout.drawer, self.context.held),
+            station=self._curve.held,
+            change=self.context.tracker.change,
+            rival=self.rival.solution,
+            index=self.vibration.chart,
+            memory=self.follower.memory,
+            answers=self.follower.answers(),
+        )
+
+    def _pressed(self) -> Now:
+        """All that is known, with what the widgets mean at this moment; where they mean no design, with the last."""
+        now = self.now()
+        sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
+        return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
+
+    def take(self, reading: Reading, state: SessionState) -> None:
+        """A converged state is what the page shows from now on."""
+        last, memory, tracker = self._now.state, self.follower.memory, self.context.tracker
+        tracker.solved(state.inputs, state.solution.power.total, self._pause)
+        counted = memory.counted.then(state.solution, tracker.reference)
+        # What is known of one rotor says nothing of another.
+        same = last is not None and last.inputs.aircraft == state.inputs.aircraft
+        self.follower.memory = replace(memory, counted=counted, latest=memory.latest if same else {})
+        self._now = replace(self._read(reading), state=state, problem="")
+
+    def _read(self, reading: Reading) -> Now:
+        """What was read in this update, in place of that of the last."""
+        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
+        return replace(self._now, inputs=reading.inputs, sliders=reading.sliders, hand=hand)
+
+    def show_power_number(self) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
-        self.results.card.show(state, self._pause)
-        self._show_hand(state)
+        self._learn()
+        self.follower.follow(self.now(), lambda panel: panel in (POWER, HAND))
 
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
-        self.results.turn(state)
+        self._now = replace(self._now, state=state)
+        self.follower.follow(self.now(), lambda panel: panel.turns)
         self.probe.show(state)
 
-    def show_results(self, reading: Reading, state: SessionState) -> None:
+    def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
+        self._now = replace(self._now, state=state, curve=curve)
         self.rival.show(state)
         self._refresh(reading)
-        self.results.show(state, self._pause)
         self.vibration.show(state)
-        self._follow_panels(reading, state)
         self._curve.show(state)
-        self._show_hand(state)
+        self._learn()
+        self.follower.follow(self.now())
         self.display.show(state)
 
-    def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
-        """Draw power over advance ratio; `failed`: the present inputs have no solution."""
-        self.results.strip.show_power(state, curve, failed)
+    def show_power(self, curve: PowerCurve) -> None:
+        """Draw power over advance ratio anew."""
+        self._now = replace(self._now, curve=curve)
+        self._follow_strip()
 
-    def follow(self, reading: Reading, state: SessionState) -> None:
+    def _follow_strip(self) -> None:
+        self.follower.follow(self.now(), lambda panel: panel is STRIP)
+
+    def _learn(self) -> None:
+        """Where the station in the hand is best, as far as power and its slopes tell."""
+        now = self.now()
+        if now.state is not None:
+            self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
+
+    def follow(self, state: SessionState) -> None:
         """Update all other tabs."""
         for tab in self.tabs:
             tab.show(state)
@@ -255,10 +303,14 @@ class Page:
         """Bring the address into line with what is shown."""
         self.file.follow(state)
 
-    def draw_finely(self, state: SessionState) -> None:
-        """Nothing moves: a finer disk."""
+    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
+        """Nothing moves: a finer disk, slopes of power and how sure it is."""
         self.scene.draw_finely()
         self._views.show_plan(state.solution, state.view, at_rest=True)
+        self.follower.work(stop, soon=True)
+        if self._curve.held is not None:
+            self._learn()
+            self.follower.follow(self.now(), lambda panel: panel is HAND)
 
     def keep(self, state: SessionState) -> None:
         """Keep what must survive a reload; before the power curve, since an early reload must find it."""
@@ -268,19 +320,18 @@ class Page:
 
     def solve_deferred(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing has moved since: compute and save what could wait, until `stop`."""
-        self.draw_finely(state)
+        self.rest(state, stop)
         self.keep(state)
         self.history.solve_waiting(stop)
-        self.results.solve_deferred(stop)
         self.vibration.solve_deferred(stop)
-        self.waterfall.solve_steps(stop)
+        self.follower.work(stop, soon=False)
 
-    def show_failure(self, failure: FailedTrim) -> None:
+    def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
+        self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
-        self._follow_panels(reading, self.context.state(), failure.message)
-        self.results.problem(failure.message)
+        self.follower.follow(self.now())
         self.vibration.problem()
         for tab in self.tabs:
             tab.show_failure()
@@ -302,31 +353,8 @@ class Page:
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
-        self.results.problem(brief(sentence))
-
-    def _follow_panels(self, reading: Reading, state: SessionState | None, problem: str = "") -> None:
-        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
-        now = replace(self._now(), inputs=reading.inputs, state=state, problem=problem, hand=hand)
-        self.follower.follow(now)
-
-    def _now(self) -> Now:
-        """What is known at this moment; the design is that of the last update."""
-        context = self.context
-        ui = Ui(self.layout.mode, self.layout.drawer, context.held)
-        memory, answers = self.follower.memory, self.follower.answers()
-        inputs, state, hand = context.inputs(), context.state(), self.actuator.hand()
-        return Now(inputs, self._sliders, state, ui=ui, hand=hand, memory=memory, answers=answers)
-
-    def _perform(self, effect: Effect) -> None:
-        match effect:
-            case Drag(inputs):
-                self.context.drag_to(inputs)
-            case Put(inputs):
-                self.context.set_inputs(inputs)
-            case Grab(held):
-                self._grabbed(held)
-            case _:
-                self.actuator.perform(effect)
+        self._now = replace(self._now, problem=brief(sentence))
+        self.follower.follow(self.now())
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
@@ -369,25 +397,23 @@ class Page:
         self.controls.pauses.hold(held, time.monotonic())
         if held:
             self.context.tracker.grab()
-            if (state := self.context.state()) is not None:
-                self._curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
+            self._learn()
         else:
             self.context.tracker.release()
-            self.context.bridge.set(hand=None)
         self.history.grab(held)
         self._wake()
 
-    def _show_hand(self, state: SessionState) -> None:
-        """Power and its least beside the blade, while a station of it is held."""
-        curve, units = self._curve, self.context.units
-        hand = self.results.card.hand(units)
-        curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
-        place, best = curve.place, curve.best
-        if best is not None:
-            best = {**best, "power": round(units.power[0].of(best["power"]), 2)}
-        if hand is not None and (other := self.rival.solution) is not None:
-            hand["rival"] = round(units.power[0].of(other.power.total), 2)
-        self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
+    def _perform(self, effect: Effect) -> None:
+        """Do what a press says."""
+        match effect:
+            case Drag(inputs):
+                self.context.drag_to(inputs)
+            case Put(inputs):
+                self.context.set_inputs(inputs)
+            case Grab(held):
+                self._grabbed(held)
+            case _:
+                self.actuator.perform(effect)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(

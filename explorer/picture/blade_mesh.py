@@ -301,7 +301,10 @@ def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: f
         ghost_datum=0.0 if behind is None else behind[-1],
         theta=angles[: len(r)],
         ghost=None if behind is None else behind[: len(r)],
-        cuts=[Cut(float(at), *each) for at, *each in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)],
+        cuts=[
+            Cut(float(at), outline, angle, before)
+            for at, outline, angle, before in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)
+        ],
     )
 
 

@@ -4,7 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import viser
 
@@ -47,22 +47,37 @@ class Tab:
         """The browser has left: end threads and jobs."""
 
 
+@dataclass
 class TabContext:
     """One page's. What a part may call is safe from any thread."""
 
+    client: viser.ClientHandle
+    bridge: Bridge
+    keyboard: Keyboard
     layout: Layout
-    controls: DesignControls
     display: Display
+    controls: DesignControls
+    tracker: PowerTracker
+    pool: Processes
+    callbacks: SessionCallbacks
+    pinboard: Pinboard = field(default_factory=Pinboard)
+    analyses: Analyses = field(default_factory=Analyses)
+    held: bool = False
+    """Whether a presenter moves the page."""
 
-    def __init__(self, client: viser.ClientHandle, pool: Processes, callbacks: SessionCallbacks) -> None:
-        self.client, self.gui, self.pool = client, client.gui, pool
-        self.analyses = Analyses()
-        self.bridge = Bridge(client)
-        self.keyboard = Keyboard(client)
-        self.pinboard = Pinboard()
-        self.tracker = PowerTracker()
-        self.wake, self.state = callbacks.wake, callbacks.state
-        self.held = False
+    @property
+    def gui(self) -> viser.GuiApi:
+        return self.client.gui
+
+    @property
+    def wake(self) -> Callable[[], None]:
+        """Have the page follow."""
+        return self.callbacks.wake
+
+    @property
+    def state(self) -> Callable[[], SessionState | None]:
+        """The last converged state; None before the first."""
+        return self.callbacks.state
 
     def inputs(self) -> Inputs:
         return self.controls.inputs()

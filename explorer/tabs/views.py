@@ -239,10 +239,10 @@ class SceneViews:
         self._actuator.lift(out)
         self._scene.set_behind(out)
         self._probe.set_seen(not out)
-        if camera is not None and out:
+        if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
-        elif camera is not None and towards is None and camera.subject is self._on_blade:
+        elif towards is None and camera.subject is self._on_blade:
             # Else a step of the lecture has aimed it elsewhere already.
             camera.aim(self._view)
         self._show()

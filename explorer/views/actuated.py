@@ -38,18 +38,19 @@ class Actuated:
 
     @cached_property
     def built(self) -> "Built | None":
-        """None where there is no such design; `problem` says why."""
+        """None where the sliders mean no design, or one that cannot carry it; `problem` says why."""
         found = self._built
         return None if isinstance(found, str) else found
 
     @property
     def problem(self) -> str:
-        return self._built if isinstance(self._built, str) else ""
+        """Why there is no solution, or no such actuator."""
+        return self.now.problem or (self._built if isinstance(self._built, str) else "")
 
     @cached_property
     def _built(self) -> "Built | str":
         design = self.now.sliders
-        if self.now.problem or design is None:
+        if design is None:
             return self.now.problem
         try:
             check_blade(design.aircraft)

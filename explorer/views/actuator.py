@@ -58,7 +58,7 @@ def view(now: Now) -> dict[str, Any]:
     """Texts of the rail; where there is no such design, why, all else as it was."""
     actuated, state = now.of(Actuated), now.state
     inputs, built = actuated.inputs, actuated.built
-    if built is None or state is None:
+    if built is None or state is None or now.problem:
         return {"actuator.verdict": words.problem_panel(actuated.problem)} | _form_elsewhere(now)
     installed, verdict = built.installed, built.verdict
     chart = reach_chart(inputs, installed, verdict, built.design.rotor.blade.root_cutout, now.memory.ranges.get(_CHART))

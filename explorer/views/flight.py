@@ -15,7 +15,7 @@ from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
 from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, Earns, Flight, Kind, Sign
 from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
-from explorer.views.actuated import Actuated, in_actuate
+from explorer.views.actuated import Actuated, Built, in_actuate
 from explorer.views.now import Asked, Drag, Effect, Memory, Now, Panel, SetActuator, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.verdict import reference
@@ -47,10 +47,9 @@ def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
 
 def view(now: Now) -> dict[str, Flight | Earns | None]:
     """Both while the blade is out of the rotor; those of the question before stay, marked, while one is worked on."""
-    built = now.of(Actuated).built
     if not (now.hand.lifted and in_actuate(now.ui)):
         return {"flight": None, "earns": None}
-    if built is None:
+    if (built := _on_stage(now)) is None:
         return {}
     latest = now.memory.latest
     wrong = built.outcome if isinstance(built.outcome, str) else ""
@@ -68,10 +67,15 @@ def view(now: Now) -> dict[str, Flight | Earns | None]:
 _FLIGHT, _VERDICT = "flight", "verdict"
 
 
+def _on_stage(now: Now) -> Built | None:
+    """None also where the present inputs have no solution: all stays as it was."""
+    there = now.hand.lifted and in_actuate(now.ui) and not now.problem
+    return now.of(Actuated).built if there else None
+
+
 def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     """The last flight and the last verdict."""
-    built = now.of(Actuated).built if shown.get("flight") is not None else None
-    if built is None:
+    if (built := _on_stage(now)) is None:
         return now.memory
     known = {_VERDICT: built.verdict} if built.verdict is not None else {}
     known |= {_FLIGHT: built.flight} if isinstance(built.flight, ActuatorFlight) else {}
@@ -212,7 +216,7 @@ def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
-    built = now.of(Actuated).built if now.hand.lifted and not now.hand.stopped else None
+    built = None if now.hand.stopped else _on_stage(now)
     if built is None or not isinstance(built.flight, ActuatorFlight):
         return ()
     return () if built.flight is now.memory.latest.get(_FLIGHT) else _driven(now, now.hand.flown)

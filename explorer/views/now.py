@@ -147,7 +147,7 @@ class Asked:
 
 
 Tell = Callable[[], None]
-"""Says that there is more to show before work is done."""
+"""Says, before work is done, that there is more to show."""
 
 
 class Work(Protocol):
