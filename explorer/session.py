@@ -176,7 +176,7 @@ class Session:
 
         page.show_results(reading, self._turned(state), known())
         yield 0.0
-        page.follow(reading, self._turned(state))
+        page.follow(self._turned(state))
         self._shown.set()
         yield 0.0
         if dragged and not self._curves.recent:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
@@ -17,6 +17,7 @@ from rotor import Design, Solution
 from rotor.chart import Chart
 
 Mode = Literal["explore", "optimise", "actuate"]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -119,6 +120,13 @@ class Now:
     answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
     """What is known: of worker processes by `Call`, of the page's own work by the key of `Work`. For a question that
     failed, the sentence that says why."""
+    _derived: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False)
+
+    def of(self, derive: Callable[["Now"], T]) -> T:
+        """What `derive` makes of this, worked out once for all panels."""
+        if derive not in self._derived:
+            self._derived[derive] = derive(self)
+        return self._derived[derive]
 
     @property
     def units(self) -> Units:
@@ -228,5 +236,7 @@ class Panel:
     """Whether it follows the azimuth of the reference blade."""
     remember: Callable[[Now, Mapping[str, Any]], Memory] = lambda now, shown: now.memory
     """What is remembered of what it showed."""
+    reacts: Callable[[Now], tuple[Effect, ...]] = lambda now: ()
+    """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
     """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""
