@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from explorer.hosting.messages import WavePress
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
@@ -265,8 +266,8 @@ class TwistDial:
         """The browser has left."""
         self._answers.stop()
 
-    def _act(self, value: str | Sequence[Sequence[float]]) -> None:
-        """`"start"`, `"end"`, or for each harmonic moved `[n, amplitude °, phase °]`."""
+    def _act(self, value: str | Sequence[WavePress]) -> None:
+        """`"start"`, `"end"`, or each harmonic moved."""
         if value == "end":
             self._grabbed(False)
         elif self._context.held:
@@ -276,9 +277,9 @@ class TwistDial:
         elif not isinstance(value, str):
             inputs = self._context.inputs()
             moved = inputs.twist_per_rev
-            for per_rev, amplitude, phase in value:
-                if int(per_rev) in HARMONICS:
-                    moved = with_wave(moved, int(per_rev), float(amplitude), float(phase))
+            for wave in value:
+                if wave.per_rev in HARMONICS:
+                    moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
             if moved != inputs.twist_per_rev:
                 self._context.drag_to(replace(inputs, twist_per_rev=moved))
 

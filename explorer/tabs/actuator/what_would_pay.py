@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from explorer.hosting.messages import SupposePress
 from explorer.model.units import SI, Units, number
 from explorer.sharing.share import Address
 from explorer.tabs.background import Call, PoolAnswers
@@ -65,14 +66,14 @@ class WhatWouldPay:
         self._pair = pair
         self._bridge.set(suppose=self._stage(verdicts))
 
-    def _suppose(self, value: Any) -> None:
-        """The stage shows the line or no longer, or the supposed actuator is dragged to [°, kg]."""
+    def _suppose(self, value: str | SupposePress) -> None:
+        """The stage shows the line or no longer, or the supposed actuator is dragged there."""
         if self._context.held:
             return
         if isinstance(value, str):
             self.on_stage = value == "on"
         else:
-            self._place = round(value[0], 2), float(f"{value[1]:.3g}")
+            self._place = round(value.tip, 2), float(f"{value.mass:.3g}")
         place = self._place if self.on_stage else None
         self._address[SUPPOSED] = None if place is None else "{:g},{:g}".format(*place)
         self._context.wake()
