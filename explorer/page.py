@@ -13,7 +13,7 @@ import viser
 
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import Bridge, set_query
-from explorer.hosting.messages import PageFacts
+from explorer.hosting.messages import IdlePress, PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
@@ -152,7 +152,7 @@ class Page:
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: self.camera.come_back())
-        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
+        bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.hand().on_stage:
             layout.show_mode("actuate")
@@ -168,9 +168,9 @@ class Page:
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
 
-        def answer(asked: tuple[int, bool]) -> None:
-            wait(asked[1])
-            self.context.bridge.set(idle=asked[0])
+        def answer(asked: IdlePress) -> None:
+            wait(asked.wholly)
+            self.context.bridge.set(idle=asked.serial)
 
         self.context.bridge.on("idle", answer)
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from explorer.hosting.messages import WavePress
 from explorer.model.units import Units, number
 from explorer.parts.actuate import DialPart, Settled
 from explorer.text.design_words import harmonic_words
@@ -139,14 +140,14 @@ def _set_words(now: Now) -> str:
     return tag("div.rx.rx-dim.rx-small", sentence, data_explorer="per-rev")
 
 
-def act(now: Now, value: str | Sequence[Sequence[float]]) -> tuple[Effect, ...]:
-    """The dot: `"start"`, `"end"`, or for each harmonic moved `[n, amplitude °, phase °]`."""
+def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
+    """The dot: `"start"`, `"end"`, or each harmonic moved."""
     if isinstance(value, str):
         return (Grab(value == "start"),)
     moved = now.inputs.twist_per_rev
-    for per_rev, amplitude, phase in value:
-        if int(per_rev) in HARMONICS:
-            moved = with_wave(moved, int(per_rev), float(amplitude), float(phase))
+    for wave in value:
+        if wave.per_rev in HARMONICS:
+            moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
     return (Drag(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from explorer.hosting.messages import SupposePress
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.text.readout import fuel_words, needs, needs_words
@@ -111,13 +112,13 @@ def _stage(now: Now) -> SupposePart | None:
     )
 
 
-def place_it(now: Now, value: str | tuple[float, float]) -> tuple[Effect, ...]:
-    """The stage shows the line or no longer, or the supposed actuator is dragged to [°, kg]."""
+def place_it(now: Now, value: str | SupposePress) -> tuple[Effect, ...]:
+    """The stage shows the line or no longer, or the supposed actuator is dragged there."""
     on_stage, place = now.hand.on_stage, now.hand.place
     if isinstance(value, str):
         on_stage = value == "on"
     else:
-        place = round(value[0], 2), float(f"{value[1]:.3g}")
+        place = round(value.tip, 2), float(f"{value.mass:.3g}")
     kept = "{:g},{:g}".format(*place) if on_stage and place is not None else None
     return SetHand({"on_stage": on_stage, "place": place}), SetAddress(SUPPOSED, kept)
 
