@@ -340,7 +340,7 @@ class Page:
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.hold(held, time.monotonic())
+        self.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
             if (state := self.context.state()) is not None:
