@@ -396,7 +396,7 @@ class Page:
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.hold(held, time.monotonic())
+        self.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
             self._learn()

@@ -273,14 +273,29 @@ def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     until(lambda: pool.asked == [first, newest])
     pool.jobs[-1][1](JobFailed("The process ended."))
     until(lambda: pool.asked[-1] == second)
-    pool.end(None)
-    assert (answers.answer(newest), len(heard)) == ("The process ended.", 3)
-    assert "change any setting" in answers.answer(second)
+    pool.end("two")
+    assert (answers.answer(newest), answers.answer(second), len(heard)) == ("The process ended.", "two", 3)
     assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
     answers.ask((asked("never ends"),), 0.0)
     until(lambda: pool.asked[-1] == asked("never ends"))
     answers.stop()
     assert pool.stopped == [(asked("never ends"), True)]
+
+
+def test_a_task_ended_after_its_time_is_begun_again_by_itself():
+    """A busy machine took a minute for a flight: "This was stopped: change any setting" stood there for ever."""
+    pool: Any = FakePool()
+    answers = PoolAnswers(pool, 5, lambda: None)
+    late, other = asked("late"), asked("other")
+    answers.ask((late, other), 0.0)
+    until(lambda: pool.asked == [late])
+    pool.jobs[-1][1](JobEnded(None, stopped=True, late=True))
+    assert pool.asked == [late, other]
+    assert "within 10 minutes" in answers.answer(late)
+    pool.end("quick")
+    assert pool.asked == [late, other, late]
+    pool.end("found")
+    assert (answers.answer(late), pool.asked[3:]) == ("found", [])
 
 
 def test_nothing_is_begun_while_somebody_drags():
