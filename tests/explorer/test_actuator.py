@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from explorer.tabs.actuator.actuator_words import section_svg
+from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from numpy.testing import assert_allclose
 
 from explorer.model.actuator_inputs import (
@@ -28,8 +30,6 @@ from explorer.picture.picture import make_picture
 from explorer.tabs.actuator import actuator_words
 from explorer.tabs.actuator import lifted_blade as lifted
 from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
-from explorer.tabs.actuator.actuator_words import section_svg
-from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.tabs.background import PoolAnswers
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
