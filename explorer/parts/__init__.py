@@ -4,10 +4,12 @@
 This package imports only words and numbers of `rotor`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
 
+from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
 from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
+from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
 from explorer.parts.stage import (
     FieldPart,
     PlanPart,
@@ -18,6 +20,7 @@ from explorer.parts.stage import (
     TwistPart,
     VibrationPart,
 )
+from rotor.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
@@ -26,32 +29,32 @@ class Parts(TypedDict, total=False):
     bar: BarPart
     big: bool
     coarse: int
-    dial: Any
-    dial_front: Any
-    dial_matrix: Any
-    earns: Any
+    dial: DialPart
+    dial_front: DrawnChart
+    dial_matrix: DialMatrix | None
+    earns: EarnsPart | None
     field: FieldPart
-    flight: Any
-    hand: Any
+    flight: FlightPart | None
+    hand: HandPart | None
     hub_labels: Sequence[SceneLabel]
     idle: int
-    inset: Any
+    inset: InsetPart
     lecture: LecturePart | None
-    lifted_labels: Any
+    lifted_labels: Sequence[LiftedLabel]
     notice: NoticePart | None
     plan: PlanPart | None
-    power: Any
+    power: PowerPart
     probe_label: Sequence[SceneLabel]
     prompt: SceneLabel | None
     ride: RidePart | None
     rubber: RubberPart | None
     steps: Sequence[StepPart]
-    strip: Any
-    suppose: Any
+    strip: Sequence[StripChart]
+    suppose: SupposePart | None
     turn: TurnPart
     twist: TwistPart
     vibration: VibrationPart | None
     views: ViewsPart
     wipe: bool
     wiped: float
-    worth: Any
+    worth: Mapping[str, Worth]

@@ -13,8 +13,10 @@ from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
 from explorer.model.units import SI
+from explorer.parts.results import Best
 from explorer.parts.stage import Knot, RoleLines, RubberPart, TwistPart
 from explorer.tabs.context import TabContext
+from explorer.views.now import HeldStation
 from rotor import Design, Solution
 from rotor.arrays import Array
 from rotor.chart import Axis, Band, Chart, Series, drawn_chart
@@ -53,9 +55,9 @@ class TwistCurveEditor:
         context.keyboard.bind("twist", partial(self.grab, 1.0, by_key=True))
 
     @property
-    def place(self) -> str:
-        """The station that is held, in words; empty while none is."""
-        return self._place if self._grab is not None else ""
+    def held(self) -> HeldStation | None:
+        """The station in the hand; None while none is."""
+        return None if self._grab is None else HeldStation(self._place, self._least(self._grab))
 
     @property
     def before(self) -> Solution | None:
@@ -90,19 +92,20 @@ class TwistCurveEditor:
         )
 
     def learn(self, inputs: Inputs, power: float, by_input: Mapping[str, float]) -> None:
-        """Power [W] of these inputs, and its change with a unit of each: tells where the station is best."""
+        """Take the power [W] of these inputs, and its change with a unit of each, which is empty until the page rests:
+        they tell where the station is best."""
         if self._grab is None:
             return
         turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
-        if turn is not None and slope is not None:
-            self._best = self._best.with_turn(turn, power, slope)
+        if turn is not None:
+            self._best = (
+                self._best.with_power(turn, power) if slope is None else self._best.with_turn(turn, power, slope)
+            )
 
-    @property
-    def best(self) -> dict[str, Any] | None:
-        """Twist [°] of least power of the held station, that power [W], and whether it is held there; None while it is
-        not known, or lies past the end of a slider."""
-        grab, turn = self._grab, self._best.turn
-        if grab is None or turn is None:
+    def _least(self, grab: Grab) -> Best | None:
+        """The twist of least power of the held station; None while not known, or past the end of a slider."""
+        turn, power = self._best.turn, self._best.power
+        if turn is None or power is None:
             return None
         (lowest, _), (highest, _) = turn_ends(grab.inputs, grab.station)
         if not lowest <= turn <= highest:
@@ -110,7 +113,7 @@ class TwistCurveEditor:
         now = grab.turn_to(self._context.inputs())
         before, response = self._response(grab)
         held = now is not None and abs(now - turn) < _AT
-        return {"theta": round(before + turn * response, 2), "power": self._best.power, "held": held}
+        return Best(round(before + turn * response, 2), power, held)
 
     def _act(self, press: KnotPress) -> None:
         name, change = press.name, press.change

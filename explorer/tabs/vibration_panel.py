@@ -7,6 +7,7 @@ wakes and curves over speed are computed while the page rests.
 from collections.abc import Callable
 from dataclasses import replace
 
+from explorer.charts.strip import Role
 from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
@@ -14,10 +15,10 @@ from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import ChartStrip
 from rotor import Solution, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.chart import Chart
 from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
 from rotor.trim.hub_loads import BAND
 
@@ -26,8 +27,11 @@ _NOTICEABLE = 0.5
 
 
 class VibrationPanel:
-    def __init__(self, context: TabContext, strip: ChartStrip) -> None:
-        self._context, self._strip = context, strip
+    def __init__(self, context: TabContext, drawn: Callable[[], None]) -> None:
+        """`drawn`: called when there is another chart."""
+        self._context, self._drawn = context, drawn
+        self.chart: Chart | None = None
+        """The index over µ; None where there is none."""
         self._state: SessionState | None = None
         self._curves = IndexCurves()
         self._loads: dict[Solution, HubLoads | None] = {}
@@ -108,8 +112,8 @@ class VibrationPanel:
 
     def _clear(self) -> None:
         self._loads = {}
+        self.chart = None
         self._context.bridge.set(vibration=None, hub_labels=[])
-        self._strip.show_vibration(None)
 
     def _draw(self) -> None:
         if self._state is not None:
@@ -120,9 +124,10 @@ class VibrationPanel:
     def _draw_chart(self) -> None:
         state = self._state
         if state is not None:
-            held, compared = self._strip.vibration_range()
-            chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
-            self._strip.show_vibration(chart)
+            held = None if self.chart is None else self.chart.y.range
+            compared: Role = "reference" if state.pinned is None else "pinned"
+            self.chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
+            self._drawn()
 
     def _say_how_bent(self) -> None:
         """The words in the scene: bending is drawn larger."""

@@ -12,10 +12,10 @@ from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
 from explorer.picture import disk_image
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
+from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.lifted_blade import fit_lifted
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe_panel import ProbePanel
@@ -240,10 +240,10 @@ class SceneViews:
         self._actuator.lift(out)
         self._scene.set_behind(out)
         self._probe.set_seen(not out)
-        if camera is not None and out:
+        if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
-        elif camera is not None and towards is None and camera.subject is self._on_blade:
+        elif towards is None and camera.subject is self._on_blade:
             # Else a step of the lecture has aimed it elsewhere already.
             camera.aim(self._view)
         self._show()

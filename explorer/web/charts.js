@@ -3,10 +3,11 @@
   const {text, part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', vibration: 'Vibration', alpha: 'α'};
-  function chart(element, one) {
-    const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260), {y} = one;
-    element.toggleAttribute('data-faded', Boolean(one.faded));
-    const short = {...one, title: SHORT[one.name] || one.title, y: {...y, label: y.label.replace(/^both /, '')}};
+  function chart(element, {name, kind, faded, chart: drawn, speeds}) {
+    const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
+    element.toggleAttribute('data-faded', faded);
+    const one = {...drawn, kind, speeds}, {y} = one;
+    const short = {...one, title: SHORT[name] || one.title, y: {...y, label: y.label.replace(/^both /, '')}};
     Charts.fill(element, tight ? short : one, {width, height: Math.max(element.clientHeight - 38, 40)});
     const {place} = element.drawn, power = one.speeds && one.series.at(-1).y[0];
     if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend', `<circle cx="${place.X(one.speeds.mu)}" cy="${place.Y(power)}" r="11" data-speed><title>Drag: speed. Double click: the fastest trim</title></circle>`);
@@ -39,6 +40,7 @@
     if (element) RX.send('speed', element.drawn.one.speeds.fastest);
   });
   RX.paint('strip', all => {
+    RX.again('worth');  // With every answer a thumb may stand elsewhere.
     const strip = part('strip');
     while (strip.children.length > all.length) strip.lastChild.remove();
     while (strip.children.length < all.length) strip.append(Object.assign(document.createElement('div'), {className: 'rxf-chart'}));
@@ -49,20 +51,24 @@
   // What a step up of a slider changes, with its sign, and an arrow from the thumb the way that saves power.
   RX.paint('worth', all => {
     for (const place of document.querySelectorAll('[data-worth]')) {
-      const one = all[place.dataset.worth], stamp = JSON.stringify(one ?? null);
+      const one = all[place.dataset.worth];
+      // The track lies between the label and the number.
+      const slider = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root'), own = place.getBoundingClientRect();
+      const row = slider?.getBoundingClientRect(), handle = slider?.querySelector('.mantine-Slider-thumb');
+      const low = Number(handle?.ariaValueMin), at = handle ? (Number(handle.ariaValueNow) - low) / (Number(handle.ariaValueMax) - low) : .5;
+      const stamp = JSON.stringify([one ?? null, at, own.width]);
       if (place.dataset.stamp === stamp && place.childElementCount) continue;
       place.dataset.stamp = stamp;
       if (!one) { place.innerHTML = ''; continue; }
-      // The track lies between the label and the number.
-      const row = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root')?.getBoundingClientRect(), own = place.getBoundingClientRect();
+      place.toggleAttribute('data-stale', one.stale);
       const track = row && row.width ? [row.left - own.left, row.width] : [76, 166];
-      const thumb = track[0] + one.at * track[1], up = one.way === 'up', word = 40;
+      const thumb = track[0] + at * track[1], up = one.way === 'up', word = 40;
       const length = Math.min(8 + 36 * one.size, Math.max(6, (up ? own.width - thumb : thumb - track[0]) - 8));
-      const possible = up ? one.at < .999 : one.at > .001;  // No arrow beyond the end of the slider.
+      const possible = up ? at < .999 : at > .001;  // No arrow beyond the end of the slider.
       // The word stands before the head, or behind the thumb where the head is near the end.
       const head = up ? thumb + length + 8 : thumb - length - 8, ahead = up ? head + word < own.width : head - word > track[0];
-      const at = ahead ? (up ? head : head - word) : (up ? thumb - word - 6 : thumb + 6);
-      const arrow = one.way && possible ? `<i data-way="${one.way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i><em style="left:${at}px;width:${word}px;text-align:${up === ahead ? 'left' : 'right'}">saves</em>` : '';
+      const left = ahead ? (up ? head : head - word) : (up ? thumb - word - 6 : thumb + 6);
+      const arrow = one.way && possible ? `<i data-way="${one.way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i><em style="left:${left}px;width:${word}px;text-align:${up === ahead ? 'left' : 'right'}">saves</em>` : '';
       place.innerHTML = `${arrow}<span>${one.way ? `<b ${up ? 'class="rxf-good"' : ''}>${text(one.value)}</b>${text(one.unit)}` : text(one.value)}</span>`;
       place.title = one.sentence;
     }

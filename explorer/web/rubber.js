@@ -192,7 +192,7 @@
       const one_side = named.length < 2 ? 'middle' : k ? 'start' : 'end', edge = X(v) + (one_side === 'start' ? -5 : one_side === 'end' ? 5 : 0);
       out += `<path d="M${X(v)} ${y - 7}v14" stroke="${colour}" stroke-width="${name === 'least' ? 4 : 2}" stroke-linecap="round"/><text x="${clamp(edge, left + 60, right - 60)}" y="${y + 33}" text-anchor="${one_side}" style="fill:${colour};font-weight:620">${name} ${Charts.fixed(v, digits)}</text>`;
     });
-    if (rival !== undefined) out += `<path d="M${X(rival)} ${y - 7}v14" stroke="var(--rx-accent)" stroke-width="4" stroke-linecap="round"/><text x="${clamp(X(rival), left + 60, right - 60)}" y="${y + 50}" text-anchor="middle" style="fill:var(--rx-accent);font-weight:620">optimiser ${Charts.fixed(rival, digits)}</text>`;
+    if (rival !== null) out += `<path d="M${X(rival)} ${y - 7}v14" stroke="var(--rx-accent)" stroke-width="4" stroke-linecap="round"/><text x="${clamp(X(rival), left + 60, right - 60)}" y="${y + 50}" text-anchor="middle" style="fill:var(--rx-accent);font-weight:620">optimiser ${Charts.fixed(rival, digits)}</text>`;
     const gone = RX.state.power?.problem ? 'opacity=".35"' : '', colour = `var(--rx-${hand.kind || 'ink'})`;
     return out + `<g ${gone}><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/><text x="${clamp(x, left + 50, right - 60)}" y="${y - 21}" text-anchor="middle" class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan><tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan></text></g>`;
   }

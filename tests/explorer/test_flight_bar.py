@@ -12,10 +12,7 @@ import pytest
 import viser
 from numpy.testing import assert_allclose
 
-from explorer.model.inputs import Inputs
-from explorer.model.units import AVIATION, SI, number
-from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
     flight_legs,
@@ -23,6 +20,9 @@ from explorer.tabs.actuator.actuator_inputs import (
     lean_verdict,
     question_of,
 )
+from explorer.model.inputs import Inputs
+from explorer.model.units import AVIATION, SI, number
+from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict

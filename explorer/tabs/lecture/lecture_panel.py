@@ -18,10 +18,11 @@ from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, facts_at
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from rotor.markup import tag
 from rotor.processes import JobEnded, JobEvent, JobFailed
 
@@ -47,7 +48,7 @@ CASES = {**DOCUMENT, **EXAMPLES}
 """The menu."""
 _NO_CASE = "–"
 _PATIENCE = 600.0
-"""[s] for the numbers of a step: seconds, but for a server that many use."""
+"""[s] for the lecture as a file: seconds, but for a server that many use."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,7 @@ class LecturePanel(Tab):
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
-        self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
+        self._told = PoolAnswers(context.pool, 4, self._facts_came)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
