@@ -4,35 +4,35 @@ interface RxState {
   bar: RxBarPart;
   big: boolean;
   coarse: number;
-  dial: any;
-  dial_front: any;
-  dial_matrix: any;
-  earns: any;
+  dial: RxDialPart;
+  dial_front: RxDrawnChart;
+  dial_matrix: RxDialMatrix | null;
+  earns: RxEarnsPart | null;
   field: RxFieldPart;
-  flight: any;
-  hand: any;
+  flight: RxFlightPart | null;
+  hand: RxHandPart | null;
   hub_labels: RxSceneLabel[];
   idle: number;
-  inset: any;
+  inset: RxInsetPart;
   lecture: RxLecturePart | null;
-  lifted_labels: any;
+  lifted_labels: RxLiftedLabel[];
   notice: RxNoticePart | null;
   plan: RxPlanPart | null;
-  power: any;
+  power: RxPowerPart;
   probe_label: RxSceneLabel[];
   prompt: RxSceneLabel | null;
   ride: RxRidePart | null;
   rubber: RxRubberPart | null;
   steps: RxStepPart[];
-  strip: any;
-  suppose: any;
+  strip: RxStripChart[];
+  suppose: RxSupposePart | null;
   turn: RxTurnPart;
   twist: RxTwistPart;
   vibration: RxVibrationPart | null;
   views: RxViewsPart;
   wipe: boolean;
   wiped: number;
-  worth: any;
+  worth: Record<string, RxWorth>;
 }
 
 interface RxPresses {
@@ -106,47 +106,30 @@ interface RxPinnedRow {
   along: boolean;
 }
 
-interface RxFieldPart {
-  fields: string[];
-  field: string;
-  unit: string;
-  colours: string[];
-  ticks: [number, string][];
-  faded: boolean;
-  fitted: boolean;
-  regions: Record<string, boolean>;
-  stalled: string;
-  difference: boolean | null;
-  wipe: boolean;
-  beyond: [boolean, boolean];
-  held: boolean;
-}
-
-interface RxSceneLabel {
-  text: string;
-  node: string;
-  at: number[];
-  title: string;
-  kind: string;
-}
-
-interface RxLecturePart {
-  at: number;
-  guess: number | null;
-  answer: RxStepAnswer | null;
-  stop: number;
-  figures: [string, string][];
-  busy: boolean;
+interface RxDialPart {
+  harmonics: number[];
+  now: [number, number, number][];
+  reach: number;
+  whole: number;
+  room: number;
+  rings: [number, string][];
+  words: string;
+  computing: boolean;
+  settled: RxSettled | null;
   problem: string;
+  against: string;
+  where: string;
+  unit: string;
+  per_watt: number;
+  front: [number, number, number[]][];
+  exaggerated: string;
+  shake: number;
   held: boolean;
-  finish: string;
 }
 
-interface RxStepAnswer {
-  right: number;
-  answer: string;
-  chart: RxDrawnChart;
-  dots: [number, number, string][][];
+interface RxSettled {
+  power: number[];
+  index: number[];
 }
 
 interface RxDrawnChart {
@@ -214,6 +197,148 @@ interface RxRule {
   dashes: string;
 }
 
+interface RxDialMatrix {
+  base: number[];
+  slopes: number[][];
+  second: number[][][];
+  gains: number[];
+  power: number;
+  index: number;
+  inflows: RxDialNumbers[];
+}
+
+interface RxDialNumbers {
+  base: number[];
+  slopes: number[][];
+  second: number[][][];
+  gains: number[];
+  power: number;
+  index: number;
+}
+
+interface RxEarnsPart {
+  kind: 'ready' | 'computing' | 'problem';
+  unit: string;
+  problem: string;
+  mission: string;
+  where: string;
+  bars: RxBar[];
+  against: string;
+  fuel: string;
+  fuel_kind: '' | 'gain' | 'loss';
+  fuel_note: string;
+  mass: string;
+  mass_note: string;
+}
+
+interface RxBar {
+  name: string;
+  value: number;
+  text: string;
+  kind: '' | 'gain' | 'loss';
+  total: boolean;
+}
+
+interface RxFieldPart {
+  fields: string[];
+  field: string;
+  unit: string;
+  colours: string[];
+  ticks: [number, string][];
+  faded: boolean;
+  fitted: boolean;
+  regions: Record<string, boolean>;
+  stalled: string;
+  difference: boolean | null;
+  wipe: boolean;
+  beyond: [boolean, boolean];
+  held: boolean;
+}
+
+interface RxFlightPart {
+  legs: [string, string][];
+  at: number;
+  kind: 'ready' | 'computing' | 'problem';
+  words: string;
+  flown: boolean;
+  frozen: number | null;
+  tip: string;
+  chart: RxDrawnChart;
+}
+
+interface RxHandPart {
+  power: string;
+  change: string;
+  kind: '' | 'good' | 'bad';
+  now: number;
+  before: number;
+  digits: number;
+  place: string;
+  best: RxBest | null;
+  rival: number | null;
+}
+
+interface RxBest {
+  theta: number;
+  power: number;
+  held: boolean;
+}
+
+interface RxSceneLabel {
+  text: string;
+  node: string;
+  at: number[];
+  title: string;
+  kind: string;
+}
+
+interface RxInsetPart {
+  times: number;
+  r: number[];
+  datum: number;
+  ghost_datum: number;
+  theta: number[];
+  ghost: number[] | null;
+  cuts: RxCut[];
+  name: string;
+  name_hint: string;
+  ghost_name: string;
+  ghost_hint: string;
+}
+
+interface RxCut {
+  r: number;
+  outline: number[][];
+  theta: number;
+  ghost: number | null;
+}
+
+interface RxLecturePart {
+  at: number;
+  guess: number | null;
+  answer: RxStepAnswer | null;
+  stop: number;
+  figures: [string, string][];
+  busy: boolean;
+  problem: string;
+  held: boolean;
+  finish: string;
+}
+
+interface RxStepAnswer {
+  right: number;
+  answer: string;
+  chart: RxDrawnChart;
+  dots: [number, number, string][][];
+}
+
+interface RxLiftedLabel {
+  text: string;
+  node: string;
+  at: number[];
+  kind: string;
+}
+
 interface RxNoticePart {
   text: string;
   actions: [string, string][];
@@ -247,6 +372,47 @@ interface RxPackedTable {
   low: number;
   step: number;
   data: string;
+}
+
+interface RxPowerPart {
+  within: string;
+  change_within: string;
+  sure: string;
+  doubt: string;
+  status: RxStatus;
+  total: string;
+  unit: string;
+  change: string;
+  kind: '' | 'good' | 'bad';
+  against: string;
+  parts: RxShare[];
+  ideal: number | null;
+  ideal_title: string;
+  since: RxSince | null;
+  rest: string;
+  why: string;
+  problem: string;
+}
+
+interface RxStatus {
+  kind: 'converged' | 'care' | 'problem';
+  words: string;
+  title: string;
+  measured: string;
+}
+
+interface RxShare {
+  part: string;
+  name: string;
+  value: string;
+  share: number;
+  title: string;
+}
+
+interface RxSince {
+  value: string;
+  words: string;
+  kind: '' | 'good' | 'bad';
 }
 
 interface RxRidePart {
@@ -299,6 +465,27 @@ interface RxStepControl {
   words: string[];
 }
 
+interface RxStripChart {
+  name: string;
+  kind: '' | 'good' | 'bad';
+  faded: boolean;
+  chart: RxDrawnChart;
+  speeds: RxSpeeds | null;
+}
+
+interface RxSpeeds {
+  mu: number;
+  fastest: number;
+}
+
+interface RxSupposePart {
+  words: string;
+  kind: '' | 'gain' | 'loss';
+  note: string;
+  chart: RxDrawnChart | null;
+  at: [number, number] | null;
+}
+
 interface RxTurnPart {
   psi: number;
   playing: boolean;
@@ -338,6 +525,15 @@ interface RxVibrationPart {
 interface RxViewsPart {
   all: [string, string][];
   now: string;
+}
+
+interface RxWorth {
+  way: 'up' | 'down' | '';
+  value: string;
+  unit: string;
+  size: number;
+  sentence: string;
+  stale: boolean;
 }
 
 type RxRidePress = [r: number, psi: number];
