@@ -53,13 +53,9 @@ def view(now: Now) -> dict[str, Flight | Earns | None]:
         return {}
     latest = now.memory.latest
     wrong = built.outcome if isinstance(built.outcome, str) else ""
-    problem = built.flight if isinstance(built.flight, str) else wrong
-    flight = built.flight if isinstance(built.flight, ActuatorFlight) else None
-    tip = math.degrees(now.hand.actuator.tip(built.installed, built.design))
-    shown = None if problem else flight or latest.get(_FLIGHT)
     verdict = None if wrong else built.verdict or latest.get(_VERDICT)
     return {
-        "flight": flight_state(built.legs, shown, flight is not None, now, problem, tip=tip),
+        "flight": _flight(now, built, wrong),
         "earns": earns_state(verdict, built.verdict is not None, now.units, wrong),
     }
 
@@ -82,24 +78,23 @@ def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     return replace(now.memory, latest={**now.memory.latest, **known})
 
 
-def flight_state(
-    legs: Sequence[FlightLeg], flight: ActuatorFlight | None, known: bool, now: Now, problem: str, *, tip: float
-) -> Flight:
-    """What the page draws the tip twist from: a chart of degrees over the legs.
-
-    `known`: the flight is that of the present question, else one before. `tip`: twist by the actuator now [°].
-    """
-    hand, inputs = now.hand, now.inputs
+def _flight(now: Now, built: Built, wrong: str) -> Flight:
+    """`wrong`: why there is no verdict."""
+    hand, legs, rotor = now.hand, built.legs, built.design.rotor
+    known = built.flight if isinstance(built.flight, ActuatorFlight) else None
+    problem = built.flight if isinstance(built.flight, str) else wrong
+    shown = None if problem else known or now.memory.latest.get(_FLIGHT)
+    tip = math.degrees(hand.actuator.tip(built.installed, built.design))
     frozen = tip if hand.stopped else None
     return Flight(
-        legs=tuple((leg.name, _condition(leg, inputs.tip_speed, now.units)) for leg in legs[::HALVES]),
-        at=round(place_of(legs, inputs.advance_ratio), 3),
-        kind="ready" if known and flight else "problem" if problem else "computing",
-        words=problem or ("computing…" if not known else ""),
+        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
+        at=round(place_of(legs, now.inputs.advance_ratio), 3),
+        kind="ready" if known else "problem" if problem else "computing",
+        words=problem or ("" if known else "computing…"),
         flown=hand.flown is not None and not hand.stopped,
         frozen=frozen,
         tip=f"{number(tip, 2, sign=True)}°",
-        chart=drawn_chart(flight_chart(flight, (len(legs) - 1) / HALVES, frozen)),
+        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / HALVES, frozen)),
     )
 
 
