@@ -40,6 +40,7 @@ from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
+from tests.actuate import foreseen
 
 PITCH, TWIST = read_harmonics("3:1.5:180,5:0.2:40", "test"), read_harmonics("2:1:30", "test")
 MOVED = replace(OPENING, pitch_per_rev=PITCH, twist_per_rev=TWIST)
@@ -126,24 +127,6 @@ def test_words():
 
 BENDING = make_design(twist="builtin", mu=0.3, bending=True)
 WAVES = (Harmonic(2, math.radians(0.8), 4.0), Harmonic(3, math.radians(0.5), 0.8))
-
-
-def vector(waves: tuple[Harmonic, ...]) -> np.ndarray:
-    """Cosine and sine part of each harmonic of the dial [°]."""
-    x = np.zeros((4, 2))
-    for one in waves:
-        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array([math.cos(one.phase), math.sin(one.phase)])
-    return x.ravel()
-
-
-def foreseen(answer: DialMatrix, waves: tuple[Harmonic, ...]) -> tuple[float, float]:
-    """Changes of power and index [%], by the formulas of `dial.js`, written again."""
-    x = vector(waves)
-    base, slopes, second, gains = (np.array(one) for one in (answer.base, answer.slopes, answer.second, answer.gains))
-    values = base + slopes @ x + 0.5 * np.einsum("kij,i,j->k", second, x, x)
-    sizes = (gains * np.hypot(values[0:10:2], values[1:10:2])) ** 2
-    index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
-    return 100.0 * (values[10] / answer.power - 1.0), 100.0 * (index / answer.index - 1.0)
 
 
 STILL = replace(BENDING, active_twist=None)
