@@ -94,6 +94,12 @@ def test_the_model_of_the_page_is_far_from_viser():
         assert imported_parts(path, "explorer") <= {"model", "workers"}, name(path)
 
 
+def test_the_views_are_functions_of_what_is_known():
+    """They import no viser and no threads; the order of folders keeps them from `tabs`."""
+    for path in sources("explorer/views"):
+        assert not packages(path, lazy=True) & {"viser", "threading", "concurrent"}, name(path)
+
+
 def test_one_file_uses_private_names_of_viser():
     users = [
         path.name for path in sources("explorer") if re.search(r"viser\.(\w+\.)*_", path.read_text(encoding="utf-8"))

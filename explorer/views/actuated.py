@@ -6,7 +6,6 @@ from functools import cached_property
 
 from explorer.model.actuator_inputs import (
     AGAINST,
-    ActuatorInputs,
     Outcome,
     Question,
     flight_legs,
@@ -26,42 +25,32 @@ def in_actuate(ui: Ui) -> bool:
     return ui.mode == "actuate"
 
 
-@dataclass(frozen=True, eq=False)
-class Actuated:
-    """One for all panels of Actuate."""
+def built(now: Now) -> "Built | None":
+    """One for all panels; None where the sliders mean no design, or one that cannot carry the actuator."""
+    found = now.of(_built)
+    return found if isinstance(found, Built) else None
 
-    now: Now
 
-    @property
-    def inputs(self) -> ActuatorInputs:
-        return self.now.hand.actuator
+def problem(now: Now) -> str:
+    """Why there is no solution, or no such actuator; empty where there are both."""
+    found = now.of(_built)
+    return now.problem or (found if isinstance(found, str) else "")
 
-    @cached_property
-    def built(self) -> "Built | None":
-        """None where the sliders mean no design, or one that cannot carry it; `problem` says why."""
-        found = self._built
-        return None if isinstance(found, str) else found
 
-    @property
-    def problem(self) -> str:
-        """Why there is no solution, or no such actuator."""
-        return self.now.problem or (self._built if isinstance(self._built, str) else "")
-
-    @cached_property
-    def _built(self) -> "Built | str":
-        design = self.now.sliders
-        if design is None:
-            return self.now.problem
-        try:
-            check_blade(design.aircraft)
-            return Built(self.now, design, self.inputs.installed(design.rotor), question_of(self.inputs, design))
-        except ValueError as error:
-            return str(error)
+def _built(now: Now) -> "Built | str":
+    design, inputs = now.sliders, now.hand.actuator
+    if design is None:
+        return now.problem
+    try:
+        check_blade(design.aircraft)
+        return Built(now, design, inputs.installed(design.rotor), question_of(inputs, design))
+    except ValueError as error:
+        return str(error)
 
 
 @dataclass(frozen=True, eq=False)
 class Built:
-    """Where the actuator can be built."""
+    """The actuator on the blade."""
 
     now: Now
     design: Design

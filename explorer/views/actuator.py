@@ -15,7 +15,7 @@ from explorer.colours import BASELINE, NOW, THIS
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, Outcome, Question
 from explorer.model.units import number
 from explorer.views import actuator_words as words
-from explorer.views.actuated import Actuated, in_actuate
+from explorer.views.actuated import built, in_actuate, problem
 from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetActuator, SetHand
 from rotor.actuator import (
     Actuator,
@@ -46,34 +46,31 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 def asks(now: Now) -> tuple[Asked, ...]:
     """Verdicts come behind searches, maps and schedules: the chosen actuator's first; modes behind all else."""
-    built = now.of(Actuated).built
-    if built is None:
+    if (one := built(now)) is None:
         return ()
-    first, *others = built.tasks.values()
-    modes = () if built.modes_task is None else (built.modes_task,)
+    first, *others = one.tasks.values()
+    modes = () if one.modes_task is None else (one.modes_task,)
     return Asked(5, (first,), _STILL), Asked(6, tuple(others), _IDLE), Asked(7, modes, _IDLE)
 
 
 def view(now: Now) -> dict[str, Any]:
     """Texts of the rail; where there is no such design, why, all else as it was."""
-    actuated, state = now.of(Actuated), now.state
-    inputs, built = actuated.inputs, actuated.built
-    if built is None or state is None or now.problem:
-        return {"actuator.verdict": words.problem_panel(actuated.problem)} | _form_elsewhere(now)
-    installed, verdict = built.installed, built.verdict
-    chart = reach_chart(inputs, installed, verdict, built.design.rotor.blade.root_cutout, now.memory.ranges.get(_CHART))
+    one, state, inputs = built(now), now.state, now.hand.actuator
+    if one is None or state is None or now.problem:
+        return {"actuator.verdict": words.problem_panel(problem(now))} | _form_elsewhere(now)
+    installed, verdict, root = one.installed, one.verdict, one.design.rotor.blade.root_cutout
     return {
         "actuator.form": form_look(inputs, installed),
-        "actuator.verdict": words.problem_panel(built.outcome),
+        "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed, state.solution),
         "actuator.details": words.details_panel(verdict),
         "actuator.numbers": words.fit_panel(installed, verdict),
-        _CHART: drawn_chart(chart),
+        _CHART: drawn_chart(reach_chart(inputs, installed, verdict, root, now.memory.ranges.get(_CHART))),
         "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
-        "actuator.modes": words.modes_panel(built.modes),
-        "actuator.table": table_panel(built.outcomes, built.question),
+        "actuator.modes": words.modes_panel(one.modes),
+        "actuator.table": table_panel(one.outcomes, one.question),
     }
 
 
@@ -136,11 +133,11 @@ def other_baseline(now: Now, value: object) -> tuple[Effect, ...]:
 
 def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
     """The lifted blade was taken (None), or its trailing edge is pulled up by this share of the full drive."""
-    built, inputs = now.of(Actuated).built, now.hand.actuator
-    if built is None:
+    one, inputs = built(now), now.hand.actuator
+    if one is None:
         return ()
     if share is None:
-        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(built.installed, built.design)
+        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed, one.design)
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)

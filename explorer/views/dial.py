@@ -15,8 +15,8 @@ from explorer.hosting.messages import WavePress
 from explorer.model.units import Units, number
 from explorer.parts.actuate import DialPart, Settled
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import Actuated, in_actuate
-from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, compared, dial_answer
+from explorer.views.actuated import built, in_actuate
+from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
 from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put
 from explorer.workers.call import Call
 from rotor import Design
@@ -43,12 +43,16 @@ _URGENCY, _STILL = 3, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
+def _fitted(now: Now) -> Fitted | None:
+    one = built(now)
+    return None if one is None else one.fitted
+
+
 def _asked(now: Now) -> tuple[Call, Call | None] | None:
     """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
-    state, built = now.state, now.of(Actuated).built
+    state, fitted = now.state, _fitted(now)
     if state is None or now.sliders is None or now.problem:
         return None
-    fitted = None if built is None else built.fitted
     pair = compared(state.solution.design, now.sliders, fitted)
     if pair is None:
         return None
@@ -92,8 +96,7 @@ def view(now: Now) -> dict[str, Any]:
 
 
 def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
-    built, waves, unit = now.of(Actuated).built, now.inputs.twist_per_rev, now.units.power[0]
-    fitted = None if built is None else built.fitted
+    fitted, waves, unit = _fitted(now), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if fitted is None else fitted.whole
     drive = 0.0
     if fitted is not None and whole:

@@ -15,7 +15,7 @@ from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
 from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
 from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
-from explorer.views.actuated import Actuated, Built, in_actuate
+from explorer.views.actuated import Built, built, in_actuate
 from explorer.views.now import Asked, Drag, Effect, Memory, Now, Panel, SetActuator, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.verdict import reference
@@ -49,18 +49,13 @@ def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
     """Both while the blade is out of the rotor; those of the question before stay, marked, while one is worked on."""
     if not (now.hand.lifted and in_actuate(now.ui)):
         return {"flight": None, "earns": None}
-    if (built := _on_stage(now)) is None:
+    if (one := _on_stage(now)) is None:
         return {}
-    latest = now.memory.latest
-    wrong = built.outcome if isinstance(built.outcome, str) else ""
-    problem = built.flight if isinstance(built.flight, str) else wrong
-    flight = built.flight if isinstance(built.flight, ActuatorFlight) else None
-    tip = math.degrees(now.hand.actuator.tip(built.installed, built.design))
-    shown = None if problem else flight or latest.get(_FLIGHT)
-    verdict = None if wrong else built.verdict or latest.get(_VERDICT)
+    wrong = one.outcome if isinstance(one.outcome, str) else ""
+    verdict = None if wrong else one.verdict or now.memory.latest.get(_VERDICT)
     return {
-        "flight": flight_state(built.legs, shown, flight is not None, now, problem, tip=tip),
-        "earns": earns_state(verdict, built.verdict is not None, now.units, wrong),
+        "flight": _flight(now, one, wrong),
+        "earns": earns_state(verdict, one.verdict is not None, now.units, wrong),
     }
 
 
@@ -70,36 +65,35 @@ _FLIGHT, _VERDICT = "flight", "verdict"
 def _on_stage(now: Now) -> Built | None:
     """None also where the present inputs have no solution: all stays as it was."""
     there = now.hand.lifted and in_actuate(now.ui) and not now.problem
-    return now.of(Actuated).built if there else None
+    return built(now) if there else None
 
 
 def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     """The last flight and the last verdict."""
-    if (built := _on_stage(now)) is None:
+    if (one := _on_stage(now)) is None:
         return now.memory
-    known = {_VERDICT: built.verdict} if built.verdict is not None else {}
-    known |= {_FLIGHT: built.flight} if isinstance(built.flight, ActuatorFlight) else {}
+    known = {_VERDICT: one.verdict} if one.verdict is not None else {}
+    known |= {_FLIGHT: one.flight} if isinstance(one.flight, ActuatorFlight) else {}
     return replace(now.memory, latest={**now.memory.latest, **known})
 
 
-def flight_state(
-    legs: Sequence[FlightLeg], flight: ActuatorFlight | None, known: bool, now: Now, problem: str, *, tip: float
-) -> FlightPart:
-    """What the page draws the tip twist from: a chart of degrees over the legs.
-
-    `known`: the flight is that of the present question, else one before. `tip`: twist by the actuator now [°].
-    """
-    hand, inputs = now.hand, now.inputs
+def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
+    """`wrong`: why there is no verdict."""
+    hand, legs, rotor = now.hand, one.legs, one.design.rotor
+    known = one.flight if isinstance(one.flight, ActuatorFlight) else None
+    problem = one.flight if isinstance(one.flight, str) else wrong
+    shown = None if problem else known or _last(now)
+    tip = math.degrees(hand.actuator.tip(one.installed, one.design))
     frozen = tip if hand.stopped else None
     return FlightPart(
-        legs=tuple((leg.name, _condition(leg, inputs.tip_speed, now.units)) for leg in legs[::HALVES]),
-        at=round(place_of(legs, inputs.advance_ratio), 3),
-        kind="ready" if known and flight else "problem" if problem else "computing",
-        words=problem or ("computing…" if not known else ""),
+        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
+        at=round(place_of(legs, now.inputs.advance_ratio), 3),
+        kind="ready" if known else "problem" if problem else "computing",
+        words=problem or ("" if known else "computing…"),
         flown=hand.flown is not None and not hand.stopped,
         frozen=frozen,
         tip=f"{number(tip, 2, sign=True)}°",
-        chart=drawn_chart(flight_chart(flight, (len(legs) - 1) / HALVES, frozen)),
+        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / HALVES, frozen)),
     )
 
 
@@ -194,17 +188,16 @@ _SIGNS: dict[str, Sign] = {"+": "loss", "−": "gain"}
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    built = now.of(Actuated).built if in_actuate(now.ui) else None
-    return () if built is None or built.flight_task is None else (Asked(4, (built.flight_task,), 0.0),)
+    one = built(now) if in_actuate(now.ui) else None
+    return () if one is None or one.flight_task is None else (Asked(4, (one.flight_task,), 0.0),)
 
 
 def fly(now: Now, x: float) -> tuple[Effect, ...]:
     """The bar was moved: fly there, the voltages with it."""
-    built = now.of(Actuated).built
-    if built is None:
+    if (one := built(now)) is None:
         return ()
-    flown = min(max(float(x), 0.0), (len(built.legs) - 1) / HALVES)
-    mu, climb = condition_at(built.legs, flown)
+    flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
+    mu, climb = condition_at(one.legs, flown)
     drives = () if now.hand.stopped else _driven(now, flown)
     return SetHand({"flown": flown}), *drives, Drag(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
 
@@ -216,29 +209,32 @@ def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
-    built = None if now.hand.stopped else _on_stage(now)
-    if built is None or not isinstance(built.flight, ActuatorFlight):
-        return ()
-    return () if built.flight is now.memory.latest.get(_FLIGHT) else _driven(now, now.hand.flown)
+    one = None if now.hand.stopped else _on_stage(now)
+    come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
+    return _driven(now, now.hand.flown) if come else ()
+
+
+def _last(now: Now) -> ActuatorFlight | None:
+    return now.memory.latest.get(_FLIGHT)
 
 
 def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
-    """Voltages as the last flight has them there, with no flight none.
+    """Voltages as the last flight has them there; nothing where none is known.
 
     Fibres are laid the other way where the voltages of the flight oppose its twists.
     """
-    built = now.of(Actuated).built
-    if built is None or x is None:
+    if (one := built(now)) is None or x is None:
         return ()
-    flight = built.flight if isinstance(built.flight, ActuatorFlight) else now.memory.latest.get(_FLIGHT)
+    flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
         return ()
-    actuator, shares = built.installed.actuator, np.asarray(flight.swings, dtype=float)
+    actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
     changes: dict[str, Any] = {}
     if isinstance(actuator, PiezoPly):
         wanted, shares = shares, np.asarray(flight.voltages, dtype=float) / actuator.voltage_swing
-        changes["crossed"] = built.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
-    drives = [drive_of(actuator, float(np.interp(HALVES * x, np.arange(len(shares)), share))) for share in shares.T]
+        changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
+    legs = np.arange(len(shares))
+    drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
     return (SetActuator({**changes, "drives": (*drives, *(0.0,) * (MOST_SEGMENTS - len(drives)))}),)
 
 

@@ -15,7 +15,7 @@ from explorer.hosting.messages import SupposePress
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.text.readout import fuel_words, needs, needs_words
-from explorer.views.actuated import Actuated, in_actuate
+from explorer.views.actuated import built, in_actuate
 from explorer.views.now import Asked, Effect, Now, Panel, SetAddress, SetHand
 from explorer.workers.call import Call
 from rotor.actuator import BreakEven, Supposed, Verdict, break_even, pay_sentence, suppose
@@ -35,8 +35,8 @@ _STILL = 0.25
 
 def _line_asked(now: Now) -> Call | None:
     """None where the stage shows the balance of power, or the design carries no actuator."""
-    built = now.of(Actuated).built
-    return Call(break_even, (built.question.pair,)) if built is not None and now.hand.on_stage else None
+    one = built(now) if now.hand.on_stage else None
+    return None if one is None else Call(break_even, (one.question.pair,))
 
 
 def _line(now: Now) -> BreakEven | str | None:
@@ -46,11 +46,11 @@ def _line(now: Now) -> BreakEven | str | None:
 
 def _trim_asked(now: Now) -> Call | None:
     """Of the supposed actuator, once the line is known."""
-    even, built = _line(now), now.of(Actuated).built
-    if built is None or not isinstance(even, BreakEven) or not even.worthwhile:
+    even, one = _line(now), built(now)
+    if one is None or not isinstance(even, BreakEven) or not even.worthwhile:
         return None
     degrees, mass = _place(now, even)
-    return Call(suppose, (built.question.pair, even.rates_at(math.radians(degrees)), mass))
+    return Call(suppose, (one.question.pair, even.rates_at(math.radians(degrees)), mass))
 
 
 def _place(now: Now, even: BreakEven) -> tuple[float, float]:
@@ -65,8 +65,8 @@ def _place(now: Now, even: BreakEven) -> tuple[float, float]:
 
 def _verdicts(now: Now) -> list[Verdict]:
     """As far as there are any, the chosen actuator's first."""
-    built = now.of(Actuated).built
-    return [] if built is None else [one for one in built.outcomes.values() if isinstance(one, Verdict)]
+    outcomes = {} if (one := built(now)) is None else one.outcomes
+    return [outcome for outcome in outcomes.values() if isinstance(outcome, Verdict)]
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
