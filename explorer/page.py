@@ -249,12 +249,9 @@ class Page:
 
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
-        last, memory, tracker = self._now.state, self.follower.memory, self.context.tracker
+        tracker = self.context.tracker
         tracker.solved(state.inputs, state.solution.power.total, self._pause)
-        counted = memory.counted.then(state.solution, tracker.reference)
-        # What is known of one rotor says nothing of another.
-        same = last is not None and last.inputs.aircraft == state.inputs.aircraft
-        self.follower.memory = replace(memory, counted=counted, latest=memory.latest if same else {})
+        self.follower.memory = self.follower.memory.then(state, self._now.state, tracker.reference)
         self._now = replace(self._read(reading), state=state, problem="")
 
     def _read(self, reading: Reading) -> Now:

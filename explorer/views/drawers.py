@@ -30,14 +30,17 @@ def details(now: Now) -> dict[str, Any]:
 
 
 def trust(now: Now) -> dict[str, Any]:
-    """The status, what the doubt consists of, and what other models give."""
+    """The status, what the doubt consists of, and what other models give. While the design moves the rows of the step
+    before stay, greyed."""
     state, asked = now.state, doubted(now)
     if now.problem or state is None:
         return {"trust.status": status_panel(None, now.problem or None)}
     rows = Markup()
-    if asked and (found := now.answers.get(asked[0].key)) is not None:
-        models = now.answers.get(_models_asked(now)[0].calls[0])
+    found, current = now.latest(asked[0]) if asked else (None, True)
+    if found is not None:
+        models = now.answers.get(_models_asked(now)[0].calls[0]) if current else None
         rows = doubt_rows(found, now.units, models if isinstance(models, tuple) else ())
+        rows = rows if current else readout.faded(rows)
     return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
 
 

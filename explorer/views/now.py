@@ -1,7 +1,7 @@
 """What the panels are functions of, and what a panel is."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Protocol, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
@@ -86,6 +86,15 @@ class Memory:
     """Axes of charts, which hold as long as they serve."""
     latest: Mapping[str, Any] = field(default_factory=dict[str, Any])
     """The last result of the page's own work, by its name: it stands until that of the present design is known."""
+
+    def then(self, state: SessionState, last: SessionState | None, reference: float | None) -> "Memory":
+        """After a converged state and the `last` before it; `reference`: as in `Counted.then`.
+
+        What is known of one rotor says nothing of another.
+        """
+        same = last is not None and last.inputs.aircraft == state.inputs.aircraft
+        counted = self.counted.then(state.solution, reference)
+        return replace(self, counted=counted, latest=self.latest if same else {})
 
 
 @dataclass(frozen=True, eq=False)

@@ -100,10 +100,11 @@ class TestInset:
     def test_it_holds_the_flown_angles_and_those_at_three_quarters(self, fast: Solution):
         twist = flown_twist(fast, 1.0)
         made = inset(fast.design.rotor, twist, fast.design.twist, 4.0)
-        assert made["datum"] == pytest.approx(math.degrees(float(twist([0.75])[0])), abs=0.006)
-        assert made["ghost_datum"] == pytest.approx(0.0, abs=0.006)
-        tip = made["cuts"][-1]
-        assert tip["theta"] - tip["ghost"] == pytest.approx(
+        assert made.datum == pytest.approx(math.degrees(float(twist([0.75])[0])), abs=0.006)
+        assert made.ghost_datum == pytest.approx(0.0, abs=0.006)
+        tip = made.cuts[-1]
+        assert tip.ghost is not None
+        assert tip.theta - tip.ghost == pytest.approx(
             math.degrees(float(twist([1.0])[0] - fast.design.twist([1.0])[0])), abs=0.011
         )
 

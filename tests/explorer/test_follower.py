@@ -1,7 +1,7 @@
 """Panels on their way to a page, without one: asked, viewed, sent and pressed."""
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,7 +10,7 @@ import pytest
 from explorer.model.inputs import OPENING
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.follower import Follower
-from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put, Ui
+from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put, Tell, Ui
 from explorer.workers.call import Call
 
 NOW = Now(OPENING, None, None)
@@ -96,3 +96,85 @@ def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypa
     monkeypatch.setattr("explorer.tabs.follower.all_known", lambda: {LENGTH: 4})
     assert page.follower.answers()[LENGTH] == 4
     page.follower.stop()
+
+
+@dataclass(frozen=True)
+class Counting:
+    """Work of three steps, each of which is written down."""
+
+    name: str
+    of: float
+    soon: bool
+    steps: list[str]
+
+    @property
+    def key(self) -> tuple[str, float]:
+        return self.name, self.of
+
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> float | None:
+        while sum(step == self.name for step in self.steps) < 3:
+            if superseded():
+                return None
+            self.steps.append(self.name)
+            tell()
+        return self.of
+
+
+class TestWork:
+    @pytest.fixture
+    def steps(self) -> list[str]:
+        return []
+
+    @pytest.fixture
+    def page(self, steps: list[str]) -> Page:
+        """Of two panels: one whose work comes late, one in a drawer, whose work comes soon."""
+
+        def panel(name: str, soon: bool, seen: Callable[[Ui], bool] = lambda ui: True) -> Panel:
+            def works(now: Now) -> tuple[Counting, ...]:
+                return (Counting(name, now.inputs.advance_ratio, soon, steps),)
+
+            def view(now: Now) -> Mapping[str, Any]:
+                (asked,) = works(now)
+                return {name: (*now.latest(asked), steps.count(name))}
+
+            return Panel(view, seen, works=works)
+
+        page = Page(panel("strip", False), panel("power", True, lambda ui: ui.drawer == "details"))
+        page.now = replace(NOW, ui=Ui(drawer="details"))
+        follower = page.follower
+        follower._now = lambda: replace(page.now, memory=follower.memory, answers=follower.answers())
+        return page
+
+    def test_what_comes_soon_comes_first_and_every_step_is_shown(self, page: Page, steps: list[str]):
+        page.follower.work(lambda: False, soon=True)
+        assert steps == ["power"] * 3
+        page.follower.work(lambda: False, soon=False)
+        assert steps == ["power"] * 3 + ["strip"] * 3
+        mu = OPENING.advance_ratio
+        told = [(None, False, 1), (None, False, 2), (None, False, 3), (mu, True, 3)]
+        assert page.sent == [{name: value} for name in ("power", "strip") for value in told]
+
+    def test_of_a_panel_that_is_not_seen_nothing_is_done(self, page: Page, steps: list[str]):
+        page.now = NOW
+        page.follower.work(lambda: False, soon=True)
+        assert steps == []
+
+    def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: Page, steps: list[str]):
+        asked = iter([False, True])
+        page.follower.work(lambda: next(asked), soon=True)
+        assert steps == ["power"]
+        for _ in range(2):
+            page.follower.work(lambda: False, soon=True)
+            assert steps == ["power"] * 3
+
+    def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(self, page: Page, steps: list[str]):
+        page.follower.work(lambda: False, soon=True)
+        at = "power", OPENING.advance_ratio
+        assert page.follower.answers()[at] == OPENING.advance_ratio
+        page.now = replace(page.now, inputs=replace(OPENING, advance_ratio=0.1))
+        page.follower.work(lambda: True, soon=False)
+        assert at not in page.follower.answers()
+        (asked,) = page.follower._panels[1].works(page.follower._now())
+        assert page.follower._now().latest(asked) == (OPENING.advance_ratio, False)
+        page.follower.work(lambda: False, soon=True)
+        assert page.follower._now().latest(asked) == (0.1, True)

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from fake_bridge import Bridge
+from hypothesis import given
+from hypothesis import strategies as st
 
 from explorer.model.inputs import Inputs
 from explorer.model.sliders import (
@@ -118,10 +120,21 @@ class TestSliding:
         assert slid(three, second, 1.2).three_second == limits("three_second")[1]
 
 
-def grab_at(r: float) -> Grab:
-    grab = begin(TWO, r)
+def grab_at(r: float, inputs: Inputs = TWO) -> Grab:
+    grab = begin(inputs, r)
     assert grab is not None
     return grab
+
+
+def seen_at(grab: Grab, turn: float) -> tuple[float, float, float]:
+    """Turn that the sliders reach, power there, and its exact slope."""
+    inputs = turned(grab.inputs, grab.station, turn)
+    solution = solve(inputs.design())
+    slopes = {name: one.slope for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()}
+    reached, slope = grab.turn_to(inputs), grab.power_slope(slopes)
+    assert reached is not None
+    assert slope is not None
+    return reached, solution.power.total, slope
 
 
 class TestGrab:
@@ -154,6 +167,28 @@ class TestBestTurn:
         assert BestTurn().with_turn(0.0, 0.0, 100.0).with_turn(1.0, 75.0, 50.0).turn is None
         assert BestTurn().with_turn(0.0, 0.0, -100.0).with_turn(1.0, -99.5, -99.0).power is None
 
+    @given(st.floats(-6.0, 6.0), st.floats(10.0, 500.0), st.floats(0.2, 5.0), st.sampled_from((-1.0, 1.0)))
+    def test_powers_of_a_parabola_foresee_it_as_its_slopes_do(self, least: float, curve: float, far: float, way: float):
+        """The slope is known where the station was taken alone."""
+
+        def power(turn: float) -> float:
+            return 9e5 + curve * (turn - least) ** 2
+
+        taken = BestTurn().with_turn(0.0, power(0.0), -2.0 * curve * least)
+        best = taken.with_power(way * far, power(way * far))
+        assert best.turn == pytest.approx(least, abs=1e-4)
+        assert best.power == pytest.approx(9e5, abs=1e-2)
+        assert BestTurn().with_power(far, power(far)).turn is None  # No slope is known yet.
+        assert best.with_power(0.05, power(0.05)).turn is None  # Too near to tell.
+
+    @pytest.mark.parametrize("turn", [2.0, 4.0])
+    def test_powers_foresee_the_best_twist_of_the_tip_as_exact_slopes_do(self, turn: float):
+        grab = grab_at(1.0, Inputs(law="builtin"))
+        taken, (reached, power, slope) = BestTurn().with_turn(*seen_at(grab, 0.0)), seen_at(grab, turn)
+        exact, foreseen = taken.with_turn(reached, power, slope).turn, taken.with_power(reached, power).turn
+        assert exact is not None
+        assert foreseen == pytest.approx(exact, abs=0.3)
+
     def test_the_station_is_held_about_the_best_turn_and_goes_on_beyond(self):
         grab, best = grab_at(0.97), 2.0
         near = [grab.turned(best + off, best) for off in (-0.3, 0.0, 0.3)]
@@ -166,31 +201,21 @@ class TestBestTurn:
     def test_the_foreseen_turn_is_the_least_power_of_all_turns(self, r: float):
         """Slopes are the exact ones of the sliders; the minimum is looked for by trims on both sides of it."""
         grab = grab_at(r)
-
-        def power_and_slope(turn: float) -> tuple[float, float, float]:
-            inputs = turned(grab.inputs, grab.station, turn)
-            solution = solve(inputs.design())
-            slopes = {name: one.slope for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()}
-            reached, slope = grab.turn_to(inputs), grab.power_slope(slopes)
-            assert reached is not None
-            assert slope is not None
-            return reached, solution.power.total, slope
-
-        (t0, p0, s0), (t1, p1, s1) = power_and_slope(0.0), power_and_slope(0.4)
+        (t0, p0, s0), (t1, p1, s1) = seen_at(grab, 0.0), seen_at(grab, 0.4)
         assert p1 - p0 == pytest.approx(0.5 * (s0 + s1) * (t1 - t0), rel=0.1)
         best = BestTurn().with_turn(t0, p0, s0).with_turn(t1, p1, s1)
         reached = t1
         for _ in range(3):
             if best.turn is None:
                 return  # The least power lies beyond what can be foreseen from here.
-            reached, power, slope = power_and_slope(best.turn)
+            reached, power, slope = seen_at(grab, best.turn)
             best = best.with_turn(reached, power, slope)
         assert best.turn is not None
         if reached == pytest.approx(best.turn, abs=0.1):  # Else a slider has ended.
-            least = power_and_slope(best.turn)[1]
+            least = seen_at(grab, best.turn)[1]
             assert best.power == pytest.approx(least, rel=2e-4)
-            assert least < power_and_slope(best.turn - 1.0)[1]
-            assert least < power_and_slope(best.turn + 1.0)[1]
+            assert least < seen_at(grab, best.turn - 1.0)[1]
+            assert least < seen_at(grab, best.turn + 1.0)[1]
 
 
 class TestUndo:
@@ -237,15 +262,17 @@ class TestTwistCurve:
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         for turn, power, slope in ((0.0, 1225.0, -300.0), (0.5, 1100.0, -200.0)):
             editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
-        best = editor.best
+        assert editor.held is not None
+        best = editor.held.best
         assert best is not None
-        assert best["theta"] == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
-        assert best["power"] == pytest.approx(1000.0)
-        assert not best["held"]
-        bridge.press("knot", ["2", [None, best["theta"] + 0.1]])
+        assert best.theta == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
+        assert best.power == pytest.approx(1000.0)
+        assert not best.held
+        bridge.press("knot", ["2", [None, best.theta + 0.1]])
         assert now[0] == turned(TWO, stations(TWO)[2], 1.5)
-        assert editor.best is not None
-        assert editor.best["held"]
+        assert editor.held is not None
+        assert editor.held.best is not None
+        assert editor.held.best.held
         bridge.press("knot", ["2", "end"])
         assert bridge.state["rubber"] is None
         assert took == [True, False]
@@ -271,7 +298,8 @@ class TestTwistCurve:
         for turn in (0.0, 1.0):
             power, slope = (turn - end - 1.0) ** 2, 2.0 * (turn - end - 1.0)
             editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
-        assert editor.best is None
+        assert editor.held is not None
+        assert editor.held.best is None
 
     def test_escape_brings_back_the_law_that_was_there(self):
         ideal = replace(TWO, law="ideal")
@@ -286,13 +314,14 @@ class TestTwistCurve:
         editor, bridge, now, took = editor_of(Inputs(law="two"))
         drag = partial(bridge.press, "knot")
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
-        assert editor.place == ""
+        assert editor.held is None
         drag(["2", "start"])
         before = now[0]
         drag(["2", [1.0, 2.0]])
         assert now[0].two_outer > before.two_outer
-        assert editor.place == place_of(now[0], stations(now[0])[2])
-        assert editor.place.startswith("tip 1.00 R · θ ")
+        assert editor.held is not None
+        assert editor.held.place == place_of(now[0], stations(now[0])[2])
+        assert editor.held.place.startswith("tip 1.00 R · θ ")
         drag(["2", "end"])
-        assert editor.place == ""
+        assert editor.held is None
         assert took == [True, False]

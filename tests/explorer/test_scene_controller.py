@@ -51,7 +51,8 @@ class Page:
         )
         self.shown = Shown()
         display: Any = self.shown
-        self.controller = SceneController(client, ROTOR, display)
+        camera: Any = SimpleNamespace(follow=lambda tilt: None)
+        self.controller = SceneController(client, camera, ROTOR, display)
         self._nodes = server.scene._handle_from_node_name
 
     def __getitem__(self, name: str) -> Any:

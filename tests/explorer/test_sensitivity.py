@@ -15,7 +15,7 @@ from explorer.model.sliders import (
     twist_sensitivities,
 )
 from explorer.model.units import AVIATION, SI
-from explorer.tabs.results import sensitivity_row
+from explorer.views.worth import worth_row
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 
@@ -82,24 +82,24 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     inputs = Inputs(law="builtin")
     solution = solve(inputs.design()).require()
     found = flight_sensitivities(solution)
-    faster = sensitivity_row(inputs, found["advance_ratio"], SI)
+    faster = worth_row(inputs, found["advance_ratio"], SI)
     assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
-    assert (faster["value"][0], faster["way"], faster["unit"]) == ("+", "down", "kW/0.01")
-    assert faster["sentence"] == (
-        f"Adv. ratio µ: 0.01 more changes power by {faster['value']} kW. A lower value saves power."
+    assert (faster.value[0], faster.way, faster.unit) == ("+", "down", "kW/0.01")
+    assert faster.sentence == (
+        f"Adv. ratio µ: 0.01 more changes power by {faster.value} kW. A lower value saves power."
     )
-    twist = sensitivity_row(inputs, SliderSensitivity("built_outer", -900.0), SI)
-    assert (twist["value"], twist["way"], twist["unit"]) == ("−0.9", "up", "kW per °/R")
-    bent = sensitivity_row(replace(inputs, law="quadratic"), SliderSensitivity("quadratic_curvature", -900.0), SI)
-    assert bent["unit"] == "kW per °/R²"
-    assert "1°/R more changes power by −0.9 kW. A higher value saves power." in twist["sentence"]
-    climb = sensitivity_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
-    assert "100 ft/min more changes power by +" in climb["sentence"]
+    twist = worth_row(inputs, SliderSensitivity("built_outer", -900.0), SI)
+    assert (twist.value, twist.way, twist.unit) == ("−0.9", "up", "kW per °/R")
+    bent = worth_row(replace(inputs, law="quadratic"), SliderSensitivity("quadratic_curvature", -900.0), SI)
+    assert bent.unit == "kW per °/R²"
+    assert "1°/R more changes power by −0.9 kW. A higher value saves power." in twist.sentence
+    climb = worth_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
+    assert "100 ft/min more changes power by +" in climb.sentence
     changed = replace(inputs, built_outer=-1.0)
     for now, words in ((inputs, "no effect without a change of twist"), (changed, "no effect")):
-        nothing = sensitivity_row(now, SliderSensitivity("built_division", 0.0), SI)
-        assert (nothing["value"], nothing["way"]) == (words, "")
-    sizes = [sensitivity_row(inputs, SliderSensitivity("mass_t", slope), SI)["size"] for slope in (3e4, 9e4, 9e5)]
+        nothing = worth_row(now, SliderSensitivity("built_division", 0.0), SI)
+        assert (nothing.value, nothing.way) == (words, "")
+    sizes = [worth_row(inputs, SliderSensitivity("mass_t", slope), SI).size for slope in (3e4, 9e4, 9e5)]
     assert sizes == sorted(set(sizes))  # A larger change has a longer arrow.
     assert sizes[-1] < 1.0
 

@@ -1,17 +1,17 @@
-"""The waterfall on the page: the drawing adds up, and it is computed only when the page rests."""
+"""The waterfall on the page: its rows add up, and it goes on where it was interrupted."""
 
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
-import viser
 
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
-from explorer.tabs.waterfall import WaterfallPanel, _cost, waterfall_chart
+from explorer.views.now import Now
+from explorer.views.waterfall import cost_words, steps_asked, waterfall_chart
+from explorer.views.waterfall import waterfall as shown
 from rotor.aero.switches import SWITCHES
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -48,7 +48,7 @@ class TestDrawing:
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)
-        assert any("hover is the same at every azimuth" in _cost(step, SI) for step in steps.alone)
+        assert any("hover is the same at every azimuth" in cost_words(step, SI) for step in steps.alone)
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")
@@ -56,45 +56,45 @@ class TestDrawing:
         svg = waterfall_chart(steps)
         assert "has no trim" in svg
         assert "Too &lt;heavy&gt;." in svg
-        assert _cost(steps[1], SI) == "does not trim without it"
+        assert cost_words(steps[1], SI) == "does not trim without it"
 
 
-class TestPanel:
-    @pytest.fixture
-    def panel(self, server: viser.ViserServer) -> WaterfallPanel:
-        self.costs: dict[str, str] = {}
-        context: Any = SimpleNamespace(gui=server.gui, controls=SimpleNamespace(show_costs=self.costs.update))
-        return WaterfallPanel(context)
+def now_at(mu: float) -> Now:
+    solution = solve(coarse(mu))
+    return Now(Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None))
 
-    def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):
-        solution = solve(coarse(0.2))
-        state = SessionState(Inputs(), ViewState(), solution, solution, None, None)
-        panel.solve_steps(lambda: False)  # Before there is an answer.
-        panel.show(state)
-        assert "Computing" in panel._chart.content
-        panel.solve_steps(lambda: True)
-        assert panel._steps == []
-        asked = iter([False, False, True])
-        panel.solve_steps(lambda: next(asked))
-        assert len(panel._steps) == 2
-        assert "Computing" in panel._chart.content  # Whole, or not at all: it would grow under the eyes.
-        panel.solve_steps(lambda: False)  # Goes on where it was interrupted.
-        assert len(panel._steps) == 2 * len(SWITCHES) + 1
-        assert "All switched on" in panel._chart.content
-        assert re.fullmatch(r"[+−]\d+\.\d kW here", self.costs["compressibility"])
-        steps = panel._steps
-        panel.show(replace(state, view=ViewState(azimuth_deg=90.0)))  # The azimuth does not start it again.
-        assert panel._steps is steps
-        assert "rx-faded" not in panel._chart.content
 
-    def test_a_new_design_fades_the_old_answer_once(self, panel: WaterfallPanel):
-        for mu in (0.1, 0.2, 0.3):
-            solution = solve(coarse(mu))
-            panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
-            if mu == 0.1:
-                panel.solve_steps(lambda: False)
-        assert panel._chart.content.count("rx-faded") == 1
-        assert panel._steps == []
+def test_what_was_interrupted_goes_on_and_it_is_shown_whole_or_not_at_all():
+    now = now_at(0.2)
+    (work,) = steps_asked(now)
+    assert "Computing" in shown(now)["details.waterfall"]
+    asked = iter([False, False, True])
+    assert work.run(lambda: next(asked), lambda: None) is None
+    assert len(work._found) == 2
+    steps = work.run(lambda: False, lambda: None)
+    assert steps is not None
+    assert len(steps) == 2 * len(SWITCHES) + 1
+    known = replace(now, answers={work.key: steps}, memory=replace(now.memory, latest={work.name: steps}))
+    drawn = shown(known)
+    assert "All switched on" in drawn["details.waterfall"]
+    assert "rx-faded" not in drawn["details.waterfall"]
+    assert re.fullmatch(r"[+−]\d+\.\d kW here", drawn["switch.costs"]["compressibility"])
+    assert "[hp]" in shown(in_units(known))["details.waterfall"]
+    for other in (replace(now_at(0.3), memory=known.memory), replace(known, problem="No trim.")):
+        stale = shown(other)["details.waterfall"]
+        assert stale.count("rx-faded") == 1
+        assert drawn["details.waterfall"] in stale
+    assert [one.key for one in steps_asked(turned(known))] == [work.key]
+
+
+def turned(now: Now) -> Now:
+    assert now.state is not None
+    return replace(now, state=replace(now.state, view=ViewState(azimuth_deg=90.0)))
+
+
+def in_units(now: Now) -> Now:
+    assert now.state is not None
+    return replace(now, state=replace(now.state, view=ViewState(units="Aviation")))
 
 
 def test_in_descent_the_bars_of_what_needs_power_fit_and_the_climb_has_its_colour():

@@ -1,0 +1,218 @@
+"""Panels as functions of what is known now, without a page."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import msgspec
+import pytest
+
+from explorer.charts.plots import PowerCurves
+from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of, preset_inflow, with_rotor
+from explorer.model.session_state import Pinned, SessionState
+from explorer.model.stand import StandInputs
+from explorer.model.units import AVIATION
+from explorer.page import PANELS
+from explorer.parts import Parts
+from explorer.parts.results import Best, Sureness
+from explorer.views.drawers import DETAILS, TRUST
+from explorer.views.inset import blade_inset
+from explorer.views.now import Counted, HeldStation, Now, Panel, Ui, Work
+from explorer.views.power import hand, power_card, sureness
+from explorer.views.strip import remember_ranges, strip
+from explorer.views.worth import slopes_asked, twist_slopes, worth
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+CHANGED = replace(OPENING, built_outer=-2.0)
+THESIS = Inputs(preset="thesis", **preset_inflow("thesis"))
+STAND = with_rotor(OPENING, "xv15")
+FREE = replace(OPENING, inflow="uniform", stand=StandInputs("free-rotor", tip_mach=0.6))
+SENTENCE = "The rotor is too heavy. The nearest trim found is at 9 t."
+
+
+@cache
+def solved(inputs: Inputs) -> Solution:
+    return solve(inputs.design()).require()
+
+
+def now_at(inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: str = "") -> Now:
+    """What a page knows of these inputs once it rests, but for the answers; `a`: is pinned."""
+    solution, pin = solved(inputs), None if a is None else Pinned(a, solved(a))
+    state = SessionState(inputs, ViewState(units=units), solution, solve(baseline_of(solution.design)), None, pin)
+    state = state if pin is None else replace(state, pinned=pin.solution)
+    curve = PowerCurves().known(solution.design, state.reference.design)
+    return Now(inputs, solution.design, state, ui=Ui(drawer=drawer), curve=curve)
+
+
+def known(now: Now, *works: Work) -> Now:
+    """With the results of works, which are remembered."""
+    results = {work: work.run(lambda: False, lambda: None) for work in works}
+    latest = {work.name: result for work, result in results.items()}
+    answers = {**now.answers, **{work.key: result for work, result in results.items()}}
+    return replace(now, answers=answers, memory=replace(now.memory, latest={**now.memory.latest, **latest}))
+
+
+def soon(now: Now) -> Now:
+    """A moment after it began to rest."""
+    works = {work.key: work for panel in PANELS for work in panel.works(now) if work.soon}
+    return known(now, *works.values())
+
+
+def moved(before: Now, inputs: Inputs, pin: Inputs | None = None) -> Now:
+    """One step of a drag later."""
+    now = now_at(inputs, pin)
+    assert now.state is not None
+    return replace(now, memory=before.memory.then(now.state, before.state, None))
+
+
+STATES: Mapping[str, Any] = {
+    "before the first": lambda: Now(OPENING, OPENING.design(), None),
+    "no first trim": lambda: Now(OPENING, None, None, problem=SENTENCE),
+    "opening": lambda: now_at(OPENING),
+    "at rest": lambda: soon(now_at(CHANGED)),
+    "dragged": lambda: moved(soon(now_at(OPENING)), CHANGED),
+    "held": lambda: replace(soon(now_at(CHANGED)), station=HeldStation("tip", Best(3.0, 9e5, held=False)), change=-2e3),
+    "A": lambda: soon(now_at(CHANGED, OPENING)),
+    "units": lambda: soon(now_at(CHANGED, units="Aviation")),
+    "no trim": lambda: replace(soon(now_at(CHANGED)), problem=SENTENCE),
+    "rigid": lambda: soon(now_at(THESIS)),
+    "free rotor": lambda: soon(now_at(FREE)),
+    "stand": lambda: soon(now_at(STAND)),
+    "drawer": lambda: soon(now_at(CHANGED, drawer="trust")),
+}
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_a_panel_shows_the_same_of_what_is_the_same(name: str):
+    """Whatever was shown before; each name belongs to one panel; what is sent is JSON."""
+    one, other, shown = STATES[name](), STATES[name](), list[str]()
+    for panel in PANELS:
+        first = panel.view(one)
+        assert [work.key for work in panel.works(one)] == [work.key for work in panel.works(other)]
+        assert panel.asks(one) == panel.asks(other)
+        assert first == panel.view(one) == panel.view(other)
+        parts = {part: value for part, value in first.items() if part in Parts.__annotations__}
+        assert all("." in text for text in first.keys() - parts.keys())
+        msgspec.json.encode(parts)
+        shown += first
+    assert len(shown) == len(set(shown))
+
+
+def test_drawers_that_are_closed_are_not_viewed():
+    def opened(drawer: str) -> list[Panel]:
+        return [panel for panel in (DETAILS, TRUST) if panel.seen(Ui(drawer=drawer))]
+
+    assert (opened(""), opened("details"), opened("trust")) == ([], [DETAILS], [TRUST])
+
+
+class TestWhileADragGoesOn:
+    @pytest.fixture
+    def rest(self) -> Now:
+        return soon(now_at(replace(OPENING, built_outer=-4.0)))
+
+    def test_the_band_of_the_step_before_stays_and_the_sign_is_not_told(self, rest: Now):
+        before, during = sureness(rest), sureness(moved(rest, CHANGED))
+        assert before.within.startswith("± ")
+        assert before.sure != ""
+        assert during == Sureness(before.within, doubt=before.doubt)
+        after = sureness(soon(moved(rest, CHANGED)))
+        assert after.sure != ""
+        assert after.change_within not in ("", before.change_within)
+
+    def test_so_do_the_rows_of_the_doubt_greyed(self, rest: Now):
+        assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
+        during = TRUST.view(moved(rest, CHANGED))["trust.doubts"]
+        assert during.count("rx-faded") == 1
+        assert TRUST.view(rest)["trust.doubts"] in during
+
+    def test_slopes_are_stale_until_it_rests(self, rest: Now):
+        rows, during = worth(rest)["worth"], moved(rest, CHANGED)
+        assert {row.stale for row in rows.values()} == {False}
+        assert twist_slopes(rest).keys() == rows.keys()
+        assert {row.stale for row in worth(during)["worth"].values()} == {True}
+        assert twist_slopes(during) == {}  # The foreseen best twist takes none that are of another design.
+        after = worth(soon(during))["worth"]
+        assert {row.stale for row in after.values()} == {False}
+        assert after != rows
+
+    def test_slopes_of_the_flight_stay_stale_until_they_are_known(self):
+        inputs = replace(OPENING, inflow="uniform")
+        rest = known(now_at(inputs), *slopes_asked(now_at(inputs)))
+        during = soon(moved(rest, replace(inputs, mass_t=8.5)))
+        rows = worth(during)["worth"]
+        assert {name: row.stale for name, row in rows.items()}["mass_t"]
+        assert not rows["built_outer"].stale
+
+    def test_another_rotor_forgets_them(self, rest: Now):
+        other = moved(rest, with_rotor(OPENING, "bo105"))
+        assert (sureness(other), worth(other)["worth"]) == (Sureness(), {})
+        assert TRUST.view(other)["trust.doubts"] == ""
+
+
+def test_axes_hold_while_the_data_fit():
+    now = now_at(CHANGED)
+    (axis,) = [one.chart.y.range for one in strip(now)["strip"] if one.name == "alpha"]
+    low, high = axis
+    wide = replace(now, memory=replace(now.memory, ranges={"alpha": (low - 1.0, high + 1.0)}))
+    held = replace(wide, memory=remember_ranges(wide, strip(wide)))
+    assert held.memory.ranges["alpha"] == (low - 1.0, high + 1.0)
+    assert held.memory.ranges.keys() == {"power-change", "alpha", "lift"}
+    left = replace(now, memory=replace(now.memory, ranges={"alpha": (low + 5.0, high + 9.0)}))
+    assert remember_ranges(left, strip(left)).ranges["alpha"] == axis
+
+
+def test_the_change_counts_from_the_solution_before_the_grab():
+    solutions = [solved(replace(OPENING, built_outer=outer)) for outer in (-1.0, -3.0, -2.0)]
+    first, _, third = (solution.power.total for solution in solutions)
+    counted = Counted().then(solutions[0], None)
+    assert counted.before is None
+    for solution in solutions[1:]:  # Taken after the first.
+        counted = counted.then(solution, first)
+        assert counted.before is solutions[0]
+    assert counted.then(solutions[0], third).before is solutions[2]
+    assert counted.then(solutions[2], third).before is solutions[2]  # The grab began when it was already known.
+    now = now_at(CHANGED)
+    now = replace(now, change=third - first, memory=replace(now.memory, counted=counted))
+    card = power_card(now)["power"]
+    assert (card.since.words, card.since.kind) == ("since grabbed", "bad")
+    assert card.why != power_card(replace(now, change=None))["power"].why
+
+
+class TestWithoutATrim:
+    def test_the_last_numbers_stay_greyed_beside_the_sentence(self):
+        good, card = soon(now_at(CHANGED)), power_card(soon(now_at(CHANGED)))["power"]
+        lost = replace(good, problem=SENTENCE)
+        found = power_card(lost)["power"]
+        assert found.problem == "The rotor is too heavy. Greyed: last converged solution."
+        assert (found.status.words, found.status.title) == ("no trim", SENTENCE)
+        assert replace(found, problem="", status=card.status) == card
+        assert {one.faded for one in strip(lost)["strip"]} == {True}
+        assert {one.faded for one in strip(good)["strip"]} == {False}
+        assert worth(lost)["worth"] == {}
+        for name, table in DETAILS.view(lost).items():
+            assert "rx-faded" in table
+            assert DETAILS.view(good)[name] in table
+        assert SENTENCE in TRUST.view(lost)["trust.status"]
+        assert "trust.doubts" not in TRUST.view(lost)
+        assert blade_inset(lost) == blade_inset(good)
+
+    def test_before_the_first_there_are_none(self):
+        card = power_card(Now(OPENING, None, None, problem=SENTENCE))["power"]
+        assert (card.total, card.parts, card.status.kind) == ("–", (), "problem")
+
+
+def test_a_free_rotor_has_neither_doubt_nor_slopes():
+    now = now_at(FREE)
+    assert (sureness(now), worth(now)["worth"], slopes_asked(now)) == (Sureness(), {}, ())
+
+
+def test_in_the_hand_power_has_the_unit_of_the_page():
+    now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", Best(3.0, 745699.872, held=True)))
+    shown = hand(replace(now, change=-74569.9872))["hand"]
+    assert now.state is not None
+    assert shown.now == pytest.approx(AVIATION.power[0].of(now.state.solution.power.total), abs=0.01)
+    assert (shown.before, shown.kind) == (pytest.approx(shown.now + 100.0, abs=0.02), "good")
+    assert (shown.best.power, shown.place, shown.rival) == (1000.0, "tip", None)
+    assert hand(replace(now, station=None)) == {"hand": None}
