@@ -171,3 +171,26 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
             assert (page.pin.inputs.built_inner, page.controls.inputs().built_inner) == (a, b)
 
     visited(app, swap)
+
+
+def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
+    async def load(visitor: Visitor, page: Page) -> None:
+        await visitor.press("pin")
+        await visitor.move(BEGUN, -3.0)
+        await visitor.idle(wholly=False)
+        shown = visitor.frame["power"]["total"]
+        again = visitor.again()
+        await again.open(app.address)
+        await again.until(lambda: again.text("status") == "converged")
+        await again.idle(wholly=False)
+        loaded = app.sessions[-1].page
+        assert loaded is not page
+        assert loaded.controls.inputs() == page.controls.inputs()
+        assert again.frame["power"]["total"] == shown
+        assert again.frame["bar"]["pinned"]
+        await again.press("undo")
+        await again.idle(wholly=False)
+        assert loaded.controls.inputs() == OPENING
+        await again.close()
+
+    visited(app, load)
