@@ -141,7 +141,7 @@ class Page:
         self.follower = Follower(
             PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
         )
-        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
+        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here, FLIGHT.seen))
         following = self.top, self.probe, settings, self.history, self.file
         self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from explorer.hosting.browser import Bridge
 from explorer.tabs.background import PoolAnswers, all_known
-from explorer.views.now import Asked, Effect, Grab, Memory, Now, Panel, Press, Work
+from explorer.views.now import Asked, Effect, Grab, Memory, Now, Panel, Press, Ui, Work
 from rotor.processes import Processes
 
 _NOTHING = object()
@@ -44,7 +44,7 @@ class Follower:
         """Of inputs and hand, when each was followed last."""
         for panel in self._panels:
             for name, press in panel.presses.items():
-                bridge.on(name, partial(self.press, press))
+                bridge.on(name, partial(self.press, press, panel.seen))
 
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not; and the page's own results."""
@@ -112,9 +112,10 @@ class Follower:
             one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
             queue.ask(one.calls, one.delay, moved)
 
-    def press(self, press: Press, value: Any) -> None:
-        """Do what it says; of a widget too."""
+    def press(self, press: Press, seen: Callable[[Ui], bool], value: Any) -> None:
+        """Do what it says, where its panel is seen; of a widget too."""
         now = self._pressed()
+        free = seen(now.ui) and not now.ui.held
         for effect in press(now, value):
-            if not now.ui.held or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.
+            if free or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.
                 self._perform(effect)

@@ -238,7 +238,7 @@ class Panel:
     view: Callable[[Now], Mapping[str, Any]]
     """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
     seen: Callable[[Ui], bool] = lambda ui: True
-    """Where it is not, nothing is asked, worked out or viewed."""
+    """Where it is not, nothing is asked, worked out, viewed or pressed."""
     asks: Callable[[Now], tuple[Asked, ...]] = lambda now: ()
     works: Callable[[Now], Sequence[Work]] = lambda now: ()
     turns: bool = False
@@ -248,4 +248,4 @@ class Panel:
     reacts: Callable[[Now], tuple[Effect, ...]] = lambda now: ()
     """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
-    """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""
+    """By name in `messages.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""

@@ -9,7 +9,7 @@ from explorer.app import App
 from explorer.session import Session
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
-from tests.explorer.test_leaving import searching, send
+from tests.explorer.test_leaving import searching
 from tests.tools.visitor import Visitor, ran
 
 PATIENCE = 900.0
@@ -28,16 +28,16 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
     """Drag, and now and then search, or open what the doubt consists of, which needs the gradient."""
     await visitor.open(app.address)
     await visitor.until(lambda: visitor.text("status") == "converged", PATIENCE)
-    await send(visitor, "more", "on")
+    await visitor.press("more", "on")
     await visitor.until(lambda: visitor.shows("Altitude [m]"), PATIENCE)
     end, step = time.monotonic() + seconds, 0
     while step == 0 or time.monotonic() < end:
         if step % 40 == 0 and k % 5 == 0:
             await searching(visitor, PATIENCE)
-            await send(visitor, "halt")
-            await send(visitor, "discard")
+            await visitor.press("halt")
+            await visitor.press("discard")
         elif step % 40 == 0 and k % 5 == 1:
-            await send(visitor, "drawer", "trust")
+            await visitor.press("drawer", "trust")
         await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
         await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
         await asyncio.sleep(0.15)

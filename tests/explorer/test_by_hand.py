@@ -105,10 +105,9 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
-    view, actuator = page.display.view(), page.actuator
-    place, drives = actuator.pay.on_stage, actuator.inputs().drives
-    return (page.controls.inputs(), page.pin, page.optimise.run, page.rival.solution, place, drives, view.field,
-            view.difference, page.lecture.place)  # fmt: skip
+    view, hand = page.display.view(), page.actuator.hand()
+    return (page.controls.inputs(), page.pin, page.optimise.run, page.rival.solution, hand.on_stage,
+            hand.actuator.drives, view.field, view.difference, page.lecture.place)  # fmt: skip
 
 
 def test_no_press_changes_a_page_that_a_presenter_holds(app: App):
