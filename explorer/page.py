@@ -12,11 +12,13 @@ from functools import partial
 import viser
 
 from explorer.charts.plots import PowerCurve
-from explorer.hosting.browser import set_query
-from explorer.hosting.messages import PageFacts
+from explorer.hosting.browser import Bridge, set_query
+from explorer.hosting.messages import IdlePress, PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
+from explorer.model.undo import PowerTracker
+from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import ghost_of
@@ -24,29 +26,41 @@ from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.per_rev import TwistDial
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
+from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Layout, Sections
+from explorer.tabs.layout import Keyboard, Layout, Sections, by_hand
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import ResultsPanel
+from explorer.tabs.results import drawer_texts
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
-from explorer.tabs.waterfall import WaterfallPanel
+from explorer.views.actuator import ACTUATOR
+from explorer.views.dial import DIAL
+from explorer.views.drawers import DETAILS, TRUST
+from explorer.views.flight import FLIGHT, stop_here
+from explorer.views.inset import INSET
+from explorer.views.notice import NOTICE
+from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
+from explorer.views.pay import PAY
+from explorer.views.power import HAND, POWER
+from explorer.views.strip import STRIP
+from explorer.views.waterfall import WATERFALL
+from explorer.views.worth import WORTH, twist_slopes
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
+PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, ACTUATOR, FLIGHT, PAY, DIAL)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
@@ -72,20 +86,24 @@ class Page:
         self._pause, self._touched = 0.0, False
         self._theme()
         client.gui.set_panel_label("Rotor explorer")
-        context = self.context = TabContext(client, shared.pool, callbacks)
-        bridge = context.bridge
-        self._presence = Presence(context, shared.presentations, address, facts.kept.get(PRESENT, ""), facts.page)
-        layout = context.layout = self.layout = Layout(client.gui, bridge)
+        bridge, tracker = Bridge(client), PowerTracker()
+        keyboard = Keyboard(client, bridge)
+        banner = client.gui.add_folder(None)
+        layout = self.layout = Layout(client.gui, bridge)
         layout.watchers.append(callbacks.wake)
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
-        context.display = self.display
         with layout.in_mode("explore"):
-            self.controls = DesignControls(client.gui, bridge, start, context.tracker, callbacks)
-            context.controls = self.controls
+            self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
+        context = self.context = TabContext(
+            client, bridge, keyboard, layout, self.display, self.controls, tracker, shared.pool, callbacks
+        )
+        with banner:
+            secret = facts.kept.get(PRESENT, "")
+            self._presence = Presence(context, shared.presentations, address, secret, facts.page)
         self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
-        self.scene = SceneController(client, rotor, self.display, facts.dark)
-        self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
+        self.camera = FittedCamera(client, rotor.radius)
+        self.scene = SceneController(client, self.camera, rotor, self.display, facts.dark)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
@@ -97,14 +115,13 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
-            self.dial = TwistDial(context, self._grabbed, self.actuator.top)
-        self.results = ResultsPanel(context)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
-        with layout.in_drawer("details"):
-            self.waterfall = WaterfallPanel(context)
+        self._now = Now(start, None, None, analyses=context.analyses)
+        """As of the last update; `now` has the rest."""
+        texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context, self.results.strip)
+        self.vibration = VibrationPanel(context, self._follow_strip)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -121,7 +138,11 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        following = self.top, self.probe, self.waterfall, settings, self.history, self.file
+        self.follower = Follower(
+            PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
+        )
+        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
+        following = self.top, self.probe, settings, self.history, self.file
         self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
@@ -131,9 +152,9 @@ class Page:
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: self.camera.come_back())
-        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
+        bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.pay.on_stage:
+        if self.actuator.hand().on_stage:
             layout.show_mode("actuate")
         self.file.begin(problems)
         self.top.refresh()
@@ -147,15 +168,15 @@ class Page:
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
 
-        def answer(asked: tuple[int, bool]) -> None:
-            wait(asked[1])
-            self.context.bridge.set(idle=asked[0])
+        def answer(asked: IdlePress) -> None:
+            wait(asked.wholly)
+            self.context.bridge.set(idle=asked.serial)
 
         self.context.bridge.on("idle", answer)
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.results, self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
+        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -202,41 +223,83 @@ class Page:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
-        if self._actuator_in_frame and (not only_azimuth or solution.design.active_twist is not None):
-            self._show_actuator(reading, solution)
+        if not only_azimuth or solution.design.active_twist is not None:
+            design = reading.sliders or solution.design
+            self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
 
-    def show_power_number(self, state: SessionState) -> None:
+    def now(self) -> Now:
+        """All that is known, for the panels that are functions of it; safe from any thread."""
+        return replace(
+            self._now,
+            ui=Ui(self.layout.mode, self.layout.drawer, self.context.held),
+            station=self._curve.held,
+            change=self.context.tracker.change,
+            rival=self.rival.solution,
+            searching=self.optimise.notice(self._now.sliders),
+            index=self.vibration.chart,
+            memory=self.follower.memory,
+            answers=self.follower.answers(),
+        )
+
+    def _pressed(self) -> Now:
+        """All that is known, with what the widgets mean at this moment; where they mean no design, with the last."""
+        now = self.now()
+        sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
+        return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
+
+    def take(self, reading: Reading, state: SessionState) -> None:
+        """A converged state is what the page shows from now on."""
+        last, memory, tracker = self._now.state, self.follower.memory, self.context.tracker
+        tracker.solved(state.inputs, state.solution.power.total, self._pause)
+        counted = memory.counted.then(state.solution, tracker.reference)
+        # What is known of one rotor says nothing of another.
+        same = last is not None and last.inputs.aircraft == state.inputs.aircraft
+        self.follower.memory = replace(memory, counted=counted, latest=memory.latest if same else {})
+        self._now = replace(self._read(reading), state=state, problem="")
+
+    def _read(self, reading: Reading) -> Now:
+        """What was read in this update, in place of that of the last."""
+        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
+        return replace(self._now, inputs=reading.inputs, sliders=reading.sliders, hand=hand)
+
+    def show_power_number(self) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
-        self.results.card.show(state, self._pause)
-        self._show_hand(state)
+        self._learn()
+        self.follower.follow(self.now(), lambda panel: panel in (POWER, HAND))
 
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
-        self.results.turn(state)
+        self._now = replace(self._now, state=state)
+        self.follower.follow(self.now(), lambda panel: panel.turns)
         self.probe.show(state)
 
-    def show_results(self, reading: Reading, state: SessionState) -> None:
+    def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
+        self._now = replace(self._now, state=state, curve=curve)
         self.rival.show(state)
         self._refresh(reading)
-        self.results.show(state, self._pause)
         self.vibration.show(state)
-        self.dial.show(state, self.actuator.fitted)
         self._curve.show(state)
-        self._show_hand(state)
+        self._learn()
+        self.follower.follow(self.now())
         self.display.show(state)
 
-    def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
-        """Draw power over advance ratio; `failed`: the present inputs have no solution."""
-        self.results.strip.show_power(state, curve, failed)
+    def show_power(self, curve: PowerCurve) -> None:
+        """Draw power over advance ratio anew."""
+        self._now = replace(self._now, curve=curve)
+        self._follow_strip()
 
-    def follow(self, reading: Reading, state: SessionState) -> None:
-        """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
-        if not self._actuator_in_frame:
-            if self.layout.mode == "actuate":
-                self._show_actuator(reading, state.solution)
-            else:
-                self.actuator.rest()
+    def _follow_strip(self) -> None:
+        self.follower.follow(self.now(), lambda panel: panel is STRIP)
+
+    def _learn(self) -> None:
+        """Where the station in the hand is best, as far as power and its slopes tell."""
+        now = self.now()
+        if now.state is not None:
+            self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
+
+    def follow(self, state: SessionState) -> None:
+        """Update all other tabs."""
         for tab in self.tabs:
             tab.show(state)
 
@@ -244,10 +307,14 @@ class Page:
         """Bring the address into line with what is shown."""
         self.file.follow(state)
 
-    def draw_finely(self, state: SessionState) -> None:
-        """Nothing moves: a finer disk."""
+    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
+        """Nothing moves: a finer disk, slopes of power and how sure it is."""
         self.scene.draw_finely()
         self._views.show_plan(state.solution, state.view, at_rest=True)
+        self.follower.work(stop, soon=True)
+        if self._curve.held is not None:
+            self._learn()
+            self.follower.follow(self.now(), lambda panel: panel is HAND)
 
     def keep(self, state: SessionState) -> None:
         """Keep what must survive a reload; before the power curve, since an early reload must find it."""
@@ -257,19 +324,18 @@ class Page:
 
     def solve_deferred(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing has moved since: compute and save what could wait, until `stop`."""
-        self.draw_finely(state)
+        self.rest(state, stop)
         self.keep(state)
         self.history.solve_waiting(stop)
-        self.results.solve_deferred(stop)
         self.vibration.solve_deferred(stop)
-        self.waterfall.solve_steps(stop)
+        self.follower.work(stop, soon=False)
 
-    def show_failure(self, failure: FailedTrim) -> None:
+    def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
+        self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
-        self.actuator.show_problem(failure.message)
-        self.results.problem(failure.message)
+        self.follower.follow(self.now())
         self.vibration.problem()
         for tab in self.tabs:
             tab.show_failure()
@@ -291,22 +357,14 @@ class Page:
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
-        self.results.problem(brief(sentence))
-
-    @property
-    def _actuator_in_frame(self) -> bool:
-        return self.actuator.lifted or self._actuator_inputs.driven
-
-    def _show_actuator(self, reading: Reading, solution: Solution) -> None:
-        design, azimuth = reading.sliders or solution.design, math.radians(reading.view.azimuth_deg)
-        self.actuator.show(self._actuator_inputs, design, solution, azimuth)
+        self._now = replace(self._now, problem=brief(sentence))
+        self.follower.follow(self.now())
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
         inputs, context = reading.inputs, self.context
         self.controls.follow(_on_sliders(reading))
         self.controls.refresh(inputs, context.units)
-        self.dial.refresh(inputs)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
@@ -316,14 +374,12 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-        notice = self.optimise.notice(reading.sliders) or self.rival.notice()
-        context.bridge.set(notice=notice)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""
         wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
         tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        words = {"text": "Pull the blade tip up or down", "node": "/rotor/blade_0", "at": tip} if wanted else None
+        words = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
         self.context.bridge.set(prompt=words)
 
     def _hold(self, held: bool) -> None:
@@ -340,28 +396,26 @@ class Page:
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.hold(held, time.monotonic())
+        self.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
-            if (state := self.context.state()) is not None:
-                self._curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
+            self._learn()
         else:
             self.context.tracker.release()
-            self.context.bridge.set(hand=None)
         self.history.grab(held)
         self._wake()
 
-    def _show_hand(self, state: SessionState) -> None:
-        """Power and its least beside the blade, while a station of it is held."""
-        curve, units = self._curve, self.context.units
-        hand = self.results.card.hand(units)
-        curve.learn(state.inputs, state.solution.power.total, self.results.sliders.slopes)
-        place, best = curve.place, curve.best
-        if best is not None:
-            best = {**best, "power": round(units.power[0].of(best["power"]), 2)}
-        if hand is not None and (other := self.rival.solution) is not None:
-            hand["rival"] = round(units.power[0].of(other.power.total), 2)
-        self.context.bridge.set(hand={**hand, "place": place, "best": best} if hand is not None and place else None)
+    def _perform(self, effect: Effect) -> None:
+        """Do what a press says."""
+        match effect:
+            case Drag(inputs):
+                self.context.drag_to(inputs)
+            case Put(inputs):
+                self.context.set_inputs(inputs)
+            case Grab(held):
+                self._grabbed(held)
+            case _:
+                self.actuator.perform(effect)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(
@@ -375,7 +429,7 @@ class Page:
         if self.layout.mode == "explore":
             self.controls.default(label, self._opening)
         else:
-            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
+            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""

@@ -29,7 +29,7 @@ from dataclasses import replace
 import viser
 
 from explorer.charts.measured import set_shown
-from explorer.charts.plots import PowerCurves
+from explorer.charts.plots import PowerCurve, PowerCurves
 from explorer.hosting.messages import PageFacts
 from explorer.hosting.viser_compat import until_called
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
@@ -105,8 +105,9 @@ class Session:
         if not everything and state.only_turned(last):
             self.page.show_azimuth(state)
             return None
+        self.page.take(reading, state)
         if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
-            self.page.show_power_number(state)
+            self.page.show_power_number()
         self.page.write_address(state)  # With the frame: whoever loads the page anew has what was seen.
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 
@@ -162,24 +163,26 @@ class Session:
         """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one."""
         page, design, reference = self.page, state.solution.design, state.reference.design
 
+        def known() -> PowerCurve:
+            return self._curves.known(design, reference)
+
         def show_power() -> None:
-            page.show_power(self._turned(state), self._curves.known(design, reference))
+            page.show_power(known())
 
         def sweep() -> bool:
             # On a test stand measured points take the place of power over µ.
             tested = set_shown(state.solution) is not None
             return tested or self._curves.sweep(design, reference, self._overtaken, show_power)
 
-        page.show_results(reading, self._turned(state))
-        show_power()
+        page.show_results(reading, self._turned(state), known())
         yield 0.0
-        page.follow(reading, self._turned(state))
+        page.follow(self._turned(state))
         self._shown.set()
         yield 0.0
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
-        page.draw_finely(self._turned(state))
+        page.rest(self._turned(state), self._overtaken)
         yield 0.0
         page.keep(self._turned(state))
         self._worker.answer()
@@ -198,11 +201,10 @@ class Session:
 
     def _show_failure(self, failure: FailedTrim) -> None:
         """The last converged picture stays, grey, with the sentence."""
-        self.page.show_failure(failure)
+        last = self._state
+        curve = None if last is None else self._curves.known(last.solution.design, last.reference.design)
+        self.page.show_failure(failure, curve)
         self._shown.set()
-        if (last := self._state) is not None:
-            curve = self._curves.known(last.solution.design, last.reference.design)
-            self.page.show_power(last, curve, failed=True)
 
     def _wake(self) -> None:
         self._all_changed = True

@@ -1,16 +1,17 @@
 """A chart as a value: two axes, series of lines, points and bands, and rules.
 
 `rotor.chart_svg` draws it for the trust page, reports, the documentation and lecture files, `rotor.plots` with
-matplotlib, and `explorer/web/chart.js` on the page from `as_json`. Ticks, ends of the axes and colours are decided
+matplotlib, and `explorer/web/chart.js` on the page from `drawn_chart`. Ticks, ends of the axes and colours are decided
 here, so that all draw the same.
 """
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
+from msgspec import Struct
 
 from rotor.arrays import Array
 
@@ -204,60 +205,107 @@ def dash_lengths(line: Line) -> str | None:
     return _DASHES if line.dashes is True else line.dashes or None
 
 
-def as_json(chart: Chart) -> dict[str, Any]:
-    """The chart as the page draws it: numbers rounded to what a pixel shows, gaps as None."""
+class DrawnAxis(Struct, frozen=True, omit_defaults=True):
+    """An axis with its ends and the places and texts of its ticks."""
+
+    label: str
+    range: Span
+    ticks: list[tuple[float, str]]
+    log: bool = False
+    ends: bool = False
+    """Whether words stand at its two ends alone."""
+
+
+class _DrawnSeries(Struct, frozen=True, omit_defaults=True, tag_field="kind"):
+    label: str
+    colour: str
+    x: list[float | None]
+
+
+class DrawnLine(_DrawnSeries, frozen=True, tag="line"):
+    y: list[float | None]
+    width: float
+    dashes: str | None = None
+    dots: bool = False
+    filled: bool = False
+
+
+class DrawnPoints(_DrawnSeries, frozen=True, tag="points"):
+    y: list[float | None]
+    mark: Mark
+    size: float
+    words: Sequence[str] = ()
+    action: str = ""
+    press: Sequence[str] = ()
+    names: Sequence[str] = ()
+    faint: Sequence[bool] = ()
+    beside: Beside | None = None
+    scatter: Sequence[float | None] = ()
+
+
+class DrawnBand(_DrawnSeries, frozen=True, tag="band"):
+    low: list[float | None]
+    high: list[float | None]
+
+
+class DrawnChart(Struct, frozen=True, omit_defaults=True):
+    """A chart as the page draws it: numbers rounded to what a pixel shows, gaps as None.
+
+    Its JSON leaves out what says nothing, for it is sent with every answer.
+    """
+
+    title: str
+    x: DrawnAxis
+    y: DrawnAxis
+    series: list[DrawnLine | DrawnPoints | DrawnBand]
+    value: str
+    note: str
+    rules: tuple[Rule, ...] = ()
+
+
+def drawn_chart(chart: Chart) -> DrawnChart:
+    """The chart with its ticks, the ends of its axes and its colours."""
     digits = {
         axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
         for axis, (start, end) in (("x", chart.span("x")), ("y", chart.span("y")))
     }
     series = [
-        _plain_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
+        _drawn_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
     ]
-    return {
-        "title": chart.title,
-        "x": _plain_axis(chart, "x", 5),
-        "y": _plain_axis(chart, "y", 4),
-        "series": series,
-        **({"rules": [_slim(vars(rule)) for rule in chart.rules]} if chart.rules else {}),
-        "value": chart.value,
-        "note": chart.note,
-    }
+    x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4)
+    return DrawnChart(chart.title, x, y, series, chart.value, chart.note, chart.rules)
 
 
-def _plain_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> dict[str, Any]:
+def _drawn_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> DrawnAxis:
     scale = chart.x if axis == "x" else chart.y
-    kept = {"label": scale.label} | _slim({"log": scale.log, "ends": len(scale.words) == 2})
-    return {**kept, "range": chart.span(axis), "ticks": chart.ticks(axis, about)}
+    low, high = chart.span(axis)
+    ticks = chart.ticks(axis, about)
+    return DrawnAxis(scale.label, (float(low), float(high)), ticks, scale.log, len(scale.words) == 2)
 
 
-def _plain_series(series: Series, colour: str, digits: dict[str, int]) -> dict[str, Any]:
-    """What differs from how a series of its kind is drawn anyway."""
-    shared = {
-        "kind": type(series).__name__.lower(),
-        "label": series.label,
-        "colour": colour,
-        "x": _rounded(series.x, digits["x"]),
-    }
+def _drawn_series(series: Series, colour: str, digits: dict[str, int]) -> DrawnLine | DrawnPoints | DrawnBand:
+    x = _rounded(series.x, digits["x"])
     if isinstance(series, Band):
-        return shared | {"low": _rounded(series.low, digits["y"]), "high": _rounded(series.high, digits["y"])}
-    shared["y"] = _rounded(series.y, digits["y"])
+        low, high = _rounded(series.low, digits["y"]), _rounded(series.high, digits["y"])
+        return DrawnBand(series.label, colour, x, low, high)
+    y = _rounded(series.y, digits["y"])
     if isinstance(series, Line):
-        look: dict[str, Any] = {
-            "width": series.width,
-            "dashes": dash_lengths(series),
-            "dots": series.dots,
-            "filled": series.filled,
-        }
-    else:
-        look = {name: getattr(series, name) for name in ("mark", "size", "words", "action", "press", "names", "faint")}
-        look["beside"] = series.beside if series.names else ""
-        look["scatter"] = _rounded(series.scatter, digits["y"] + 1)
-    return shared | _slim(look)
-
-
-def _slim(values: dict[str, Any]) -> dict[str, Any]:
-    """Without what says nothing."""
-    return {key: value for key, value in values.items() if value or isinstance(value, float)}
+        return DrawnLine(series.label, colour, x, y, series.width, dash_lengths(series), series.dots, series.filled)
+    return DrawnPoints(
+        series.label,
+        colour,
+        x,
+        y,
+        series.mark,
+        series.size,
+        words=tuple(series.words),
+        action=series.action,
+        press=tuple(series.press),
+        names=tuple(series.names),
+        faint=tuple(series.faint),
+        beside=series.beside if series.names else None,
+        scatter=tuple(_rounded(series.scatter, digits["y"] + 1)),
+    )
 
 
 def _rounded(values: Values, digits: int) -> list[float | None]:

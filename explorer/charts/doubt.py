@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
 
 from explorer.model.units import SI, Unit, Units, number
+from explorer.parts.results import Sureness
 from rotor.markup import Markup, tag
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.trim.doubt import Doubt, OtherModels, decimals
@@ -14,14 +15,13 @@ MOST_ROWS = 6
 """What comes after is too small to see."""
 
 
-def card_words(band: Doubt, units: Units) -> dict[str, Any]:
+def card_words(band: Doubt, units: Units) -> Sureness:
     """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
     unit = units.power[0]
-    within = unit.of(band.band)
-    words = {"within": f"± {number(within, decimals(within))}", "change_within": "", "sure": "", "doubt": band.sentence}
-    percent = band.change_band_percent
+    within, percent = unit.of(band.band), band.change_band_percent
+    words = Sureness(f"± {number(within, decimals(within))}", doubt=band.sentence)
     if band.change and percent:
-        words |= {"change_within": f"± {number(percent, decimals(percent))}", "sure": band.sureness or ""}
+        return replace(words, change_within=f"± {number(percent, decimals(percent))}", sure=band.sureness or "")
     return words
 
 

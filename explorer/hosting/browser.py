@@ -8,6 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Unpack
 
+import msgspec
 import viser
 
 from explorer.hosting.messages import PRESSES, PageFacts, checked_press, read_facts
@@ -61,7 +62,7 @@ class Bridge:
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
         self._lock = threading.Lock()
-        self._sent: dict[str, str] = {}
+        self._sent: dict[str, bytes] = {}
         self._actions: dict[str, Callable[[Any], None]] = {}
         self._at_once: set[str] = set()
         self._worker = ThreadPoolExecutor(1, f"frame-{client.client_id}")
@@ -83,14 +84,12 @@ class Bridge:
     def set(self, **parts: Unpack[Parts]) -> None:
         """Show these parts of the page's state; what has not changed is not sent."""
         with self._lock:
-            texts = {
-                name: json.dumps(value, ensure_ascii=False, separators=(",", ":")) for name, value in parts.items()
-            }
+            texts = {name: msgspec.json.encode(value) for name, value in parts.items()}
             changed = {name: text for name, text in texts.items() if self._sent.get(name) != text}
             if not changed:
                 return
             self._sent.update(changed)
-            body = ",".join(f"{json.dumps(name)}:{text}" for name, text in changed.items())
+            body = ",".join(f'"{name}":{text.decode()}' for name, text in changed.items())
             run_in_page(self._client, f"RX.set({{{body}}})")
 
     def stop(self) -> None:

@@ -9,6 +9,7 @@ from explorer.workers.solver import BaselineCache
 from rotor import Design, Solution, solve
 from rotor.design import SumTwist
 from rotor.design.quantities import BESIDE
+from rotor.trim import Analysis
 
 Order = Literal["pin", "unpin", "swap", "back"]
 CONDITION = (*FLIGHT, "stand")
@@ -134,6 +135,22 @@ class Pinboard:
             return self.answer
         self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
         return self.answer
+
+
+_SHOWN = 4
+"""Solutions at once: of the sliders, the reference, the optimiser's, and one that is on its way."""
+
+
+class Analyses:
+    """Analyses of the solutions that a page shows: its parts ask for slopes and bands of the same ones."""
+
+    def __init__(self) -> None:
+        self._kept: tuple[Analysis, ...] = ()
+
+    def of(self, solution: Solution) -> Analysis:
+        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
+        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
+        return found
 
 
 @dataclass(frozen=True, eq=False)

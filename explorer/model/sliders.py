@@ -200,6 +200,8 @@ _GAP = 0.02
 """Least distance of two divisions [R]."""
 DETENT = 0.35
 """Half the width of the hold at the best angle of the grabbed station [°]."""
+_APART = 0.15
+"""Turns less apart [°] say nothing about a slope: the trims close less well."""
 _FARTHEST = 12.0
 """A best angle further away than this [°] is not foreseen."""
 PIECES = {name: (LAWS[name].angles, LAWS[name].breaks) for name in ("linear", "builtin", "two", "three")}
@@ -332,15 +334,27 @@ class Grab:
 
 @dataclass(frozen=True)
 class BestTurn:
-    """The turn of least power of one station, foreseen from the exact slope of power at the turns seen so far."""
+    """The turn of least power of one station, foreseen from powers and slopes at the turns seen so far."""
 
     seen: tuple[tuple[float, float, float], ...] = ()
-    """Turn [°], power [W] and its slope [W/°] there, the latest last."""
+    """Turn [°], power [W] and its exact slope [W/°] there, the latest last."""
+    now: tuple[float, float, float] | None = None
+    """The latest, where its slope is not known: that of the parabola through its power, which the nearest of those seen
+    touches."""
 
     def with_turn(self, turn: float, power: float, slope: float) -> "BestTurn":
         """This search with one more turn seen."""
         others = tuple(point for point in self.seen if abs(point[0] - turn) > 1e-6)
         return BestTurn((*others, (turn, power, slope))[-40:])
+
+    def with_power(self, turn: float, power: float) -> "BestTurn":
+        """This search at a turn whose power alone is known."""
+        if not self.seen:
+            return self
+        at, there, slope = min(self.seen, key=lambda point: abs(point[0] - turn))
+        if abs(turn - at) < _APART:
+            return replace(self, now=None)
+        return replace(self, now=(turn, power, 2.0 * (power - there) / (turn - at) - slope))
 
     @property
     def turn(self) -> float | None:
@@ -357,17 +371,18 @@ class BestTurn:
     @property
     def _least(self) -> tuple[float, float] | None:
         """Turn and power where the slope, straight between two turns seen, is zero."""
-        if len(self.seen) < 2:
+        seen = self.seen if self.now is None else (*self.seen, self.now)
+        if len(seen) < 2:
             return None
-        now = self.seen[-1][0]
-        below = [point for point in self.seen if point[2] < 0.0]
-        above = [point for point in self.seen if point[2] >= 0.0]
+        now = seen[-1][0]
+        below = [point for point in seen if point[2] < 0.0]
+        above = [point for point in seen if point[2] >= 0.0]
         if below and above:
             # Between the two closest turns on either side of the minimum.
             pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
         else:
-            near = sorted(self.seen, key=lambda point: abs(point[2]))
-            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > 0.15), near[1])
+            near = sorted(seen, key=lambda point: abs(point[2]))
+            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _APART), near[1])
         (t1, p1, s1), (t2, p2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.

@@ -4,41 +4,57 @@
 This package imports only words and numbers of `rotor`.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
+
+from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
+from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
+from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
+from explorer.parts.stage import (
+    FieldPart,
+    PlanPart,
+    RidePart,
+    RubberPart,
+    SceneLabel,
+    TurnPart,
+    TwistPart,
+    VibrationPart,
+)
+from rotor.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
     """Every part by its name, and what it is."""
 
-    bar: Any
-    big: Any
-    coarse: Any
-    dial: Any
-    dial_front: Any
-    dial_matrix: Any
-    earns: Any
-    field: Any
-    flight: Any
-    hand: Any
-    hub_labels: Any
-    idle: Any
-    inset: Any
-    lecture: Any
-    lifted_labels: Any
-    notice: Any
-    plan: Any
-    power: Any
-    probe_label: Any
-    prompt: Any
-    ride: Any
-    rubber: Any
-    steps: Any
-    strip: Any
-    suppose: Any
-    turn: Any
-    twist: Any
-    vibration: Any
-    views: Any
-    wipe: Any
-    wiped: Any
-    worth: Any
+    bar: BarPart
+    big: bool
+    coarse: int
+    dial: DialPart
+    dial_front: DrawnChart
+    dial_matrix: DialMatrix | None
+    earns: EarnsPart | None
+    field: FieldPart
+    flight: FlightPart | None
+    hand: HandPart | None
+    hub_labels: Sequence[SceneLabel]
+    idle: int
+    inset: InsetPart
+    lecture: LecturePart | None
+    lifted_labels: Sequence[LiftedLabel]
+    notice: NoticePart | None
+    plan: PlanPart | None
+    power: PowerPart
+    probe_label: Sequence[SceneLabel]
+    prompt: SceneLabel | None
+    ride: RidePart | None
+    rubber: RubberPart | None
+    steps: Sequence[StepPart]
+    strip: Sequence[StripChart]
+    suppose: SupposePart | None
+    turn: TurnPart
+    twist: TwistPart
+    vibration: VibrationPart | None
+    views: ViewsPart
+    wipe: bool
+    wiped: float
+    worth: Mapping[str, Worth]

@@ -8,11 +8,11 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from explorer.parts.results import Cut, InsetBlade
 from rotor import Rotor
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
@@ -287,31 +287,25 @@ _EDGE_POINTS = 40
 _OUTLINE_POINTS = 25
 
 
-def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: float) -> dict[str, Any]:
-    """Everything the page's inset is drawn from, ready for JSON; about 4 kB.
-
-    `r`: stations along the edges; `theta` and `ghost`: true twist there [°], the latter None without a ghost.
-    `datum` and `ghost_datum`: that at 0.75 R, about which it is exaggerated.
-    `cuts`: eight sections, each with `r`, `outline` (points [forward, up] about the quarter chord, in reference
-    chords), `theta` and `ghost` [°]. `times`: the exaggeration to draw the angles with.
-    """
+def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: float) -> InsetBlade:
+    """What the page draws the inset from, about 4 kB: eight sections, and edges between them."""
     r, cuts = _places(rotor)
     places = np.concatenate((r, cuts, [REFERENCE_RADIUS]))
     *angles, datum = _degrees(twist, places)
     behind = None if ghost is None else _degrees(ghost, places)
     other = [None] * len(cuts) if behind is None else behind[len(r) : -1]
-    return {
-        "times": exaggeration,
-        "r": [round(float(at), 4) for at in r],
-        "datum": datum,
-        "ghost_datum": 0.0 if behind is None else behind[-1],
-        "theta": angles[: len(r)],
-        "ghost": None if behind is None else behind[: len(r)],
-        "cuts": [
-            {"r": float(at), "outline": outline, "theta": angle, "ghost": before}
+    return InsetBlade(
+        times=exaggeration,
+        r=[round(float(at), 4) for at in r],
+        datum=datum,
+        ghost_datum=0.0 if behind is None else behind[-1],
+        theta=angles[: len(r)],
+        ghost=None if behind is None else behind[: len(r)],
+        cuts=[
+            Cut(float(at), outline, angle, before)
             for at, outline, angle, before in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)
         ],
-    }
+    )
 
 
 def _places(rotor: Rotor) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

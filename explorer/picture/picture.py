@@ -167,6 +167,18 @@ def at_azimuth(solution: Solution, values: Array, psi: float) -> Array:
     return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
 
 
+def ghost_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | None:
+    """The twist of the ghost of a blade whose jig twist is `other`, at ψ [rad]; None: there is nothing to compare.
+
+    It has the elastic twist of this solution, so that only the change of jig twist tells the two apart. A blade with
+    the same jig twist leaves the ghost to the jig shape of this one.
+    """
+    jig = solution.design.twist
+    if other != jig:
+        return with_elastic_twist(other, solution, psi)
+    return None if solution.disk.elastic_twist is None else jig
+
+
 def follows_azimuth(solution: Solution) -> bool:
     """Whether the shape of a blade in flight changes on its way around the disk."""
     design, disk = solution.design, solution.disk

@@ -4,19 +4,19 @@ import base64
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, number
+from explorer.parts.stage import PackedTable, PlanPart, PlanRegion
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import Drawn, PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
 from rotor import Solution
 from rotor.arrays import Array
-from rotor.chart import AZIMUTH, Axis, Chart, as_json
+from rotor.chart import AZIMUTH, Axis, Chart, drawn_chart
 
 _OUTLINED = 80, 240
 """Radii and azimuths between which an outline is looked for."""
@@ -151,32 +151,28 @@ def plan(
     pixels: int,
     at_rest: bool,
     pinned: Solution | None = None,
-) -> dict[str, Any]:
-    """Everything that the page's plan of the disk is drawn from.
+) -> PlanPart:
+    """What the page's plan of the disk is drawn from; `pixels`: along each edge of its picture.
 
-    `picture`: a PNG of `pixels` along each edge, which reaches to `reach` radii. `regions`: title, outline in radii
-    (right, down), shares of disk and thrust, and the outline for A. `values`: tables of shape (radii, azimuths) for
-    the pointer, only when `at_rest`; `psi` of their columns begins at zero, `r` of their rows goes from `root` to 1.
+    Values under the pointer only when `at_rest`, and outlines of A where there is one.
     """
-    content: dict[str, Any] = {
-        "picture": base64.b64encode(disk_png(solution, field, colour_range, size=pixels)).decode(),
-        "reach": round(half_width(1.0, pixels), 4),
-        "root": round(solution.design.rotor.blade.root_cutout, 4),
-        "blades": solution.design.rotor.blades,
-        "field": field.title,
-        "unit": field.unit,
-        "regions": _regions(solution, view, pinned),
-        "flight": UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
-        "around": as_json(around_chart(solution)),
-        "mu": round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
-    }
-    if at_rest:
-        content["values"] = _values(solution, field)
-        if pinned is not None:
-            content["alpha_a"] = _packed(
-                FIELDS[_READ["alpha"]].sample(Drawn(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS))
-            )
-    return content
+    alpha_a = None
+    if at_rest and pinned is not None:
+        alpha_a = _packed(FIELDS[_READ["alpha"]].sample(Drawn(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS)))
+    return PlanPart(
+        picture=base64.b64encode(disk_png(solution, field, colour_range, size=pixels)).decode(),
+        reach=round(half_width(1.0, pixels), 4),
+        root=round(solution.design.rotor.blade.root_cutout, 4),
+        blades=solution.design.rotor.blades,
+        field=field.title,
+        unit=field.unit,
+        regions=_regions(solution, view, pinned),
+        flight=UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
+        around=drawn_chart(around_chart(solution)),
+        mu=round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
+        values=_values(solution, field) if at_rest else None,
+        alpha_a=alpha_a,
+    )
 
 
 def around_chart(solution: Solution) -> Chart:
@@ -190,24 +186,17 @@ def around_chart(solution: Solution) -> Chart:
     )
 
 
-def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[dict[str, Any]]:
+def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[PlanRegion]:
     shares = region_shares(solution)
-    regions: list[dict[str, Any]] = []
+    regions = list[PlanRegion]()
     for name, (title, switch, segments) in _REGIONS.items():
         lines = _lines(segments(solution)) if getattr(view, switch) else []
         before = _lines(segments(pinned)) if pinned is not None and getattr(view, switch) else []
         if not lines and not before:
             continue
         area, thrust = shares[name]
-        regions.append(
-            {
-                "name": name,
-                "title": title,
-                "words": f"{number(100.0 * area, 1)} % area · {number(100.0 * thrust, 1)} % thrust",
-                "lines": lines,
-                "before": before,
-            }
-        )
+        words = f"{number(100.0 * area, 1)} % area · {number(100.0 * thrust, 1)} % thrust"
+        regions.append(PlanRegion(name, title, words, lines, before))
     return regions
 
 
@@ -239,7 +228,7 @@ def _lines(segments: Array) -> list[list[list[float]]]:
     return [np.round(line[:, ::-1], 3).tolist() for line in joined(segments)]
 
 
-def _values(solution: Solution, field: Field) -> dict[str, dict[str, Any]]:
+def _values(solution: Solution, field: Field) -> dict[str, PackedTable]:
     drawn, grid = Drawn(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
     tables = {name: FIELDS[title].sample(drawn, grid) for name, title in _READ.items()}
     flow = drawn.flow(grid)
@@ -247,9 +236,9 @@ def _values(solution: Solution, field: Field) -> dict[str, dict[str, Any]]:
     return {name: _packed(values) for name, values in tables.items()}
 
 
-def _packed(values: Array | Single) -> dict[str, Any]:
-    """A table as 16-bit steps between its least and its greatest value, little-endian in base 64."""
+def _packed(values: Array | Single) -> PackedTable:
+    """A table as 16-bit steps between its least and its greatest value."""
     low, high = float(values.min()), float(values.max())
     step = max(high - low, 1e-9) / 65535.0
     steps = np.rint((values - low) / step).astype("<u2")
-    return {"low": low, "step": step, "data": base64.b64encode(steps.tobytes()).decode()}
+    return PackedTable(low, step, base64.b64encode(steps.tobytes()).decode())

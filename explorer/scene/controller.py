@@ -137,7 +137,10 @@ class _Drawn:
 class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
-    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: RangeDisplay, dark: bool = False) -> None:
+    def __init__(
+        self, client: viser.ClientHandle, camera: FittedCamera, rotor: Rotor, display: RangeDisplay, dark: bool = False
+    ) -> None:
+        """`camera`: follows the shaft tilt."""
         self._client = client
         self._display = display
         theme = scene_theme(dark)
@@ -145,8 +148,7 @@ class SceneController:
         self._ghost = Ghost(client.scene, rotor, theme)
         self._air = AirLines(client.scene)
         self._page = PageScene(client)
-        self.camera: FittedCamera | None = None
-        """Follows the shaft tilt, once the page has one."""
+        self.camera = camera
         self._look: View = "3d"
         self._drawn: _Drawn | None = None
         self._compared = False
@@ -207,8 +209,7 @@ class SceneController:
             self._page.move(solution)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._display.show_range(field, colour_range, faded=False)
-        if self.camera is not None:
-            self.camera.follow(solution.controls.shaft_tilt)
+        self.camera.follow(solution.controls.shaft_tilt)
         self._drawn, self._fine = wanted, False
 
     def draw_finely(self) -> None:
@@ -277,13 +278,12 @@ class SceneController:
         """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
         self._look = view
         self.scene.set_close(view == "blade")
-        if self.camera is not None:
-            self.camera.aim(view)
+        self.camera.aim(view)
 
     @property
     def covered(self) -> tuple[float, float]:
         """Parts of the canvas behind cards, above and below."""
-        return (0.0, 0.0) if self.camera is None else self.camera.covered
+        return self.camera.covered
 
     @property
     def scale(self) -> tuple[Field, Range] | None:

@@ -15,7 +15,7 @@ from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
 from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices, ghost_segments, ghost_vertices
-from explorer.picture.picture import drawn_bending, flown_twist, with_elastic_twist
+from explorer.picture.picture import drawn_bending, flown_twist, ghost_twist
 from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
 from rotor import Design, Rotor, Solution
@@ -36,18 +36,6 @@ class OtherBlade:
     """The twist as built."""
     colour: colours.Rgb | None
     """None: the grey of the page's theme."""
-
-
-def ghost_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | None:
-    """The twist of the ghost of a blade whose jig twist is `other`, at ψ [rad]; None: there is nothing to compare.
-
-    It has the elastic twist of this solution, so that only the change of jig twist tells the two apart. A blade with
-    the same jig twist leaves the ghost to the jig shape of this one.
-    """
-    jig = solution.design.twist
-    if other != jig:
-        return with_elastic_twist(other, solution, psi)
-    return None if solution.disk.elastic_twist is None else jig
 
 
 def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:

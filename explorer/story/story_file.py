@@ -21,6 +21,7 @@ from explorer.colours import colour_map, css
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS, Units, number
+from explorer.parts.frame import StepAnswer, StepControl, StepPart
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import Cover, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
@@ -30,7 +31,7 @@ from explorer.scene.still_scene import embedded_viewer, point_record, shape_reco
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
 from rotor import Rotor, Solution, solve
-from rotor.chart import Axis, Band, Chart, Line, Series, as_json, bar_ticks
+from rotor.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
 from rotor.markup import end_of, with_title
 from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import check_writable, write_whole
@@ -48,38 +49,27 @@ class _Awaited(dict[str, str]):
         return "…"
 
 
-def step_record(step: LectureStep, facts: Facts | None, units: Units) -> dict[str, Any]:
+def step_record(step: LectureStep, facts: Facts | None, units: Units) -> StepPart:
     """What is said before the guess; `facts`: None while they are computed."""
     said, text, control = _words(facts, units), step.text, step.control
-    return {
-        "name": step.name,
-        "title": text.title,
-        "watch": text.watch.format_map(said),
-        "a": text.a.format_map(said),
-        "b": text.b.format_map(said),
-        "question": text.question.format_map(said),
-        "options": [option.format_map(said) for option in text.options],
-        "todo": text.todo.format_map(said),
-        "control": {
-            "label": control.label,
-            "kind": control.kind,
-            "words": [stop.words for stop in facts.stops] if facts else [],
-        },
-        "last": step is STEPS[-1],
-    }
+    return StepPart(
+        name=step.name,
+        title=text.title,
+        watch=text.watch.format_map(said),
+        a=text.a.format_map(said),
+        b=text.b.format_map(said),
+        question=text.question.format_map(said),
+        options=[option.format_map(said) for option in text.options],
+        todo=text.todo.format_map(said),
+        control=StepControl(
+            label=control.label, kind=control.kind, words=[stop.words for stop in facts.stops] if facts else []
+        ),
+        last=step is STEPS[-1],
+    )
 
 
-def answer_record(step: LectureStep, facts: Facts, units: Units) -> dict[str, Any]:
-    """What is said after it."""
-    return {
-        "right": facts.right,
-        "answer": step.text.answer.format_map(_words(facts, units)),
-        "chart": _chart_record(facts, units),
-    }
-
-
-def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
-    """The chart in the page's units; `dots`: x, y and colour of each, by position of the control."""
+def answer_record(step: LectureStep, facts: Facts, units: Units) -> StepAnswer:
+    """What is said after it, with the chart in the page's units."""
     chart = facts.chart
     unit = units.power[0]
     ways = {"power": (unit.size, f" [{unit.symbol}]"), "percent": (0.01, " [%]"), "angle": (1.0, "")}
@@ -101,16 +91,18 @@ def _chart_record(facts: Facts, units: Units) -> dict[str, Any]:
     words = tuple(_x_words(chart, end) for end in ends)
     x_axis = Axis(x_title, (x[0], x[-1]), (x[0], x[-1]), words)
     colours = [_colour(dot) for dot in chart.dots or [line.colour for line in chart.lines]]
-    return {
-        **as_json(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
-        "dots": [
+    return StepAnswer(
+        right=facts.right,
+        answer=step.text.answer.format_map(_words(facts, units)),
+        chart=drawn_chart(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
+        dots=[
             [
-                [round(wide * at, 4), round(y / size, 4), colour]
+                (round(wide * at, 4), round(y / size, 4), colour)
                 for (at, y), colour in zip(stop.dots, colours, strict=False)
             ]
             for stop in facts.stops
         ],
-    }
+    )
 
 
 _ROLES = {"a": "pinned", "b": "blade", "limit": "ghost", "total": "ink"}
@@ -201,8 +193,8 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         stops.append({"b": b, "a": a, "figures": _figures(step, before, reference, facts, units)})
     rotor = points.solutions[stops[0]["b"]].design.rotor
     return {
-        **step_record(step, facts, units),
-        **answer_record(step, facts, units),
+        **vars(step_record(step, facts, units)),
+        **vars(answer_record(step, facts, units)),
         "start": step.control.start,
         "stops": stops,
         "scale": _scale(field, rotor),

@@ -8,13 +8,13 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import viser
 
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
 from rotor.worker_process import Task
 
@@ -108,34 +108,29 @@ class BackgroundWork:
             self._wake()
 
 
-@dataclass(frozen=True)
-class Call:
-    """A task of the pool: a function of a module and its arguments. It pickles; equal ones have one answer."""
-
-    function: Callable[..., Any]
-    arguments: tuple[Hashable, ...]
-
-    def run(self, tell: object = None, stop: object = None) -> Any:
-        """What the function returns; for a ValueError or RuntimeError its sentence."""
-        del tell, stop  # Some seconds at most.
-        try:
-            return self.function(*self.arguments)
-        except (ValueError, RuntimeError) as error:
-            return str(error)
-
-
 _KEPT = 64
-_STOPPED = "This was stopped: change any setting to try again."
+_LIMIT = 600.0
+"""[s] for each task, by the clock: it needs seconds of a processor, of which a busy machine gives a worker little."""
+_LATE = "There is no answer within 10 minutes, as on a busy machine: it is tried again."
 _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
 
 
-class PoolAnswers(BackgroundWork):
-    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
+def all_known() -> dict[Hashable, Any]:
+    """Every answer there is, of all pages."""
+    with _lock:
+        return {**_known}
 
-    def __init__(self, pool: Processes, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
-        """`answered` is called after every answer, on a thread of the pool; `limit`: for each task [s]."""
-        super().__init__(pool, answered, limit, urgency)
+
+class PoolAnswers(BackgroundWork):
+    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes some seconds at most.
+
+    One that is ended after its time is begun again once the others are answered.
+    """
+
+    def __init__(self, pool: Processes, urgency: int, answered: Callable[[], None]) -> None:
+        """`answered` is called after every answer, on a thread of the pool."""
+        super().__init__(pool, answered, _LIMIT, urgency)
         self._tasks: tuple[Call, ...] = ()
         self._delay = 0.0
         self._failures: dict[Call, str] = {}
@@ -162,6 +157,12 @@ class PoolAnswers(BackgroundWork):
         with _lock:
             return None if task is None else _known.get(task, self._failures.get(task))
 
+    @property
+    def failures(self) -> dict[Hashable, str]:
+        """Why there is no answer, by what is asked now."""
+        with self._lock:
+            return {**self._failures}
+
     def stop(self) -> None:
         """The browser has left."""
         with self._lock:
@@ -175,7 +176,7 @@ class PoolAnswers(BackgroundWork):
         self._timer = None
 
     def _next(self) -> Call | None:
-        return next((task for task in self._tasks if self.answer(task) is None), None)
+        return next((task for said in (None, _LATE) for task in self._tasks if self.answer(task) is said), None)
 
     def _next_one(self) -> None:
         with self._lock:
@@ -197,8 +198,10 @@ class PoolAnswers(BackgroundWork):
                         _known.popitem(last=False)
             case JobFailed(message):
                 self._failures[task] = message
-            case _:
-                self._failures[task] = _STOPPED
+            case JobEnded(late=True):
+                self._failures[task] = _LATE
+            case _:  # The server ends.
+                pass
         with self._lock:
             if self._timer is None:
                 self._next_one()

@@ -4,22 +4,20 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import viser
 
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Pinboard, SessionState
+from explorer.model.session_state import Analyses, Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import UNITS, Units
 from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
-from rotor import Solution
 from rotor.processes import Processes
-from rotor.trim import Analysis
 from rotor.user_input import brief
 
 _log = logging.getLogger(__name__)
@@ -49,38 +47,37 @@ class Tab:
         """The browser has left: end threads and jobs."""
 
 
-_SHOWN = 4
-"""Solutions at once: of the sliders, the reference, the optimiser's, and one that is on its way."""
-
-
-class Analyses:
-    """Analyses of the solutions that a page shows: its parts ask for slopes and bands of the same ones."""
-
-    def __init__(self) -> None:
-        self._kept: tuple[Analysis, ...] = ()
-
-    def of(self, solution: Solution) -> Analysis:
-        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
-        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
-        return found
-
-
+@dataclass
 class TabContext:
     """One page's. What a part may call is safe from any thread."""
 
+    client: viser.ClientHandle
+    bridge: Bridge
+    keyboard: Keyboard
     layout: Layout
-    controls: DesignControls
     display: Display
+    controls: DesignControls
+    tracker: PowerTracker
+    pool: Processes
+    callbacks: SessionCallbacks
+    pinboard: Pinboard = field(default_factory=Pinboard)
+    analyses: Analyses = field(default_factory=Analyses)
+    held: bool = False
+    """Whether a presenter moves the page."""
 
-    def __init__(self, client: viser.ClientHandle, pool: Processes, callbacks: SessionCallbacks) -> None:
-        self.client, self.gui, self.pool = client, client.gui, pool
-        self.analyses = Analyses()
-        self.bridge = Bridge(client)
-        self.keyboard = Keyboard(client)
-        self.pinboard = Pinboard()
-        self.tracker = PowerTracker()
-        self.wake, self.state = callbacks.wake, callbacks.state
-        self.held = False
+    @property
+    def gui(self) -> viser.GuiApi:
+        return self.client.gui
+
+    @property
+    def wake(self) -> Callable[[], None]:
+        """Have the page follow."""
+        return self.callbacks.wake
+
+    @property
+    def state(self) -> Callable[[], SessionState | None]:
+        """The last converged state; None before the first."""
+        return self.callbacks.state
 
     def inputs(self) -> Inputs:
         return self.controls.inputs()

@@ -11,6 +11,7 @@ from explorer.hosting.browser import Bridge
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
+from explorer.parts.stage import FieldPart, TurnPart
 from explorer.picture.fields import FIELDS, Field, fields_of
 from explorer.scene.controller import TURN_RATES
 from rotor.chart import bar_ticks
@@ -135,29 +136,28 @@ class Display:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        turn = {"psi": self._view.azimuth_deg, "playing": self._playing, "pace": self._pace, "held": self._held}
-        self._bridge.set(turn=turn)
+        self._bridge.set(turn=TurnPart(self._view.azimuth_deg, self._playing, self._pace, self._held))
 
     def _show_field(self) -> None:
         if self._range is None:
             return
         (field, range_), view = self._range, self._view
         self._bridge.set(
-            field={
-                "fields": [title for title in FIELDS if title in self._fields or title == view.field],
-                "field": view.field,
-                "unit": f"{field.unit}{field.note}",
-                "colours": _bar(field.colours),
-                "ticks": bar_ticks(*range_),
-                "faded": self._faded,
-                "fitted": self._fitted,
-                "regions": {name: getattr(view, name) for name in REGIONS},
-                "stalled": self._stalled,
-                "difference": view.difference if self._allowed else None,
-                "wipe": view.wipe,
-                "beyond": list(self._beyond),
-                "held": self._held,
-            }
+            field=FieldPart(
+                fields=[title for title in FIELDS if title in self._fields or title == view.field],
+                field=view.field,
+                unit=f"{field.unit}{field.note}",
+                colours=_bar(field.colours),
+                ticks=bar_ticks(*range_),
+                faded=self._faded,
+                fitted=self._fitted,
+                regions={name: getattr(view, name) for name in REGIONS},
+                stalled=self._stalled,
+                difference=view.difference if self._allowed else None,
+                wipe=view.wipe,
+                beyond=self._beyond,
+                held=self._held,
+            )
         )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from explorer.colours import THIS
 from explorer.model.units import number
+from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.picture.polar import DRAG_DIVERGENCE
 from explorer.scene.controller import SceneController
@@ -24,7 +25,7 @@ from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, as_json
+from rotor.chart import Axis, Chart, Line, drawn_chart
 from rotor.trim import DiskFields
 
 _OUTLINE = 61
@@ -345,10 +346,8 @@ class Ride:
             self._scene.camera.hold(False)
 
 
-def turn_of(solution: Solution, r: float, psi_deg: float) -> dict[str, Any]:
-    """A section around the disk: flow [m/s], angles [°], lift [kN/m] and C_l at equal steps of ψ from 0, with the lift
-    curve at each Mach number. Where the flow comes from the trailing edge, angles count from there.
-    """
+def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
+    """A section around the disk, with the lift curve at each Mach number."""
     around = [probe(solution, r, 2.0 * math.pi * k / AZIMUTHS) for k in range(AZIMUTHS)]
     alpha = np.array([_from_the_edge_that_meets_the_flow(here) for here in around])
     ahead = np.array([here.u_t >= 0.0 for here in around])
@@ -367,29 +366,27 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> dict[str, Any]:
         Axis("C_l", (-1.1 * highest, 1.1 * highest)),
         (path,),
     )
-    return {
-        "r": r,
-        "psi": psi_deg,
-        "out": around[0].radius,
-        "radius": solution.design.rotor.radius,
-        "section": sections_of(around[0].section),
-        "outline": np.round(outline(around[0].section), 4).tolist(),
-        "u": [round(math.copysign(here.u, here.u_t), 1) for here in around],
-        "theta": _rounded([math.degrees(here.theta) for here in around]),
-        "phi": _rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around]),
-        "alpha": _rounded(alpha),
-        "cl": _rounded(cl, 3),
-        "mach": _rounded([here.table_mach for here in around]),
-        "lift": _rounded([here.lift / 1e3 for here in around], 3),
-        "where": [where(here.psi) for here in around],
-        "region": [here.region.value for here in around],
-        "margin": [
-            None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around
-        ],
-        "angles": _rounded(angles),
-        "curves": [_rounded(curve, 3) for curve in curves],
-        "chart": as_json(chart),
-    }
+    return RidePart(
+        r=r,
+        psi=psi_deg,
+        out=around[0].radius,
+        radius=solution.design.rotor.radius,
+        section=sections_of(around[0].section),
+        outline=np.round(outline(around[0].section), 4).tolist(),
+        u=[round(math.copysign(here.u, here.u_t), 1) for here in around],
+        theta=_rounded([math.degrees(here.theta) for here in around]),
+        phi=_rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around]),
+        alpha=_rounded(alpha),
+        cl=_rounded(cl, 3),
+        mach=_rounded([here.table_mach for here in around]),
+        lift=_rounded([here.lift / 1e3 for here in around], 3),
+        where=[where(here.psi) for here in around],
+        region=[here.region.value for here in around],
+        margin=[None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around],
+        angles=_rounded(angles),
+        curves=[_rounded(curve, 3) for curve in curves],
+        chart=drawn_chart(chart),
+    )
 
 
 def _from_the_edge_that_meets_the_flow(here: Probe) -> float:

@@ -255,13 +255,13 @@ def _row(title: str, parts: tuple[str, ...]) -> Markup:
 class Keyboard:
     """Commands as they are bound. Actions run on viser's threads, one at a time, and must only say what is wanted."""
 
-    def __init__(self, client: viser.ClientHandle) -> None:
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
         self._held = False
         self._acting = threading.Lock()
         """Two keys pressed at once must not both read the inputs before either has written them."""
-        call(client, "RX.set", {"coarse": COARSE})
+        bridge.set(coarse=COARSE)
         self.bind("keys", self.show)
 
     def bind(self, name: str, action: Callable[[], None]) -> None:

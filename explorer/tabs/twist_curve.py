@@ -8,14 +8,18 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import LOOKS, Role, role_line
+from explorer.hosting.messages import KnotMove, KnotPress
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
 from explorer.model.units import SI
+from explorer.parts.results import Best
+from explorer.parts.stage import Knot, RoleLines, RubberPart, TwistPart
 from explorer.tabs.context import TabContext
+from explorer.views.now import HeldStation
 from rotor import Design, Solution
 from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Series, as_json
+from rotor.chart import Axis, Band, Chart, Series, drawn_chart
 from rotor.design import REFERENCE_RADIUS as DATUM
 
 FLOWN = LOOKS["flown"][0]
@@ -51,9 +55,9 @@ class TwistCurveEditor:
         context.keyboard.bind("twist", partial(self.grab, 1.0, by_key=True))
 
     @property
-    def place(self) -> str:
-        """The station that is held, in words; empty while none is."""
-        return self._place if self._grab is not None else ""
+    def held(self) -> HeldStation | None:
+        """The station in the hand; None while none is."""
+        return None if self._grab is None else HeldStation(self._place, self._least(self._grab))
 
     @property
     def before(self) -> Solution | None:
@@ -74,33 +78,34 @@ class TwistCurveEditor:
         places = stations(grab.inputs)
         before, response = self._response(grab)
         ends = sorted(
-            [before + response * turn, slider(name, SI).label] for turn, name in turn_ends(grab.inputs, grab.station)
+            (before + response * turn, slider(name, SI).label) for turn, name in turn_ends(grab.inputs, grab.station)
         )
         self._context.bridge.set(
-            rubber={
-                "press": self._presses,
-                "knot": str(grab.station.index),
-                "by": by,
-                "stations": [place.r for place in places],
-                "titles": [place.title for place in places],
-                "ends": ends,
-            }
+            rubber=RubberPart(
+                press=self._presses,
+                knot=str(grab.station.index),
+                by=by,
+                stations=[place.r for place in places],
+                titles=[place.title for place in places],
+                ends=ends,
+            )
         )
 
     def learn(self, inputs: Inputs, power: float, by_input: Mapping[str, float]) -> None:
-        """Power [W] of these inputs, and its change with a unit of each: tells where the station is best."""
+        """Take the power [W] of these inputs, and its change with a unit of each, which is empty until the page rests:
+        they tell where the station is best."""
         if self._grab is None:
             return
         turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
-        if turn is not None and slope is not None:
-            self._best = self._best.with_turn(turn, power, slope)
+        if turn is not None:
+            self._best = (
+                self._best.with_power(turn, power) if slope is None else self._best.with_turn(turn, power, slope)
+            )
 
-    @property
-    def best(self) -> dict[str, Any] | None:
-        """Twist [°] of least power of the held station, that power [W], and whether it is held there; None while it is
-        not known, or lies past the end of a slider."""
-        grab, turn = self._grab, self._best.turn
-        if grab is None or turn is None:
+    def _least(self, grab: Grab) -> Best | None:
+        """The twist of least power of the held station; None while not known, or past the end of a slider."""
+        turn, power = self._best.turn, self._best.power
+        if turn is None or power is None:
             return None
         (lowest, _), (highest, _) = turn_ends(grab.inputs, grab.station)
         if not lowest <= turn <= highest:
@@ -108,10 +113,10 @@ class TwistCurveEditor:
         now = grab.turn_to(self._context.inputs())
         before, response = self._response(grab)
         held = now is not None and abs(now - turn) < _AT
-        return {"theta": round(before + turn * response, 2), "power": self._best.power, "held": held}
+        return Best(round(before + turn * response, 2), power, held)
 
-    def _act(self, value: list[Any]) -> None:
-        name, change = value
+    def _act(self, press: KnotPress) -> None:
+        name, change = press.name, press.change
         if change == "start":
             start = grabbed_inputs(self._context.inputs())
             station = next((station for station in stations(start) if str(station.index) == name), None)
@@ -124,7 +129,7 @@ class TwistCurveEditor:
                 self._grab, self._place, self._shown = None, "", False
                 self._context.bridge.set(rubber=None)
                 self._changed(False)
-        elif not self._context.held:
+        elif isinstance(change, KnotMove) and not self._context.held:
             self._move(name, change)
 
     def _begin(self, grab: Grab) -> None:
@@ -133,18 +138,17 @@ class TwistCurveEditor:
         self._before = self._context.inputs(), None if state is None else state.solution
         self._changed(True)
 
-    def _move(self, name: str, place: list[float | None]) -> None:
-        """Move a station to r/R and to a twist [°] less that at 0.75 R, or to a twist alone."""
+    def _move(self, name: str, place: KnotMove) -> None:
         start = self._grab.inputs if self._grab is not None else self._context.inputs()
         station = next((station for station in stations(start) if str(station.index) == name), None)
         if station is None:
             return
-        grab, (r, theta) = Grab(start, station), place
+        grab, r = Grab(start, station), place.r
         if self._grab is not None and not self._shown:
             self._show_blade(self._grab, "curve")
         before, response = self._response(grab)
-        turn = 0.0 if theta is None else (theta - before) / response
-        moved = grab.turned(turn, self._best.turn if r is None and self._grab is not None else None)
+        near = self._best.turn if r is None and self._grab is not None else None
+        moved = grab.turned((place.theta - before) / response, near)
         if r is not None and station.division is not None:
             moved = slid(moved, station, r)
         if self._grab is not None:
@@ -180,13 +184,9 @@ class TwistCurveEditor:
         chart = Chart("Twist", Axis("r/R", (0.1, 1.03)), Axis(range=axis, unit="°"), tuple(parts))
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
-        handles = [
-            {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
-            for k in movable
-        ]
-        # The blade in the hand is drawn from them.
-        places = {"this": len(parts) - 1, "reference": 1 if flown is not None else 0}
-        self._context.bridge.set(twist={**as_json(chart), "knots": handles, "places": places})
+        handles = [Knot(str(k.index), k.title, k.r, round(float(twist(np.array([k.r]))[0]), 2)) for k in movable]
+        places = RoleLines(this=len(parts) - 1, reference=1 if flown is not None else 0)
+        self._context.bridge.set(twist=TwistPart(drawn_chart(chart), handles, places))
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""

@@ -6,18 +6,19 @@ wakes and curves over speed are computed while the page rests.
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
+from explorer.charts.strip import Role
 from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
+from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import ChartStrip
 from rotor import Solution, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.chart import Chart
 from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
 from rotor.trim.hub_loads import BAND
 
@@ -26,8 +27,11 @@ _NOTICEABLE = 0.5
 
 
 class VibrationPanel:
-    def __init__(self, context: TabContext, strip: ChartStrip) -> None:
-        self._context, self._strip = context, strip
+    def __init__(self, context: TabContext, drawn: Callable[[], None]) -> None:
+        """`drawn`: called when there is another chart."""
+        self._context, self._drawn = context, drawn
+        self.chart: Chart | None = None
+        """The index over µ; None where there is none."""
         self._state: SessionState | None = None
         self._curves = IndexCurves()
         self._loads: dict[Solution, HubLoads | None] = {}
@@ -108,8 +112,8 @@ class VibrationPanel:
 
     def _clear(self) -> None:
         self._loads = {}
+        self.chart = None
         self._context.bridge.set(vibration=None, hub_labels=[])
-        self._strip.show_vibration(None)
 
     def _draw(self) -> None:
         if self._state is not None:
@@ -120,22 +124,22 @@ class VibrationPanel:
     def _draw_chart(self) -> None:
         state = self._state
         if state is not None:
-            held, compared = self._strip.vibration_range()
-            chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
-            self._strip.show_vibration(chart)
+            held = None if self.chart is None else self.chart.y.range
+            compared: Role = "reference" if state.pinned is None else "pinned"
+            self.chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
+            self._drawn()
 
     def _say_how_bent(self) -> None:
         """The words in the scene: bending is drawn larger."""
-        state, labels = self._state, list[dict[str, Any]]()
+        state, labels = self._state, list[SceneLabel]()
         if state is not None and deflections(state.solution) is not None:
             rotor = state.solution.design.rotor
             tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
             title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
-            words = {"text": f"bending × {BENDING_SHOWN:g}", "title": title}
-            labels.append({**words, "node": f"{ROTOR}/blade_0", "at": tip})
+            labels.append(SceneLabel(f"bending × {BENDING_SHOWN:g}", f"{ROTOR}/blade_0", tip, title))
         self._context.bridge.set(hub_labels=labels)
 
-    def _card(self, state: SessionState) -> dict[str, Any] | None:
+    def _card(self, state: SessionState) -> VibrationPart | None:
         """The row of the power card; None without bending."""
         design = state.solution.design
         if not design.models.bending:
@@ -143,21 +147,20 @@ class VibrationPanel:
         reason, loads = why_no_hub_loads(design), self._loads.get(state.solution)
         if reason is not None or loads is None:
             sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
-            return {"index": "", "sentence": sentence, "change": "", "title": sentence}
+            return VibrationPart(sentence, sentence=sentence)
         band = "band over inflow models: computing"
         if loads.band is not None:
             band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over inflow models"
         change, kind = self._change(state, loads)
-        return {
-            "index": number(loads.index, 1),
-            "unit": index_unit(design),
-            "at": f"at {loads.per_rev}/rev",
-            "sentence": "",
-            "band": band,
-            "change": change,
-            "kind": kind,
-            "title": _title(loads),
-        }
+        return VibrationPart(
+            _title(loads),
+            index=number(loads.index, 1),
+            unit=index_unit(design),
+            at=f"at {loads.per_rev}/rev",
+            band=band,
+            change=change,
+            kind=kind,
+        )
 
     def _change(self, state: SessionState, loads: HubLoads) -> tuple[str, str]:
         """Against A, or the blade as built; and its class."""

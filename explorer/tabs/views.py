@@ -8,13 +8,14 @@ from typing import Literal
 from explorer.model.inputs import Inputs, ViewState, menu_titles
 from explorer.model.session_state import Order, SessionState
 from explorer.model.units import UNITS
+from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
 from explorer.picture import disk_image
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
+from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.lifted_blade import fit_lifted
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe_panel import ProbePanel
@@ -72,19 +73,19 @@ class TopBar(Tab):
         undo, redo = self._steps
         layout = self._context.layout
         self._context.bridge.set(
-            bar={
-                "rotors": list(menu_titles(self._inputs.own_rotor).items()),
-                "rotor": self._inputs.rotor,
-                "mode": layout.mode,
-                "drawer": layout.drawer,
-                "undo": undo,
-                "redo": redo,
-                "pinned": self._pinned(),
-                "held": self._context.held,
-            }
+            bar=BarPart(
+                rotors=list(menu_titles(self._inputs.own_rotor).items()),
+                rotor=self._inputs.rotor,
+                mode=layout.mode,
+                drawer=layout.drawer,
+                undo=undo,
+                redo=redo,
+                pinned=self._pinned(),
+                held=self._context.held,
+            )
         )
 
-    def _pinned(self) -> dict[str, object] | None:
+    def _pinned(self) -> PinnedRow | None:
         pinned, answer = self._board.pinned, self._board.answer
         if pinned is None:
             return None
@@ -94,7 +95,7 @@ class TopBar(Tab):
             else self._context.units.watts(answer.power.total)
         )
         where = "" if self._along else f" at {flight_name(pinned.inputs)}"
-        return {"title": pinned_name(pinned), "power": power + where, "along": self._along}
+        return PinnedRow(pinned_name(pinned), power + where, self._along)
 
     def _pin_or_release(self) -> None:
         self._ask("pin" if self._board.pinned is None else "unpin")
@@ -214,7 +215,7 @@ class SceneViews:
         compared = pinned or before
         content = plan(solution, view, field, colour_range, pixels, at_rest, None if compared is solution else compared)
         held = None if before is None else "before" if pinned is None else "A"
-        self._context.bridge.set(plan={**content, "held": held})
+        self._context.bridge.set(plan=replace(content, held=held))
 
     def _hide_plan(self) -> None:
         self._planned = None
@@ -239,10 +240,10 @@ class SceneViews:
         self._actuator.lift(out)
         self._scene.set_behind(out)
         self._probe.set_seen(not out)
-        if camera is not None and out:
+        if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
-        elif camera is not None and towards is None and camera.subject is self._on_blade:
+        elif towards is None and camera.subject is self._on_blade:
             # Else a step of the lecture has aimed it elsewhere already.
             camera.aim(self._view)
         self._show()
@@ -251,4 +252,4 @@ class SceneViews:
         lifted, on_stage = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
         views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
         now = "actuator" if lifted else self._view
-        self._context.bridge.set(views={"all": views, "now": now})
+        self._context.bridge.set(views=ViewsPart(views, now))

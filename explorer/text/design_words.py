@@ -2,7 +2,7 @@
 
 import math
 
-from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
+from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs, baseline_of
 from explorer.model.session_state import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
@@ -25,6 +25,14 @@ from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
 from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
+
+
+def against(design: Design, pinned: bool) -> str:
+    """What changes are measured against, in words."""
+    if pinned:
+        return "A"
+    built = baseline_of(design).twist == design.rotor.builtin_twist
+    return f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
 
 
 def twist_words(law: TwistLaw) -> str:

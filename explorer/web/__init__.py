@@ -11,6 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from rotor.markup import Markup, group, tag
 
 _FOLDER = Path(__file__).parent
@@ -50,7 +52,7 @@ def policy() -> Markup:
 
 def json_block(name: str, data: Any) -> Markup:
     """Data for a script, in an element of this id: no `<` in it, so that nothing ends the element."""
-    content = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    content = json.dumps(msgspec.to_builtins(data), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return tag("script", Markup(content), id=name, type="application/json")
 
 

@@ -1,13 +1,13 @@
 // The strip below the scene, and the twist curve that can be dragged.
 (() => {
-  const {text, clamp, closest, paced, drag} = Common, {part} = RX;
+  const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', vibration: 'Vibration', alpha: 'α'};
-  function drawChart(element, chart) {
+  function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
     const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
-    const {title, name, y, speeds} = chart, height = Math.max(element.clientHeight - 38, 40);
+    const chart = {...drawn, kind, speeds}, {title, y} = chart, height = Math.max(element.clientHeight - 38, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
-    element.toggleAttribute('data-faded', Boolean(chart.faded));
+    element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
     Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height});
     const {X, Y} = element.drawn.place, power = speeds && chart.series.at(-1).y[0];
@@ -29,7 +29,7 @@
       move({clientX}) {
         const {place, chart} = element.drawn, {left, width} = element.querySelector('svg').getBoundingClientRect();
         const speed = clamp(place.atX((clientX - left) * place.width / width), 0, most);
-        const wall = chart.rules.find(({at}) => Math.abs(at - speed) < .006)?.label ?? 'slider';
+        const wall = chart.rules?.find(({at}) => Math.abs(at - speed) < .006)?.label ?? 'slider';
         limit = speed < most ? '' : `limit: ${wall}`;
         sayLimit();
         speeding.send(speed);
@@ -52,12 +52,14 @@
 
   // What a step up of a slider changes, with its sign, and an arrow from the thumb the way that saves power.
   const WORD = 40;  // [px]
-  function arrow({way, at, size}, place) {
-    const up = way === 'up';
-    if (!way || (up ? at >= .999 : at <= .001)) return '';  // No arrow beyond the end of the slider.
+  function arrow({way, size}, place) {
     // The track lies between the label and the number.
     const slider = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root');
-    const track = slider?.getBoundingClientRect(), own = place.getBoundingClientRect();
+    const track = slider?.getBoundingClientRect(), handle = slider?.querySelector('.mantine-Slider-thumb');
+    const [now, low, high] = ['Now', 'Min', 'Max'].map(name => Number(handle?.[`ariaValue${name}`]));
+    const at = handle ? (now - low) / (high - low) : .5, up = way === 'up';
+    if (!way || (up ? at >= .999 : at <= .001)) return '';  // No arrow beyond the end of the slider.
+    const own = place.getBoundingClientRect();
     const [from, width] = track?.width ? [track.left - own.left, track.width] : [76, 166], thumb = from + at * width;
     const length = Math.min(8 + 36 * size, Math.max(6, (up ? own.width - thumb : thumb - from) - 8));
     // The word stands before the head, or behind the thumb where the head is near the end.
@@ -67,15 +69,15 @@
     return `<i data-way="${way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i>
       <em style="left:${left}px;width:${WORD}px;text-align:${up === ahead ? 'left' : 'right'}">saves</em>`;
   }
-  RX.paint('worth', worths => {
+  // With every answer, as the strip has it, a thumb may stand elsewhere.
+  RX.paint(['worth', 'strip'], worths => {
     for (const place of document.querySelectorAll('[data-worth]')) {
       const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
-      const stamp = JSON.stringify(worth ?? null);
-      if (place.stamp === stamp && place.childElementCount) continue;
       const number = way ? `<b ${way === 'up' ? 'class="rxf-good"' : ''}>${text(value)}</b>${text(unit)}` : text(value);
-      place.stamp = stamp;
-      place.innerHTML = worth ? `${arrow(worth, place)}<span>${number}</span>` : '';
-      if (worth) place.title = worth.sentence;
+      write(place, worth ? `${arrow(worth, place)}<span>${number}</span>` : '');
+      if (!worth) continue;
+      place.toggleAttribute('data-stale', worth.stale);
+      place.title = worth.sentence;
     }
   });
 
@@ -113,13 +115,14 @@
     for (const place of document.querySelectorAll('[data-curve]')) {
       const {offsetWidth: width, offsetHeight: height} = place, stamp = JSON.stringify([twist, width, height]);
       if (!width || (place.stamp === stamp && place.childElementCount)) continue;
-      const focus = document.activeElement?.dataset?.knot, frame = Charts.frame(twist, width, height, {left: 34});
+      const {chart} = twist, focus = document.activeElement?.dataset?.knot;
+      const frame = Charts.frame(chart, width, height, {left: 34});
       const handles = twist.knots.map(({name, r, theta, title}) => `
         <circle data-knot="${name}" cx="${frame.X(r).toFixed(1)}" cy="${frame.Y(theta).toFixed(1)}" r="5" tabindex="0"
           role="slider" aria-label="${text(title)}" aria-valuenow="${theta}" aria-valuetext="${theta}° at ${r} R">
           <title>${text(title)}</title></circle>`);
       place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">
-        ${Charts.axes(twist, frame)}${Charts.inside(twist, frame)}${drawKey(twist, frame)}${handles.join('')}</svg>`;
+        ${Charts.axes(chart, frame)}${Charts.inside(chart, frame)}${drawKey(chart, frame)}${handles.join('')}</svg>`;
       Object.assign(place, {stamp, frame});
       if (focus) place.querySelector(`[data-knot="${focus}"]`)?.focus();
     }

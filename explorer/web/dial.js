@@ -235,7 +235,7 @@
   function drawFront(element, width, height) {
     const {dial_front: chart, dial_matrix: matrix} = RX.state;
     if (!chart) return;
-    const series = chart.series.map(one =>  // In little room their names would lie on each other.
+    const series = chart.series.map((/** @type {any} */ one) =>  // In little room their names would lie on each other.
       width < 360 && one.beside === 'below' ? {...one, names: []} : one);
     if (matrix) {
       const [power, index] = foresee(matrix, vector()), colour = 'var(--rx-blade)';

@@ -104,7 +104,7 @@
     let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {words} = flight, tip = '';
     if (series.length) {
       const [wanted, reached] = ['wanted', 'reached']
-        .map(name => between(series.find(({label}) => label === name).y, at));
+        .map(name => between(/** @type {any} */ (series.find(({label}) => label === name)).y, at));
       marker += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/>
         <circle cx="${x}" cy="${Y(flight.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
       tip = flight.flown ? degrees(reached) : flight.tip;
@@ -222,13 +222,14 @@
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
   const supposed = paced(point => RX.send('suppose', point), 60);
+  /** @returns {[number, number]} */
   function suppose(twist, mass) {
     const {left, right, top, base, atX, atY, X, Y} = earns.place, dot = earns.querySelector('[data-supposed]');
-    const x = clamp(X(twist), left + 1, right), y = clamp(Y(mass), top, base), point = [atX(x), atY(y)];
+    const x = clamp(X(twist), left + 1, right), y = clamp(Y(mass), top, base);
     dot?.setAttribute('cx', x);
     dot?.setAttribute('cy', y);
-    supposed.send(point);
-    return point;
+    supposed.send([atX(x), atY(y)]);
+    return [atX(x), atY(y)];
   }
   drag(earns, '[data-supposed]', (dot, event) => {
     event.preventDefault();

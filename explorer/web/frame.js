@@ -289,11 +289,10 @@
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  /** @type {(keyof RxState)[]} */
-  const LABELS = ['lifted_labels', 'probe_label', 'hub_labels'], LABEL_SHIFT = 60;  // [px]
+  const LABELS = /** @type {const} */ (['lifted_labels', 'probe_label', 'hub_labels']), LABEL_SHIFT = 60;  // [px]
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
-    labels = LABELS.flatMap(list => state[list] ?? []);
+    labels = LABELS.flatMap(list => /** @type {any} */ (state[list]) ?? []);
     const all = part('labels');  // They stay where they are, and new ones are unseen, until they are placed.
     while (all.children.length > labels.length) all.lastChild.remove();
     while (all.children.length < labels.length)

@@ -16,8 +16,8 @@
     const share = r => (r - root) / (1 - root);
     const changed = cut => cut.ghost !== null && Math.abs(cut.theta - cut.ghost) >= .05;
     // A point forward and up of the quarter chord, in chords, of a blade turned so much from its datum, drawn `times`.
-    const turn = ([x, z], angle, from) => {
-      const drawn = (from + times * (angle - from)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
+    const turn = (corner, angle, from) => {
+      const [x, z] = corner, drawn = (from + times * (angle - from)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
       return [x * c - z * s, x * s + z * c];
     };
     // How far the drawn sections reach above and below: strong twist is drawn smaller, not over the numbers.

@@ -21,7 +21,8 @@
   }, true);
 
   // Twist less that at 0.75 R [°]: a line of the twist chart.
-  const line = role => RX.state.twist?.series[RX.state.twist.places[role]];
+  /** @returns {any} */
+  const line = role => RX.state.twist?.chart.series[RX.state.twist.places[role]];
   const twistAt = ({x, y}, r) => {
     const k = clamp(x.findIndex(station => station >= r), 1, x.length - 1);
     return lerp(y[k - 1], y[k], clamp((r - x[k - 1]) / (x[k] - x[k - 1]), 0, 1));
@@ -239,7 +240,7 @@
     return `<path d="M${from} ${y}H${to}" stroke="var(--rx-faint)" stroke-width="1.5"/>${ticks.join('')}
       ${mark(start, 'before', '--rx-dim', 33, side)}
       ${best === undefined ? '' : mark(best, 'least', '--rx-good', 33, -side)}
-      ${rival === undefined ? '' : mark(rival, 'optimiser', '--rx-accent', 50)}
+      ${rival === null ? '' : mark(rival, 'optimiser', '--rx-accent', 50)}
       <g opacity="${RX.state.power?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>
         <text x="${clamp(x, from + 50, to - 60)}" y="${y - 21}" text-anchor="middle"
           class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan>${change}</text></g>`;

@@ -64,7 +64,7 @@ window.makeStory = (column, figures, report) => {
       const verdict = `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'Not so.'}</b>`;
       place.querySelector('p').innerHTML = answer ? `${verdict} ${marked(answer.answer)}`
         : text(now.problem || 'Computing …');
-      drawChart(place.querySelector('figure'), answer?.chart, stop);
+      drawChart(place.querySelector('figure'), answer, stop);
     }
     const out = part.querySelector('output'), slider = part.querySelector('[data-stop]');
     out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : now.problem || 'computing …';
@@ -96,11 +96,11 @@ window.makeStory = (column, figures, report) => {
   };
 
   // Lines over what is moved, with the present place on each.
-  const drawChart = (figure, data, stop) => {
-    if (!data) { figure.innerHTML = ''; return; }
-    const dots = (data.dots[stop] ?? []).map(([x, y, colour]) => ({kind: 'points', x: [x], y: [y], colour, size: 6}));
+  const drawChart = (figure, answer, stop) => {
+    if (!answer) { figure.innerHTML = ''; return; }
+    const dots = (answer.dots[stop] ?? []).map(([x, y, colour]) => ({kind: 'points', x: [x], y: [y], colour, size: 6}));
     const height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, width = Math.max(figure.clientWidth, 260);
-    Charts.fill(figure, {...data, series: [...data.series, ...dots]}, {width, height});
+    Charts.fill(figure, {...answer.chart, series: [...answer.chart.series, ...dots]}, {width, height});
   };
 
   // The step that stands keeps its place in the column, scrolled by `within`, whatever is laid out anew. Another is

@@ -19,7 +19,7 @@ def kilowatts(text: str) -> float:
 def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.answered(wholly=True)
     page, slider = watched.page, watched.row("Adv. ratio").get_by_role("slider")
-    page.wait_for_function("() => RX.state.strip[0].speeds && RX.state.strip[0].rules.length === 1")
+    page.wait_for_function("() => RX.state.strip[0].speeds && RX.state.strip[0].chart.rules?.length === 1")
 
     def mu() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")

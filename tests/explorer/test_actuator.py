@@ -12,13 +12,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.model.inputs import ViewState, baseline_of
-from explorer.model.units import number
-from explorer.picture.picture import make_picture
-from explorer.tabs.actuator import actuator_words
-from explorer.tabs.actuator import lifted_blade as lifted
-from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
     drive_of,
@@ -28,9 +22,16 @@ from explorer.tabs.actuator.actuator_inputs import (
     verdict_on,
     verdict_tasks,
 )
+from explorer.model.inputs import ViewState, baseline_of
+from explorer.model.units import number
+from explorer.picture.picture import make_picture
+from explorer.tabs.actuator import actuator_words
+from explorer.tabs.actuator import lifted_blade as lifted
+from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
 from explorer.tabs.actuator.actuator_words import section_svg
 from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
+from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -272,14 +273,29 @@ def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     until(lambda: pool.asked == [first, newest])
     pool.jobs[-1][1](JobFailed("The process ended."))
     until(lambda: pool.asked[-1] == second)
-    pool.end(None)
-    assert (answers.answer(newest), len(heard)) == ("The process ended.", 3)
-    assert "change any setting" in answers.answer(second)
+    pool.end("two")
+    assert (answers.answer(newest), answers.answer(second), len(heard)) == ("The process ended.", "two", 3)
     assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
     answers.ask((asked("never ends"),), 0.0)
     until(lambda: pool.asked[-1] == asked("never ends"))
     answers.stop()
     assert pool.stopped == [(asked("never ends"), True)]
+
+
+def test_a_task_ended_after_its_time_is_begun_again_by_itself():
+    """A busy machine took a minute for a flight: "This was stopped: change any setting" stood there for ever."""
+    pool: Any = FakePool()
+    answers = PoolAnswers(pool, 5, lambda: None)
+    late, other = asked("late"), asked("other")
+    answers.ask((late, other), 0.0)
+    until(lambda: pool.asked == [late])
+    pool.jobs[-1][1](JobEnded(None, stopped=True, late=True))
+    assert pool.asked == [late, other]
+    assert "within 10 minutes" in answers.answer(late)
+    pool.end("quick")
+    assert pool.asked == [late, other, late]
+    pool.end("found")
+    assert (answers.answer(late), pool.asked[3:]) == ("found", [])
 
 
 def test_nothing_is_begun_while_somebody_drags():

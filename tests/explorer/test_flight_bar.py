@@ -12,10 +12,7 @@ import pytest
 import viser
 from numpy.testing import assert_allclose
 
-from explorer.model.inputs import Inputs
-from explorer.model.units import AVIATION, SI, number
-from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.actuator_inputs import (
+from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
     flight_legs,
@@ -23,9 +20,13 @@ from explorer.tabs.actuator.actuator_inputs import (
     lean_verdict,
     question_of,
 )
+from explorer.model.inputs import Inputs
+from explorer.model.units import AVIATION, SI, number
+from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.flight_bar import HALVES, FlightBar, condition_at, earns_state, flight_state, place_of
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
+from rotor.chart import DrawnBand, DrawnLine
 from rotor.files.make_design import make_design
 
 RIGID = replace(make_design(mu=0.2), models=replace(make_design(mu=0.2).models, elastic_twist=False))
@@ -58,17 +59,17 @@ def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs(
 def test_the_page_draws_the_flight_as_it_was_computed(flight: ActuatorFlight):
     state = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, SI)
     assert state["kind"] == "ready"
-    lines = {one["label"]: one["y"] for one in state["chart"]["series"] if one["kind"] == "line"}
+    lines: dict[str, Any] = {one.label: one.y for one in state["chart"].series if isinstance(one, DrawnLine)}
     assert_allclose(lines["wanted"], np.degrees(flight.wanted), atol=6e-4)
     assert_allclose(lines["reached"], np.degrees(flight.reached), atol=6e-4)
-    low, high = state["chart"]["y"]["range"]
+    low, high = state["chart"].y.range
     for angles in (flight.wanted, flight.reached, flight.reach):
         assert low < math.degrees(min(angles)) <= math.degrees(max(angles)) < high
-    bands = [one for one in state["chart"]["series"] if one["kind"] == "band" and len(one["x"]) == 2]
-    assert [bands[0]["x"][0], bands[-1]["x"][-1]] == [0.0, 3.0]
+    bands: list[Any] = [one for one in state["chart"].series if isinstance(one, DrawnBand) and len(one.x) == 2]
+    assert [bands[0].x[0], bands[-1].x[-1]] == [0.0, 3.0]
     for band in bands:  # Green where the flight gains.
-        net = np.interp(np.mean(band["x"]), np.arange(len(LEGS)) / HALVES, flight.net_saving)
-        assert ("gain" in band["colour"]) == (net > 0.0)
+        net = np.interp(np.mean(band.x), np.arange(len(LEGS)) / HALVES, flight.net_saving)
+        assert ("gain" in band.colour) == (net > 0.0)
     assert [name for name, _ in state["legs"]] == ["hover", "climb", "cruise", "fast"]
     assert condition_at(LEGS, state["at"])[0] == pytest.approx(0.2, abs=2e-3)
     other = flight_state(LEGS, flight, True, 0.2, RIGID.rotor.tip_speed, AVIATION, tip=1.29, flown=True)
@@ -82,7 +83,7 @@ def test_what_is_being_computed_is_said_and_keeps_its_place(flight: ActuatorFlig
     first, before = (flight_state(LEGS, one, False, 0.2, speed, SI) for one in (None, flight))
     wrong = flight_state(LEGS, None, False, 0.2, speed, SI, "hover: does not trim")
     assert (first["kind"], first["words"]) == ("computing", "computing…")
-    assert first["chart"]["series"] == []
+    assert first["chart"].series == []
     assert before["kind"] == "computing"
     assert before["chart"] == flight_state(LEGS, flight, True, 0.2, speed, SI)["chart"]
     assert (wrong["kind"], wrong["words"]) == ("problem", "hover: does not trim")
@@ -205,8 +206,9 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(stage: Stage, fli
     stage.show(verdict, flight)
     drawn = stage.shown["flight"]
     assert (drawn["flown"], drawn["frozen"], drawn["tip"]) == (False, math.degrees(frozen), degrees_text(frozen))
-    (line,) = [one for one in drawn["chart"]["series"] if one["label"] == "stopped"]
-    assert_allclose(line["y"], math.degrees(frozen), atol=6e-4)
+    line: Any
+    (line,) = [one for one in drawn["chart"].series if one.label == "stopped"]
+    assert_allclose(line.y, math.degrees(frozen), atol=6e-4)
     stage.actions["fly"](3)
     stage.show(verdict, flight)
     assert stage.inputs.advance_ratio == LEGS[-1].advance_ratio
@@ -217,7 +219,7 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(stage: Stage, fli
     stage.show(verdict, flight)
     drawn = stage.shown["flight"]
     assert (drawn["flown"], drawn["frozen"]) == (True, None)
-    assert "stopped" not in [one["label"] for one in drawn["chart"]["series"]]
+    assert "stopped" not in [one.label for one in drawn["chart"].series]
     stage.stop(True)
     stage.bar.hide()
     assert not stage.bar._stopped.value

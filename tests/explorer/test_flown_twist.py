@@ -12,9 +12,15 @@ from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import PAGE, drawn_pitch, inset
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS, fitted_range
-from explorer.picture.picture import field_values, flown_twist, follows_azimuth, make_picture, turned_blades
+from explorer.picture.picture import (
+    field_values,
+    flown_twist,
+    follows_azimuth,
+    ghost_twist,
+    make_picture,
+    turned_blades,
+)
 from explorer.picture.polar import Drawn, polar_grid
-from explorer.scene.overlays import ghost_twist
 from explorer.tabs.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.readout import compared_trim_panel as both_panel

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import viser
+from fake_bridge import Bridge
 from viser import _messages
 
 from explorer.tabs.layout import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, keys_help, leads
@@ -41,6 +42,9 @@ def test_the_list_shows_what_is_bound_and_nothing_else():
     assert "Find a command" in text
 
 
+BRIDGE: Any = Bridge()
+
+
 class TestKeyboard:
     @pytest.fixture
     def client(self, server: viser.ViserServer) -> Any:
@@ -49,7 +53,7 @@ class TestKeyboard:
 
     def test_two_keys_at_once_act_one_after_the_other(self, client: Any):
         """Each action reads the inputs and writes them changed: between the two no other may write."""
-        keyboard, inputs = Keyboard(client), [0]
+        keyboard, inputs = Keyboard(client, BRIDGE), [0]
         met = threading.Barrier(2)
 
         def more() -> None:
@@ -70,7 +74,7 @@ class TestKeyboard:
         assert inputs == [2]
 
     def test_an_unknown_name_or_a_second_action_is_refused(self, client: Any):
-        keyboard = Keyboard(client)
+        keyboard = Keyboard(client, BRIDGE)
         with pytest.raises(KeyError, match="jump"):
             keyboard.bind("jump", lambda: None)
         with pytest.raises(ValueError, match="'keys' has its action already"):

@@ -247,9 +247,9 @@ def test_each_step_has_its_text_in_a_file_and_each_file_its_step(tmp_path: Path,
 def test_what_is_not_computed_yet_is_left_open():
     """A page says the title and the question at once; numbers follow."""
     record = step_record(STEPS[0], None, SI)
-    assert record["title"] == STEPS[0].text.title
-    assert "…" in record["question"]
-    assert record["control"]["words"] == []
+    assert record.title == STEPS[0].text.title
+    assert "…" in record.question
+    assert record.control.words == []
 
 
 class TestBeside:

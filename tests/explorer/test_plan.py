@@ -1,12 +1,12 @@
 """The plan of the disk: values under the pointer, shares of the regions, and fields whose sum is known."""
 
 import base64
-from typing import Any
 
 import numpy as np
 import pytest
 
 from explorer.model.inputs import ViewState
+from explorer.parts.stage import PackedTable
 from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
@@ -25,9 +25,10 @@ def solution(request: pytest.FixtureRequest) -> Solution:
     return solve(make_design(mu=mu, mass_kg=mass))
 
 
-def table(packed: dict[str, Any]) -> Array:
-    steps = np.frombuffer(base64.b64decode(packed["data"]), "<u2").reshape(40, 120)
-    return packed["low"] + packed["step"] * steps
+def table(packed: PackedTable | None) -> Array:
+    assert packed is not None
+    steps = np.frombuffer(base64.b64decode(packed.data), "<u2").reshape(40, 120)
+    return packed.low + packed.step * steps
 
 
 def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
@@ -43,13 +44,14 @@ def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Soluti
 
 def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
     shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), MOVING, at_rest=True)
+    assert shown.values is not None
     grid = polar_grid(solution.disk, 40, 120)
     for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
-        packed = shown["values"][name]
-        assert np.abs(table(packed) - field.sample(Drawn(solution), grid)).max() <= 0.51 * packed["step"] + 1e-9
+        packed = shown.values[name]
+        assert np.abs(table(packed) - field.sample(Drawn(solution), grid)).max() <= 0.51 * packed.step + 1e-9
     margin = np.minimum(
         *(
-            sign * (table(shown["values"][end]) - table(shown["values"]["alpha"]))
+            sign * (table(shown.values[end]) - table(shown.values["alpha"]))
             for end, sign in (("upper", 1), ("lower", -1))
         )
     )
@@ -59,18 +61,18 @@ def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
 
 def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
     moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), MOVING, at_rest=False)
-    assert "values" not in moving
-    assert not {"stall", "negative_stall"} & {one["name"] for one in moving["regions"]}
+    assert moving.values is None
+    assert not {"stall", "negative_stall"} & {one.name for one in moving.regions}
 
 
 def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     other = solve(make_design(mu=0.3))
     shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), MOVING, True, other)
-    reverse = next(one for one in shown["regions"] if one["name"] == "reverse_flow")
-    own, before = (max(np.abs(np.concatenate(reverse[name])[:, 0])) for name in ("lines", "before"))
+    reverse = next(one for one in shown.regions if one.name == "reverse_flow")
+    own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
     assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
-    assert np.abs(table(shown["alpha_a"]) - ALPHA.sample(Drawn(other), polar_grid(other.disk, 40, 120))).max() < 0.01
+    assert np.abs(table(shown.alpha_a) - ALPHA.sample(Drawn(other), polar_grid(other.disk, 40, 120))).max() < 0.01
 
 
 @pytest.mark.parametrize(

@@ -247,15 +247,15 @@ class TestRide:
     def test_the_point_is_on_its_curve_and_the_triangle_closes(self, near: float, steady: Solution):
         r = float(steady.disk.r[np.abs(steady.disk.r - near).argmin()])
         turn, step = turn_of(steady, r, 40.0), AZIMUTHS // math.gcd(AZIMUTHS, len(steady.disk.psi))
-        reversed_flow = np.array(turn["u"]) < 0.0
+        reversed_flow = np.array(turn.u) < 0.0
         assert reversed_flow.any() == (near < 0.37)  # At ψ 270° the air comes from behind inboard of µ.
         for k in range(0, AZIMUTHS, step):  # Where the disk has a station.
-            on_curve = np.interp(turn["alpha"][k], turn["angles"], turn["curves"][k])
-            if abs(turn["alpha"][k]) < max(turn["angles"]):  # Beside the hub the flow stands across the section.
-                assert on_curve == pytest.approx(turn["cl"][k], abs=0.01)
-            assert turn["lift"][k] == pytest.approx(probe(steady, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
+            on_curve = np.interp(turn.alpha[k], turn.angles, turn.curves[k])
+            if abs(turn.alpha[k]) < max(turn.angles):  # Beside the hub the flow stands across the section.
+                assert on_curve == pytest.approx(turn.cl[k], abs=0.01)
+            assert turn.lift[k] == pytest.approx(probe(steady, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
             if not reversed_flow[k]:
-                assert turn["theta"][k] - turn["phi"][k] == pytest.approx(turn["alpha"][k], abs=0.02)
+                assert turn.theta[k] - turn.phi[k] == pytest.approx(turn.alpha[k], abs=0.02)
 
 
 @pytest.fixture(scope="module")

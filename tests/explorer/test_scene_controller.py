@@ -241,6 +241,8 @@ class TestOverlays:
 
     def test_a_lost_trim_greys_the_disk(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
+        in_colour = page["/rotor/disk/field"]._data
         page.controller.fade(fast, VIEW)
         assert page.shown.calls[-1][2]
+        assert page["/rotor/disk/field"]._data != in_colour
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))

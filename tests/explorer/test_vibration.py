@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import viser
+from fake_bridge import Bridge
 from numpy.testing import assert_allclose
 
 from explorer.charts import vibration
@@ -136,13 +137,13 @@ class Page:
     """A panel without a browser, and what it told the page."""
 
     def __init__(self, server: viser.ViserServer) -> None:
-        self.shown: dict[str, Any] = {}
+        bridge = Bridge()
+        self.shown = bridge.state
         self.charts: list[Any] = []
         self.switch = ""
         strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: (None, "reference"))
         context: Any = SimpleNamespace(
-            bridge=SimpleNamespace(set=self.shown.update),
-            controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
+            bridge=bridge, controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words))
         )
         self.panel = VibrationPanel(context, strip)
 
@@ -161,39 +162,39 @@ class TestPanel:
         asked = iter([False, False] + [True] * 10_000)
         page.panel.solve_deferred(lambda: next(asked))  # Newer input leaves the band for later.
         row = page.shown["vibration"]
-        assert row["index"] == f"{loads.index:.1f}"
-        assert row["band"] == "band over inflow models: computing"
-        assert "0.5 aft, 0.67 to starboard, 1 vertical" in row["title"]
-        assert row["at"] == "at 4/rev"
+        assert row.index == f"{loads.index:.1f}"
+        assert row.band == "band over inflow models: computing"
+        assert "0.5 aft, 0.67 to starboard, 1 vertical" in row.title
+        assert row.at == "at 4/rev"
         page.panel.solve_deferred(lambda: False)
-        low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"]["band"]))
-        assert low <= float(row["index"]) <= high
+        low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"].band))
+        assert low <= float(row.index) <= high
         assert low < high
         assert re.fullmatch(r"[+−]\d+\.\d kW here", page.switch)
         assert page.charts[-1].value == f"{loads.index:.1f} %"
-        assert page.shown["hub_labels"][0]["text"] == "bending × 10"
+        assert page.shown["hub_labels"][0].text == "bending × 10"
 
     def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: Page, bent: Solution, straight: Solution):
         """3/rev twist against the same blade without; A's index is that of the same blade with bending."""
         twisted = solve(inputs_from("1;uh60a;mu=0.3;bending=true;twist_per_rev=3:1:60").design()).require()
         page.show(twisted, pinned=straight)
-        assert page.shown["vibration"]["change"] == ""
+        assert page.shown["vibration"].change == ""
         page.panel.solve_deferred(lambda: False)
         row, of_a = page.shown["vibration"], hub_loads(bent, solve, band=False)
         assert of_a is not None
-        assert row["change"].endswith(f"% vs. A ({of_a.index:.1f})")
-        percent = float(row["change"].split()[0].replace("−", "-"))
-        assert percent == pytest.approx(100.0 * (float(row["index"]) / of_a.index - 1.0), abs=2.0)
-        assert row["kind"] == ("good" if percent < 0.0 else "bad")
+        assert row.change.endswith(f"% vs. A ({of_a.index:.1f})")
+        percent = float(row.change.split()[0].replace("−", "-"))
+        assert percent == pytest.approx(100.0 * (float(row.index) / of_a.index - 1.0), abs=2.0)
+        assert row.kind == ("good" if percent < 0.0 else "bad")
 
     def test_slow_flight_and_unknown_blades_have_a_sentence(self, page: Page):
         slow = solve(replace(FAST, advance_ratio=0.15).design()).require()
         page.show(slow)
-        assert page.shown["vibration"]["sentence"].startswith("No hub loads below µ 0.2")
-        assert page.shown["vibration"]["index"] == ""
-        assert [one["text"] for one in page.shown["hub_labels"]] == ["bending × 10"]
+        assert page.shown["vibration"].sentence.startswith("No hub loads below µ 0.2")
+        assert page.shown["vibration"].index == ""
+        assert [one.text for one in page.shown["hub_labels"]] == ["bending × 10"]
         page.show(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require())
-        assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"]["sentence"]
+        assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"].sentence
         assert page.shown["hub_labels"] == []
         assert page.charts[-1] is None
         assert page.switch.startswith("The stiffness of the Robinson R22 blade")
@@ -201,7 +202,7 @@ class TestPanel:
     def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: Page):
         hart = solve(replace(with_rotor(FAST, "hart2"), advance_ratio=0.3).design()).require()
         page.show(hart)
-        assert page.shown["vibration"]["unit"] == "% of thrust"
+        assert page.shown["vibration"].unit == "% of thrust"
 
     def test_without_bending_nothing_is_computed(self, page: Page, straight: Solution, monkeypatch: pytest.MonkeyPatch):
         def never(*_: Any, **__: Any) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from explorer.hosting.messages import SupposePress
 from explorer.model.units import SI
 from explorer.sharing.share import Address
 from explorer.tabs.actuator.what_would_pay import WhatWouldPay, mass_chart, place_of
@@ -97,7 +98,7 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(opened: Any, mo
     pay.refresh(pair)
     assert "Trimming" in stage["suppose"]["words"]
     known["break_even"] = line
-    press([2.0, 4.3])
+    press(SupposePress(2.0, 4.3))
     pay.refresh(pair)
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass.
     assert stage["suppose"]["words"] == "2.0° for 4.3 kg saves 1.4 kW …"
@@ -121,7 +122,7 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(opened: Any, mo
     pay.refresh(pair)
     assert stage["suppose"]["note"] == "No trim there."
     del known["suppose"]
-    press([2.0, 50.0])
+    press(SupposePress(2.0, 50.0))
     pay.refresh(pair)
     assert stage["suppose"]["kind"] == "loss"
     assert not pay.pays

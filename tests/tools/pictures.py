@@ -69,7 +69,7 @@ def _twisted(page: Page) -> bytes:
     page.wait_for_function("() => RX.state.power.since && RX.state.power.why", timeout=WAIT)
     page.evaluate("() => RX.send('knot', ['0', 'end'])")
     page.evaluate("() => RX.send('azimuth', 65)")
-    swept = "() => RX.state.strip[0].series.some(one => one.filled && one.y.some(y => Math.abs(y) > 1))"
+    swept = "() => RX.state.strip[0].chart.series.some(one => one.filled && one.y.some(y => Math.abs(y) > 1))"
     page.wait_for_function(swept, timeout=WAIT)
     page.wait_for_function("() => Object.keys(RX.state.worth).length >= 6", timeout=WAIT)
     page.wait_for_function("() => !document.querySelector('.mantine-Notification-root')", timeout=WAIT)

@@ -61,6 +61,7 @@ class Visitor:
         self.blade = b""
         self.frames = 0
         self.bytes = 0
+        self._pressed = 0
         self.gone: str | None = None
         """Why the connection ended, once it has."""
 
@@ -97,9 +98,16 @@ class Visitor:
 
     async def idle(self, patience: float = 240.0, wholly: bool = True) -> None:
         """Wait until all edits are answered and, wholly, nothing more is computed for this page, as `RX.idle` does."""
+        asked = self._pressed + 1
+        await self.press("idle", [asked, wholly])
+        await self.until(lambda: self.frame.get("idle") == asked, patience)
+
+    async def press(self, name: str, value: Any = None) -> None:
+        """What the page's own scripts send, as `RX.send` does."""
+        self._pressed += 1
         uuid = next(uuid for uuid, widget in self.widgets.items() if widget.get("label") == BRIDGE)
-        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": json.dumps([1, "idle", [1, wholly]])})
-        await self.until(lambda: self.frame.get("idle") == 1, patience)
+        value = json.dumps([self._pressed, name, value])
+        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
 
     def find(self, label: str) -> str:
         """Identity of the visible widget of a label; LookupError where none is shown."""

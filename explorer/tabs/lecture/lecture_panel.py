@@ -12,15 +12,17 @@ import viser
 from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
 from explorer.model.session_state import SessionState, same_but_flight
 from explorer.model.units import UNITS
+from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import Facts, facts_at
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
-from explorer.tabs.background import Call, PoolAnswers
+from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from rotor.markup import tag
 from rotor.processes import JobEnded, JobEvent, JobFailed
 
@@ -46,7 +48,7 @@ CASES = {**DOCUMENT, **EXAMPLES}
 """The menu."""
 _NO_CASE = "–"
 _PATIENCE = 600.0
-"""[s] for the numbers of a step: seconds, but for a server that many use."""
+"""[s] for the lecture as a file: seconds, but for a server that many use."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,7 @@ class LecturePanel(Tab):
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
-        self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
+        self._told = PoolAnswers(context.pool, 4, self._facts_came)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
@@ -301,17 +303,17 @@ class LecturePanel(Tab):
         figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],
-            lecture={
-                "at": place.step,
-                "guess": place.guess,
-                "answer": answer_record(step, facts, units) if guessed and facts is not None else None,
-                "stop": place.stop,
-                "figures": figures,
-                "busy": state is None,
-                "problem": answer if isinstance(answer, str) else "",
-                "held": self._context.held,
-                "finish": "Fly it",
-            },
+            lecture=LecturePart(
+                at=place.step,
+                guess=place.guess,
+                answer=answer_record(step, facts, units) if guessed and facts is not None else None,
+                stop=place.stop,
+                figures=figures,
+                busy=state is None,
+                problem=answer if isinstance(answer, str) else "",
+                held=self._context.held,
+                finish="Fly it",
+            ),
         )
 
     def _fly(self, advance_ratio: float) -> None:

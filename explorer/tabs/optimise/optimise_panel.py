@@ -4,14 +4,13 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.session_state import SessionState
-from explorer.model.units import UNITS
+from explorer.parts.frame import NoticePart
 from explorer.sharing.share import Address, code_of, design_from
-from explorer.tabs.background import FRAME, BackgroundWork, Call, PoolAnswers
+from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
 from explorer.tabs.context import TabContext
 from explorer.tabs.form import Form
 from explorer.tabs.layout import by_hand
@@ -19,6 +18,7 @@ from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_run import legs as mission_legs
 from explorer.text.glossary import hint
+from explorer.workers.call import Call
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist
@@ -207,7 +207,7 @@ class OptimisePanel(BackgroundWork):
         self._best.stop()
         super().stop()
 
-    def notice(self, design: Design | None) -> dict[str, object] | None:
+    def notice(self, design: Design | None) -> NoticePart | None:
         """The bar over the scene while it shows a search instead of the sliders."""
         run = self.run
         if run is None or not self._offered or design is None or not run.matches(design):
@@ -215,11 +215,11 @@ class OptimisePanel(BackgroundWork):
         best, units = run.best, self._context.units
         if run.under_way:
             words = " …" if best is None else f": {units.watts(best.power)}"
-            return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
+            return NoticePart(f"Searching{words}", [("halt", "Stop")])
         if len(run.frames) < 2:
             return None
         beat = [("beat", "Beat it by hand")] if self._beatable(run) else []
-        return {"text": "Previewing optimum", "actions": [("apply", "Apply"), *beat, ("discard", "Discard")]}
+        return NoticePart("Previewing optimum", [("apply", "Apply"), *beat, ("discard", "Discard")])
 
     @staticmethod
     def _beatable(run: SearchRun) -> bool:
@@ -262,14 +262,14 @@ class Rival:
         """`problems` get a title and a sentence where the address cannot be read."""
         self._context, self._address, self._solved = context, address, BaselineCache()
         self._design = address.read(RIVAL, design_from, None, "Not the optimiser's design of the link", problems)
-        self._now: tuple[SessionState, Solution] | None = None
-        """What is shown, and the optimiser's trim beside it; None without one."""
+        self.solution: Solution | None = None
+        """The optimiser's trim in the present flight; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())
         context.bridge.on("rival_end", lambda _: self.begin(None))
 
     def begin(self, design: Design | None) -> None:
         """Measure what follows against this optimum; None: against none."""
-        self._design, self._now = design, None
+        self._design, self.solution = design, None
         try:
             self._address[RIVAL] = None if design is None else code_of(design)
         except ValueError:
@@ -278,25 +278,11 @@ class Rival:
 
     def show(self, state: SessionState) -> None:
         """Follow a converged state: in another flight, with another model or rotor there is nothing to compare."""
-        self._now, rival = None, self._design
+        self.solution, rival = None, self._design
         if rival is not None and is_rival(rival, state.solution.design):
             other = self._solved.solve(rival)
             if other.converged:
-                self._now = state, other
-
-    @property
-    def solution(self) -> Solution | None:
-        """The optimiser's trim in the present flight; None without one."""
-        return None if self._now is None else self._now[1]
-
-    def notice(self) -> dict[str, Any] | None:
-        """The bar over the scene."""
-        if self._now is None:
-            return None
-        state, other = self._now
-        own, best = self._context.analyses.of(state.solution), self._context.analyses.of(other)
-        words = text.comparison(own, best, UNITS[state.view.units])
-        return {"text": words, "actions": [("rival_take", "Take its twist"), ("rival_end", "End")]}
+                self.solution = other
 
     def _take(self) -> None:
         if self._design is not None and not self._context.held:

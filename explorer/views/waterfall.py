@@ -1,13 +1,13 @@
-"""What each part of the physics costs: the waterfall of power, each switch off alone, and their panel."""
+"""What each part of the physics costs: the waterfall of power, and each switch off alone."""
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 from explorer.colours import PARTS
-from explorer.model.session_state import SessionState
-from explorer.model.units import SI, UNITS, Units, number
-from explorer.tabs.context import Tab, TabContext
+from explorer.model.units import SI, Units, number
 from explorer.text import readout
 from explorer.text.readout import part_titles
+from explorer.views.now import Now, Panel, Tell
 from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.markup import Markup, group, tag
@@ -125,60 +125,56 @@ def _words(x: float, y: float, text: str, look: str = "") -> Markup:
     return tag("text.rx-w", text, x=x, y=y, class_=look)
 
 
-_WORDS = (
+WATERFALL_WORDS = (
     "The same condition without flapping, losses, reverse flow, compressibility and fuselage drag, then with one more "
     "at a time; every row is a trim. The cost of an effect depends on the others: what each alone adds to the "
     "whole stands beside its switch, under Model."
 )
-_CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
-"""Steps from everything off to everything on, and with each switch off alone."""
+_CLIMB = len(SWITCHES) + 1
+"""Steps from everything off to everything on; those with each switch off alone follow."""
 
 
-class WaterfallPanel(Tab):
-    def __init__(self, context: TabContext) -> None:
-        self._controls, gui = context.controls, context.gui
-        gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", _WORDS))
-        self._chart = gui.add_html(waterfall_chart(()))
-        self._design: Design | None = None
-        """With everything on: what the steps are of."""
-        self._units = SI
-        self._coming: Iterator[WaterfallStep] = iter(())
-        self._steps: list[WaterfallStep] = []
-        self._drawn = waterfall_chart(())
+class Steps:
+    """All steps of a design: some twenty trims."""
 
-    def show(self, state: SessionState) -> None:
-        """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
-        design = with_switches(state.solution.design, ())
-        if design != self._design:
-            self._design, self._coming, self._steps = design, waterfall_steps(design), []
-            self._fade()
-        units, self._units = self._units, UNITS[state.view.units]
-        if units is not self._units and len(self._steps) == _ALL:
-            self._draw()
+    name, soon = "waterfall", False
 
-    def solve_steps(self, superseded: Callable[[], bool]) -> None:
-        """Compute the steps that are missing, until the page has something else to do; show them once all are there."""
-        while self._design is not None and len(self._steps) < _ALL and not superseded():
-            self._steps.append(next(self._coming))
-            if len(self._steps) == _ALL:
-                self._draw()
-                self._coming = iter(())  # It keeps the last trims with their factors.
+    def __init__(self, design: Design) -> None:
+        """`design`: with everything on."""
+        self.key = self.name, design
+        self._coming: Iterator[WaterfallStep] = waterfall_steps(design)
+        self._found: list[WaterfallStep] = []
 
-    def show_failure(self) -> None:
-        self._design = None
-        self._fade()
-
-    def _draw(self) -> None:
-        climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
-        self._chart.content = self._drawn = waterfall_chart(climbed, self._units)
-        costs = {step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None}
-        self._controls.show_costs(costs)
-
-    def _fade(self) -> None:
-        self._chart.content = readout.faded(self._drawn)
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
+        """Goes on where it was interrupted. Whole, or not at all: it would grow under the eyes."""
+        del tell
+        while not superseded():
+            if (step := next(self._coming, None)) is None:
+                return tuple(self._found)
+            self._found.append(step)
+        return None
 
 
-def _cost(step: WaterfallStep, units: Units) -> str:
+def steps_asked(now: Now) -> tuple[Steps, ...]:
+    return () if now.state is None else (Steps(with_switches(now.state.solution.design, ())),)
+
+
+def waterfall(now: Now) -> dict[str, Any]:
+    """The drawing in its drawer, and what each switch costs beside it. The last ones stay, greyed, until those of the
+    design on the page are known."""
+    asked = steps_asked(now)
+    steps, current = now.latest(asked[0]) if asked else (None, False)
+    if steps is None:
+        return {"details.waterfall": waterfall_chart(())}
+    drawn = waterfall_chart(steps[:_CLIMB], now.units)
+    costs = {step.switch.name: cost_words(step, now.units) for step in steps[_CLIMB:] if step.switch is not None}
+    return {"details.waterfall": drawn if current and not now.problem else readout.faded(drawn), "switch.costs": costs}
+
+
+WATERFALL = Panel(waterfall, works=steps_asked)
+
+
+def cost_words(step: WaterfallStep, units: Units) -> str:
     """What a switch adds to the power, from the trim without it."""
     if step.note:
         return step.note

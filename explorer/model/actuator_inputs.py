@@ -10,7 +10,7 @@ from itertools import chain, pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from explorer.tabs.background import Call
+from explorer.workers.call import Call
 from rotor import Design, Rotor
 from rotor.actuator import (
     Actuator,

@@ -1,0 +1,120 @@
+"""Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from explorer.hosting.browser import Bridge
+from explorer.tabs.background import PoolAnswers, all_known
+from explorer.views.now import Asked, Effect, Grab, Memory, Now, Panel, Press, Work
+from rotor.processes import Processes
+
+_NOTHING = object()
+
+
+class Follower:
+    """One page's. `follow` is called on the session's thread, presses run on that of the bridge."""
+
+    def __init__(
+        self,
+        panels: Sequence[Panel],
+        bridge: Bridge,
+        texts: Mapping[str, Callable[[Any], None]],
+        pool: Processes,
+        wake: Callable[[], None],
+        now: Callable[[], Now],
+        pressed: Callable[[], Now],
+        perform: Callable[[Effect], None],
+    ) -> None:
+        """`texts`: what shows a value that is no part of the frame, by its name. `wake`: called when an answer came.
+
+        `now`: what is known as of the last update; `pressed`: at a press. `perform`: does one effect of a press.
+        """
+        self._panels, self._bridge, self._texts = tuple(panels), bridge, texts
+        self._pool, self._wake, self._now, self._pressed, self._perform = pool, wake, now, pressed, perform
+        self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
+        """Of each panel, by urgency."""
+        self.memory = Memory()
+        self._done: dict[Hashable, Any] = {}
+        self._begun: dict[Hashable, Work] = {}
+        """The page's own work by its key: done, and wanted."""
+        self._sent: dict[str, Any] = {}
+        self._places: list[tuple[Hashable, ...]] = [() for _ in self._panels]
+        """Of inputs and hand, when each was followed last."""
+        for panel in self._panels:
+            for name, press in panel.presses.items():
+                bridge.on(name, partial(self.press, press))
+
+    def answers(self) -> dict[Hashable, Any]:
+        """What worker processes have answered by now, and why not what they could not; and the page's own results."""
+        queues = [queue for each in self._queues for queue in list(each.values())]
+        return {call: why for queue in queues for call, why in queue.failures.items()} | all_known() | self._done
+
+    def work(self, superseded: Callable[[], bool], soon: bool) -> None:
+        """Have the page's own work done that is wanted, `soon` or later; each result is shown as it comes.
+
+        A result is kept while it is wanted, and work that is interrupted goes on the next time.
+        """
+        now = self._now()
+        wanted = [(panel, work) for panel in self._panels if panel.seen(now.ui) for work in panel.works(now)]
+        works = {work.key: work for _, work in reversed(wanted)}
+        self._begun = {key: self._begun.get(key, work) for key, work in works.items()}
+        self._done = {key: result for key, result in self._done.items() if key in works}
+        for panel, work in wanted:
+            if work.soon != soon or work.key in self._done:
+                continue
+            show = partial(self._show, lambda one, own=panel: one is own)
+            result = self._begun[work.key].run(superseded, show)
+            if result is None:
+                return
+            self._done = {**self._done, work.key: result}
+            self.memory = replace(self.memory, latest={**self.memory.latest, work.name: result})
+            show()
+
+    def _show(self, only: Callable[[Panel], bool]) -> None:
+        self.follow(self._now(), only)
+
+    def follow(self, now: Now, only: Callable[[Panel], bool] = lambda panel: True) -> None:
+        """Ask and view what is seen, and send what is other than before; `only`: of these panels."""
+        place = now.inputs, now.hand
+        changed: dict[str, Any] = {}
+        effects: tuple[Effect, ...] = ()
+        for k, (panel, queues) in enumerate(zip(self._panels, self._queues, strict=True)):
+            if not only(panel):
+                continue
+            seen = panel.seen(now.ui)
+            self._ask(queues, panel.asks(now) if seen else (), place != self._places[k])
+            self._places[k] = place
+            shown = panel.view(now) if seen else {}
+            effects += panel.reacts(now) if seen else ()
+            self.memory = panel.remember(replace(now, memory=self.memory), shown)
+            changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}
+        self._sent |= changed
+        for name in changed.keys() & self._texts.keys():
+            self._texts[name](changed.pop(name))
+        if changed:
+            self._bridge.set(**changed)
+        for effect in effects:
+            self._perform(effect)
+
+    def stop(self) -> None:
+        """The browser has left."""
+        for queues in self._queues:
+            for queue in queues.values():
+                queue.stop()
+
+    def _ask(self, queues: dict[int, PoolAnswers], asks: Sequence[Asked], moved: bool) -> None:
+        by_urgency = {one.urgency: one for one in asks}
+        for urgency in by_urgency.keys() - queues.keys():
+            queues[urgency] = PoolAnswers(self._pool, urgency, self._wake)
+        for urgency, queue in queues.items():
+            one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
+            queue.ask(one.calls, one.delay, moved)
+
+    def press(self, press: Press, value: Any) -> None:
+        """Do what it says; of a widget too."""
+        now = self._pressed()
+        for effect in press(now, value):
+            if not now.ui.held or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.
+                self._perform(effect)

@@ -1,0 +1,53 @@
+"""The drawers of power and trim, and of how far to trust them."""
+
+from typing import Any
+
+from explorer.charts.doubt import doubt_rows
+from explorer.text import readout
+from explorer.text.status import status_panel
+from explorer.views.now import Asked, Now, Panel
+from explorer.views.work import doubted
+from explorer.workers.call import Call
+from rotor.markup import Markup
+from rotor.trim.doubt import models_beside
+
+_URGENCY, _STILL = 5, 0.6
+"""[s] without a change before other models are solved."""
+
+
+def details(now: Now) -> dict[str, Any]:
+    """Power and trim: of this design, or of A and B; greyed while there is no trim."""
+    state, units = now.state, now.units
+    if state is None:
+        return {}
+    solution, pinned = state.solution, state.pinned
+    if pinned is None:
+        tables = readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
+    else:
+        tables = readout.compared_power_panel(solution, pinned, units), readout.compared_trim_panel(solution, pinned)
+    power, trim = map(readout.faded, tables) if now.problem else tables
+    return {"details.power": power, "details.trim": trim}
+
+
+def trust(now: Now) -> dict[str, Any]:
+    """The status, what the doubt consists of, and what other models give."""
+    state, asked = now.state, doubted(now)
+    if now.problem or state is None:
+        return {"trust.status": status_panel(None, now.problem or None)}
+    rows = Markup()
+    if asked and (found := now.answers.get(asked[0].key)) is not None:
+        models = now.answers.get(_models_asked(now)[0].calls[0])
+        rows = doubt_rows(found, now.units, models if isinstance(models, tuple) else ())
+    return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
+
+
+def _models_asked(now: Now) -> tuple[Asked, ...]:
+    """The powers with other models."""
+    return tuple(
+        Asked(_URGENCY, (Call(models_beside, (one.solution.design, one.reference and one.reference.design)),), _STILL)
+        for one in doubted(now)
+    )
+
+
+DETAILS = Panel(details, lambda ui: ui.drawer == "details")
+TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _models_asked, doubted)

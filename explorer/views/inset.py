@@ -1,0 +1,38 @@
+"""The inset: the blade from the side of its tip, and the ghost that it is compared with."""
+
+import math
+from typing import Any
+
+from explorer.parts.results import InsetPart
+from explorer.picture.blade_mesh import inset
+from explorer.picture.picture import flown_twist, follows_azimuth, ghost_twist
+from explorer.text.design_words import against
+from explorer.views.now import Now, Panel
+
+_GHOST_HINT = "The ghost has the same elastic twist: only the change of jig twist is seen."
+
+
+def blade_inset(now: Now) -> dict[str, Any]:
+    """At the azimuth of the reference blade."""
+    state = now.state
+    if state is None:
+        return {}
+    solution, psi, turns = state.solution, math.radians(state.view.azimuth_deg), follows_azimuth(state.solution)
+    design, reference = solution.design, state.reference.design
+    changed = reference.twist != design.twist
+    same_size = design.rotor.radius == reference.rotor.radius
+    ghost = ghost_twist(solution, reference.twist, psi) if same_size or not changed else None
+    compared = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
+    if solution.elastic is None:
+        names = "this blade", "The blade is rigid in torsion here.", compared, ""
+    else:
+        hint = "Jig twist and elastic twist, at the azimuth of the reference blade"
+        hint += f", ψ {state.view.azimuth_deg:.0f}°." if turns else "."
+        jig = "jig", "The blade as built, without the loads of flight."
+        names = "flown", hint, *((compared, _GHOST_HINT) if changed else jig)
+    shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
+    return {"inset": InsetPart(**vars(shown), **dict(zip(_NAMES, names, strict=True)))}
+
+
+_NAMES = "name", "name_hint", "ghost_name", "ghost_hint"
+INSET = Panel(blade_inset, turns=True)

@@ -1,0 +1,242 @@
+"""What the panels are functions of, and what a panel is."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol, TypeVar
+
+from explorer.charts.measured import FlownPowers, MeasuredChart
+from explorer.charts.plots import PowerCurve, Range
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import Analyses, SessionState
+from explorer.model.units import SI, UNITS, Units
+from explorer.parts.frame import NoticePart
+from explorer.parts.results import Best
+from explorer.workers.call import Call
+from rotor import Design, Solution
+from rotor.chart import Chart
+
+Mode = Literal["explore", "optimise", "actuate"]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Ui:
+    """What of the page is open."""
+
+    mode: Mode = "explore"
+    drawer: str = ""
+    """Empty: none."""
+    held: bool = False
+    """Whether a presenter moves the page."""
+
+
+@dataclass(frozen=True)
+class Hand:
+    """What the hand has set beside the inputs of the design."""
+
+    actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
+    lifted: bool = False
+    """Whether the blade with its actuator is out of the rotor."""
+    flown: float | None = None
+    """Where on the flight bar the voltages follow the flight; None where a hand set them."""
+    stopped: bool = False
+    """Whether the actuator has stopped: voltages stay as they are, wherever it flies."""
+    pulled: tuple[tuple[float, ...], float] = (), 0.0
+    """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
+    on_stage: bool = False
+    """Whether the stage shows what would pay in place of the balance of power."""
+    place: tuple[float, float] | None = None
+    """Range of twist [°] and mass of all blades [kg] of the supposed actuator; None until it is dragged."""
+
+
+@dataclass(frozen=True, eq=False)
+class Counted:
+    """The solutions that the change since a grab lies between."""
+
+    before: Solution | None = None
+    last: Solution | None = None
+    power: float | None = None
+    """Of the solution before the grab [W]."""
+
+    def then(self, solution: Solution, reference: float | None) -> "Counted":
+        """With one more; `reference`: power before the grab [W], as `PowerTracker` has it."""
+        before = self.before
+        if reference != self.power:
+            before = solution if reference == solution.power.total else self.last
+        return Counted(before, solution, reference)
+
+
+@dataclass(frozen=True)
+class HeldStation:
+    """The station of the blade that is in the hand."""
+
+    place: str
+    """In words."""
+    best: Best | None
+    """Its twist of least power, with that power in W; None until it is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Memory:
+    """What is remembered from one update to the next."""
+
+    counted: Counted = Counted()
+    ranges: Mapping[str, Range] = field(default_factory=dict[str, Range])
+    """Axes of charts, which hold as long as they serve."""
+    latest: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    """The last result of the page's own work, by its name: it stands until that of the present design is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Now:
+    """All that a panel may show at one instant."""
+
+    inputs: Inputs
+    """On the sliders."""
+    sliders: Design | None
+    """The design that they mean, without the actuator's twist; None where they mean none."""
+    state: SessionState | None
+    """The last converged one; None before the first."""
+    problem: str = ""
+    """Why the present inputs have no solution, in one sentence; empty where they have one."""
+    ui: Ui = Ui()
+    hand: Hand = field(default_factory=Hand)
+    station: HeldStation | None = None
+    change: float | None = None
+    """Power less that before the grab [W]; None while nothing was moved."""
+    rival: Solution | None = None
+    """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    searching: NoticePart | None = None
+    """What is said while a search is shown in place of the sliders."""
+    curve: PowerCurve | None = None
+    """Power over µ; None before the first."""
+    index: Chart | None = None
+    """Vibration index over µ, of blades that bend."""
+    measured: MeasuredChart = field(default_factory=MeasuredChart)
+    flown: FlownPowers = field(default_factory=FlownPowers)
+    analyses: Analyses = field(default_factory=Analyses)
+    memory: Memory = field(default_factory=Memory)
+    answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
+    """What is known: of worker processes by `Call`, of the page's own work by the key of `Work`. For a question that
+    failed, the sentence that says why."""
+    _derived: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False)
+
+    def of(self, derive: Callable[["Now"], T]) -> T:
+        """What `derive` makes of this, worked out once for all panels."""
+        if derive not in self._derived:
+            self._derived[derive] = derive(self)
+        return self._derived[derive]
+
+    @property
+    def units(self) -> Units:
+        return SI if self.state is None else UNITS[self.state.view.units]
+
+    def latest(self, work: "Work") -> tuple[Any, bool]:
+        """The result of work, and True; until it is known the last of its name, or None, and False."""
+        known = self.answers.get(work.key)
+        return (self.memory.latest.get(work.name), False) if known is None else (known, True)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Questions of a panel to the worker processes, the first one first."""
+
+    urgency: int
+    """As in `Processes.begin`."""
+    calls: tuple[Call, ...]
+    delay: float
+    """How long nothing must have moved before they are worked on [s]."""
+
+
+Tell = Callable[[], None]
+"""Says, before work is done, that there is more to show."""
+
+
+class Work(Protocol):
+    """What a panel wants computed by the page's own thread, once the page rests."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def soon(self) -> bool:
+        """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+        ...
+
+    @property
+    def key(self) -> Hashable:
+        """By which `Now.answers` has the result."""
+        ...
+
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> Any:
+        """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+        ...
+
+
+@dataclass(frozen=True)
+class Drag:
+    """Move the sliders as a hand does."""
+
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class Put:
+    """Move the sliders to a design that comes by no hand."""
+
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class Grab:
+    """Something was taken by the hand, or let go: what moves in between is one step of undo."""
+
+    held: bool
+
+
+@dataclass(frozen=True)
+class SetHand:
+    """Of what the hand has set beside the inputs, these fields of `Hand`; others may move meanwhile."""
+
+    changes: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class SetActuator:
+    """Move widgets of the actuator: these fields of `ActuatorInputs`."""
+
+    changes: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class SetAddress:
+    """Write a value into the address of the page; None removes it."""
+
+    name: str
+    value: str | None
+
+
+Effect = Drag | Put | Grab | SetHand | SetActuator | SetAddress
+Press = Callable[[Now, Any], tuple[Effect, ...]]
+"""What a press does, from what is known now and the value that came with it."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A panel of the page, or what belongs together of it."""
+
+    view: Callable[[Now], Mapping[str, Any]]
+    """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
+    seen: Callable[[Ui], bool] = lambda ui: True
+    """Where it is not, nothing is asked, worked out or viewed."""
+    asks: Callable[[Now], tuple[Asked, ...]] = lambda now: ()
+    works: Callable[[Now], Sequence[Work]] = lambda now: ()
+    turns: bool = False
+    """Whether it follows the azimuth of the reference blade."""
+    remember: Callable[[Now, Mapping[str, Any]], Memory] = lambda now, shown: now.memory
+    """What is remembered of what it showed."""
+    reacts: Callable[[Now], tuple[Effect, ...]] = lambda now: ()
+    """What a new answer moves, without a press."""
+    presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
+    """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""

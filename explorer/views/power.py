@@ -1,0 +1,158 @@
+"""The power card: power and its parts, its change and why, how sure it is, and whether it can be trusted."""
+
+import re
+from dataclasses import replace
+from typing import Any
+
+from explorer.charts.doubt import card_words
+from explorer.model.session_state import SessionState
+from explorer.model.units import BLANK, UNITS, Units, number
+from explorer.parts.results import HandPart, Kind, PowerPart, Share, Since, Status, Sureness
+from explorer.text.design_words import against
+from explorer.text.readout import fineness, ideal_induced, part_titles
+from explorer.text.status import cautions, validated
+from explorer.text.why import why
+from explorer.views.now import Now, Panel
+from explorer.views.work import doubted
+from rotor import Solution
+
+_NOTICEABLE = 0.05
+"""Changes below this [%] have no colour."""
+_TELLING = 0.1
+"""In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
+_STALLED = 0.01
+"""Part of the thrust, or a fifth of that of the disk, from which stall is named beside the power: near the root much of
+the disk may be stalled without weight.
+"""
+
+
+def power_card(now: Now) -> dict[str, Any]:
+    """The numbers of the last trim; without one now they stay, greyed, beside the sentence that says why."""
+    state = now.state
+    if state is None:
+        card = PowerPart(status=Status("problem", "no trim", now.problem))
+    else:
+        card = replace(_numbers(state, now.units), **_change(now, state), **vars(sureness(now)))
+    if now.problem:
+        sentence = re.sub(
+            r" The nearest trim found is at .*?\.(?= |$)", "", now.problem
+        )  # The button may find another.
+        problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
+        card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
+    return {"power": card}
+
+
+def sureness(now: Now) -> Sureness:
+    """How sure the numbers are. While the design moves the band of the step before stays; the sign of the change, which
+    may have turned, is not told."""
+    asked = doubted(now)
+    found, current = now.latest(asked[0]) if asked else (None, True)
+    if found is None:
+        return Sureness()
+    words = card_words(found, now.units)
+    return words if current else Sureness(words.within, doubt=words.doubt)
+
+
+def _change(now: Now, state: SessionState) -> dict[str, Any]:
+    """Change since the grab, else from the reference, and why."""
+    solution, reference, pinned, units = state.solution, state.reference, state.pinned is not None, now.units
+    change, before, words = now.change, now.memory.counted.before, "since grabbed"
+    if change is None or before is None:
+        if solution.design == reference.design or not reference.converged:
+            return {"rest": "same as A" if pinned else "as built", "why": "Pull the blade tip up or down."}
+        change, before = solution.power.total - reference.power.total, reference
+        words = "vs. A" if pinned else "vs. as built"
+    value = units.watts(change, fineness(solution.power), sign=True)
+    since = Since(value, words, _kind(change, solution.power.total))
+    return {"since": since, "why": why(before, solution, units)}
+
+
+def _numbers(state: SessionState, units: Units) -> PowerPart:
+    """Power and its parts, beside those of the reference."""
+    solution, power = state.solution, state.solution.power
+    reference = state.reference.power if state.reference.converged else None
+    unit, digits = units.power[0], fineness(power)
+    whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
+    apart = percent = None
+    if reference is not None:
+        apart = units.watts(power.total - reference.total, digits, sign=True)
+        if reference.total > _TELLING * whole:
+            percent = 100.0 * (power.total / reference.total - 1.0)
+    parts = list[Share]()
+    for name, words in part_titles(solution.design).items():
+        value = getattr(power, name)
+        title = f"{words} power {units.watts(value, digits)}"
+        if reference is not None:
+            title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
+        share = round(value / whole, 5) if whole > 0.0 else 0.0
+        parts.append(Share(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
+    ideal = ideal_induced(solution)
+    return PowerPart(
+        status=_status(state),
+        total=number(unit.of(power.total), digits),
+        unit=unit.symbol,
+        change=apart or BLANK if percent is None else f"{number(percent, 1, sign=True)} %",
+        kind="" if percent is None else _kind(percent, 100.0),
+        against=against(solution.design, state.pinned is not None),
+        parts=parts,
+        ideal=None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
+        ideal_title="" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
+    )
+
+
+def _status(state: SessionState) -> Status:
+    """The chip: trimmed, or engines, stalled area, number of caveats; and how well this rotor is validated here."""
+    reasons = cautions(state.solution, state.pinned)
+    stalled = state.solution.stalled_area
+    record = validated(state.solution)
+    title = " ".join([*reasons, record.sentence])
+    if state.solution.power.total < 0.0:
+        words = "autorotation"
+    elif (installed := _exceeded(state.solution)) is not None:
+        words = f"engines give only {UNITS[state.view.units].watts(installed)}"
+    elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
+        thrust = number(100.0 * state.solution.stalled_thrust, 1)
+        words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
+    elif reasons:
+        words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
+    else:
+        title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
+        return Status("converged", "trimmed", title, record.words)
+    return Status("care", words, title, record.words)
+
+
+def _exceeded(solution: Solution) -> float | None:
+    """Power of the engines [W] where the rotors take more; None where they do not, or it is not known."""
+    beyond = any(caveat.name == "installed-power" for caveat in solution.caveats)
+    return solution.design.aircraft.installed_power if beyond else None
+
+
+def _kind(change: float, total: float) -> Kind:
+    """Class of a change of power [W]."""
+    if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
+        return ""
+    return "good" if change < 0.0 else "bad"
+
+
+def hand(now: Now) -> dict[str, Any]:
+    """Power and its least beside the blade, while a station of it is held."""
+    if now.state is None or now.station is None:
+        return {"hand": None}
+    power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
+    digits = fineness(power)
+    shown = HandPart(
+        power=now.units.watts(power.total, digits),
+        change=unit.text(change, digits, sign=True),
+        kind=_kind(change, power.total),
+        now=round(unit.of(power.total), 2),
+        before=round(unit.of(power.total - change), 2),
+        digits=digits,
+        place=now.station.place,
+        best=now.station.best and replace(now.station.best, power=round(unit.of(now.station.best.power), 2)),
+        rival=None if now.rival is None else round(unit.of(now.rival.power.total), 2),
+    )
+    return {"hand": shown}
+
+
+POWER = Panel(power_card, works=doubted)
+HAND = Panel(hand)

@@ -1,0 +1,140 @@
+"""The charts below the scene: power over µ or what was measured, α, and lift or vibration.
+
+Axes are held while the data fit them, so that they do not jump during a drag.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
+from explorer.charts.plots import PowerCurve
+from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
+from explorer.model.session_state import SessionState
+from explorer.model.units import number
+from explorer.parts.results import Kind, Speeds, StripChart
+from explorer.text.design_words import against
+from explorer.views.now import Memory, Now, Panel, Tell
+from rotor import Design, Solution
+from rotor.chart import Chart, drawn_chart
+
+_NOTICEABLE = 500.0
+"""Changes of power below this [W] have no colour."""
+
+
+def strip(now: Now) -> dict[str, Any]:
+    """A test that was measured has its chart in place of power over µ; vibration takes the place of the lift."""
+    state = now.state
+    if state is None:
+        return {}
+    held, pinned = now.memory.ranges.get, state.pinned is not None
+    solution, reference, psi = state.solution, state.reference, state.view.azimuth_deg
+    compared: Role = "pinned" if pinned else "reference"
+    drawn = list[StripChart]()
+
+    def add(name: str, chart: Chart, kind: Kind = "", speeds: Speeds | None = None) -> None:
+        drawn.append(StripChart(name, kind, pinned, bool(now.problem), drawn_chart(chart), speeds))
+
+    if (measured := now.measured.chart(solution, held("measured"))) is not None:
+        add("measured", measured)
+    elif now.curve is not None:
+        add(*_power(now, state, now.curve))
+    if now.index is not None:
+        add("vibration", now.index)
+    add("alpha", alpha_chart(solution, reference, psi, held("alpha"), compared))
+    if now.index is None:
+        add("lift", lift_chart(solution, reference, held("lift"), compared))
+    return {"strip": drawn}
+
+
+def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart, Kind, Speeds | None]:
+    """Change of power over µ; the power itself where the design is its own reference."""
+    design, reference, failed = state.solution.design, state.reference, bool(now.problem)
+    # A preview, such as the flight of a schedule, is elsewhere than the sliders.
+    mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
+    held = now.memory.ranges.get(_axis(now, "power"))
+    change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
+    kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
+    if design == reference.design:
+        marks = now.flown.marks(state.solution, units)
+        total = None if failed else state.solution.power.total
+        chart = total_power_chart(curve, mu, total, units, held, marks, design)
+        notes = [chart.note, band_words(design, curve.band is not None), source_of(design)]
+        value = "" if failed else now.flown.value(state.solution)
+        chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
+    else:
+        name = against(design, pinned).removeprefix(f"{design.aircraft.name} ")
+        chart = power_change_chart(curve, mu, change, name, units, held)
+    if not curve.current or state.inputs.stand is not None:
+        return "power", chart, kind, None
+    chart, fastest = with_speeds(chart, curve, design)
+    told = not failed and math.isfinite(fastest)
+    return "power", chart, kind, Speeds(mu, math.floor(200.0 * fastest) / 200.0) if told else None
+
+
+def remember_ranges(now: Now, shown: Mapping[str, Any]) -> Memory:
+    """The axes that the next charts hold."""
+    ranges = {_axis(now, one.name): one.chart.y.range for one in shown.get("strip", ())}
+    return replace(now.memory, ranges={**now.memory.ranges, **ranges})
+
+
+def _axis(now: Now, name: str) -> str:
+    """Power over µ has another axis where it is the change."""
+    changed = now.state is not None and now.state.solution.design != now.state.reference.design
+    return f"{name}-change" if name == "power" and changed else name
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredPoints:
+    """Our trims at the points that were measured of this rotor on a test stand."""
+
+    chart: MeasuredChart
+    solution: Solution
+    name, soon = "measured", False
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        return self.name, self.solution.design
+
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> bool | None:
+        self.chart.trim_points(self.solution, superseded, tell)
+        return None if superseded() else True
+
+
+@dataclass(frozen=True, eq=False)
+class Flights:
+    """Our trims in the flights whose power was measured."""
+
+    powers: FlownPowers
+    solution: Solution
+    name, soon = "flights", False
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        return self.name, self.solution.design
+
+    def run(self, superseded: Callable[[], bool], tell: Tell) -> bool | None:
+        self.powers.trim_flights(self.solution, superseded, tell)
+        return None if superseded() else True
+
+
+def trims_asked(now: Now) -> tuple[MeasuredPoints | Flights, ...]:
+    """On a stand at what was measured; in flight only beside the power itself."""
+    if now.state is None:
+        return ()
+    solution = now.state.solution
+    points = MeasuredPoints(now.measured, solution)
+    plain = solution.design == now.state.reference.design
+    return (points, Flights(now.flown, solution)) if plain else (points,)
+
+
+def band_words(design: Design, drawn: bool) -> str:
+    """What the band of power over µ is; empty where none is drawn."""
+    areas = design.fuselage.drag_area_band
+    if areas is None or not drawn:
+        return ""
+    return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², which the sources allow."
+
+
+STRIP = Panel(strip, works=trims_asked, turns=True, remember=remember_ranges)

@@ -1,0 +1,68 @@
+"""What a step of each slider changes. Of the twist exactly, from one adjoint; of the flight by differences of trims."""
+
+from typing import Any, Literal
+
+from explorer.model.inputs import Inputs
+from explorer.model.sliders import SLIDERS, SliderSensitivity, slider, twist_sensitivities
+from explorer.model.units import Units
+from explorer.parts.results import Worth
+from explorer.views.now import Now, Panel
+from explorer.views.work import FlightSlopes, Slopes, by_power
+
+_HALF = 6e3
+"""Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
+
+
+def slopes_asked(now: Now) -> tuple[Slopes, FlightSlopes] | tuple[()]:
+    """Those of the twist and of the flight; none without power, nor where no slider holds the design."""
+    state = now.state
+    if state is None or now.problem or not by_power(state.solution.design):
+        return ()
+    return Slopes(state.solution, now.analyses), FlightSlopes(state.solution)
+
+
+def twist_slopes(now: Now) -> dict[str, float]:
+    """Change of power for a unit of each twist slider [W], of the design shown; empty until it is known."""
+    asked, state = slopes_asked(now), now.state
+    gradient = now.answers.get(asked[0].key) if asked else None
+    if state is None or gradient is None or state.solution.design != state.inputs.design():
+        return {}
+    return {name: one.slope for name, one in twist_sensitivities(state.inputs, gradient).items()}
+
+
+def worth(now: Now) -> dict[str, Any]:
+    """Until the page rests, what was known of the design before stands there, marked as stale."""
+    state, asked, rows = now.state, slopes_asked(now), dict[str, Worth]()
+    if state is None or not asked:
+        return {"worth": rows}
+    gradient, of_now = now.latest(asked[0])
+    if gradient is not None and state.solution.design == state.inputs.design():
+        for name, one in twist_sensitivities(state.inputs, gradient).items():
+            rows[name] = worth_row(state.inputs, one, now.units, stale=not of_now)
+    flight, of_now = now.latest(asked[1])
+    for name, one in (flight or {}).items():
+        rows[name] = worth_row(state.inputs, one, now.units, stale=not of_now)
+    return {"worth": rows}
+
+
+def worth_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> Worth:
+    """The change of power by a step up, with its sign, and which way saves."""
+    ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
+    way = ways[sensitivity.saving_direction]
+    value = sensitivity.value_text(units) if way else "no effect"
+    if sensitivity.name in inputs.idle:
+        value = "no effect without a change of twist"
+    title = SLIDERS[sensitivity.name].label.partition(" [")[0]
+    step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
+    step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
+    sentence = (
+        f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
+        f"A {'higher' if way == 'up' else 'lower'} value saves power."
+        if way
+        else f"{title}: {step} more changes power by less than 0.05 kW."
+    )
+    size = abs(sensitivity.watts())
+    return Worth(way, value, sensitivity.unit_text(units), round(size / (size + _HALF), 3), sentence, stale)
+
+
+WORTH = Panel(worth, works=slopes_asked)
