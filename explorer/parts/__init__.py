@@ -5,7 +5,7 @@ This package imports only words and numbers of `rotor`.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypedDict
+from typing import TypedDict
 
 from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
 from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart

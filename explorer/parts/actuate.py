@@ -32,7 +32,6 @@ class DialPart:
     """Amplitude of half the voltage range [°]."""
     room: float
     """Share of it that steady voltage leaves."""
-    steady: bool
     rings: tuple[tuple[float, str], ...]
     """Radius [°] and its words."""
     words: str

@@ -113,7 +113,6 @@ def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart
         reach=reach,
         whole=round(whole, 4),
         room=0.0 if fitted is None else round(steady_room(fitted.installed, fitted.volts), 4),
-        steady=fitted is not None and any(fitted.volts),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
         computing=not words and not isinstance(answer, DialAnswer),

@@ -1,3 +1,4 @@
+// @ts-check
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
   const {text, write} = Common, {part} = RX;

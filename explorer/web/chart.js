@@ -1,3 +1,4 @@
+// @ts-check
 // The charts of the page and of the lecture's file: one drawing of what `rotor.chart` says as JSON. Ticks, ends of the
 // axes and colours come with it.
 const Charts = (() => {

@@ -1,3 +1,4 @@
+// @ts-check
 // The strip below the scene, and the twist curve that can be dragged.
 (() => {
   const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;

@@ -1,3 +1,4 @@
+// @ts-check
 // What the scripts of the page, and those of the lecture's file, have in common.
 const Common = (() => {
   const DEGREE = Math.PI / 180, page = document.documentElement;

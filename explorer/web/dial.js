@@ -1,3 +1,4 @@
+// @ts-check
 // The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it,
 // and the verdict on the actuator, which both stand for.
 (() => {

@@ -1,3 +1,4 @@
+// @ts-check
 // Actuate: tip twist over a flight that is scrubbed or played, and what the actuator earns.
 (() => {
   const {text, clamp, lerp, write, closest, paced, drag} = Common, {part} = RX;

@@ -1,3 +1,4 @@
+// @ts-check
 // The frame: takes parts of the page's state from Python, draws what has changed, and reports what is pressed.
 (() => {
   const {text, clamp, write, closest, soon, drag, viewer, node, project, follow} = Common;

@@ -1,3 +1,4 @@
+// @ts-check
 // The reference blade seen end-on in an oblique projection: sections, ribbon, and the reference as a grey ghost.
 (() => {
   const {DEGREE, text, lerp, trace} = Common, {part} = RX, degrees = angle => `${Common.signed(angle)}°`;

@@ -1,3 +1,4 @@
+// @ts-check
 // Keys in addition to viser's: coarse steps of sliders, and who gets a key.
 (() => {
   const arrows = new Set(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']);

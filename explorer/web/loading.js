@@ -1,3 +1,4 @@
+// @ts-check
 // The veil goes when the page has an answer and its layout is at rest, and comes back when the server returns.
 (() => {
   const SLOW = 6000, ENOUGH = 25000, BRIEF = 300, ASK = 500;  // [ms]

@@ -1,3 +1,4 @@
+// @ts-check
 // What the server asks of the page by name, and the fields that clicks write to.
 (() => {
   const {clamp, closest} = Common, KEPT = 'rx-kept', page = document.documentElement;
@@ -28,8 +29,8 @@
   document.addEventListener('click', event => {
     const {left, bottom, width, height} = closest(event, '[data-map]')?.getBoundingClientRect() ?? {};
     if (!width) return;
-    const shares = [(event.clientX - left) / width, (bottom - event.clientY) / height];
-    RX.send('map_at', shares.map(share => clamp(share, 0, 1)));
+    const across = (event.clientX - left) / width, up = (bottom - event.clientY) / height;
+    RX.send('map_at', [clamp(across, 0, 1), clamp(up, 0, 1)]);
   });
 
   Object.assign(RX, {

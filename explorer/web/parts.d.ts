@@ -112,7 +112,6 @@ interface RxDialPart {
   reach: number;
   whole: number;
   room: number;
-  steady: boolean;
   rings: [number, string][];
   words: string;
   computing: boolean;
@@ -469,7 +468,6 @@ interface RxStepControl {
 interface RxStripChart {
   name: string;
   kind: '' | 'good' | 'bad';
-  pinned: boolean;
   faded: boolean;
   chart: RxDrawnChart;
   speeds: RxSpeeds | null;

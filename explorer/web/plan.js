@@ -1,3 +1,4 @@
+// @ts-check
 // The disk as a plan: picture, crisp outlines, labels outside the rim, values under the pointer, pinned cards, and the
 // angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
 (() => {

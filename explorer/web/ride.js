@@ -1,3 +1,4 @@
+// @ts-check
 // One slow turn with a blade section: the camera goes with it; a card shows the air it meets, its lift, and its point
 // on the lift curve. Any key, or a press beside the card, leads out again.
 (() => {

@@ -1,3 +1,4 @@
+// @ts-check
 // The blade twisted by hand: while a station is held half the stage is the blade from the tip, the other half the live
 // plan of the disk (plan.js), with a scale of power above. Jig twist, drawn four times; the server moves the sliders.
 (() => {

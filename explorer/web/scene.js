@@ -1,3 +1,4 @@
+// @ts-check
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
   const {clamp, lerp, calm, viewer, node, setPose} = Common, TURN = 2 * Math.PI;

@@ -1,3 +1,4 @@
+// @ts-check
 // Names that screen readers speak, and keys, for what viser draws without them; focus that survives a repaint.
 (() => {
   const {closest, soon} = Common;

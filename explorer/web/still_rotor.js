@@ -1,3 +1,4 @@
+// @ts-check
 // Rotors of a file without a server: blades shaped from harmonics of their pitch, and pictures on the disk, by the
 // points that `explorer/export/still_rotor.py` makes. `data` holds the blade's shape, its rings and faces.
 window.stillRotor = data => {

@@ -1,3 +1,4 @@
+// @ts-check
 // The lecture as a column of steps beside the scene: a guess, its answer with a chart, one control. The page and the
 // file without a server both use it: everything reports by `data-do`, and what is shown comes through `steps` and
 // `show`.

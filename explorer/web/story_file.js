@@ -1,3 +1,4 @@
+// @ts-check
 // The lecture as a file: what the server would answer is in it, by step and by position of the control.
 (() => {
   const {clamp, closest, calm, viewer, follow} = Common, page = document.getElementById('rx');

@@ -1,3 +1,4 @@
+// @ts-check
 // What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py
 // or test_reconnect.py, and a proposal to its authors in docs/developers/upstream.
 (() => {

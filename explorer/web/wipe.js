@@ -1,3 +1,4 @@
+// @ts-check
 // A and B at one place: A is seen left of a handle, B right of it. The scene holds both; each frame is drawn twice, the
 // second time inside the left part alone. viser's scene calls what is set here before and after each drawing of it.
 (() => {

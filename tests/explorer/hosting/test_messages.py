@@ -89,6 +89,8 @@ def test_every_press_has_a_row_an_action_and_a_sender():
                 case ast.Call(ast.Name("Sections"), [_, _, ast.Constant(str(name)), *_]):
                     heard.add(name)
                     sent.add(name)
+                case ast.keyword("presses", ast.Dict(keys)):
+                    heard |= {key.value for key in keys if isinstance(key, ast.Constant)}
                 case ast.keyword("data_do", ast.Constant(str(name))):
                     sent.add(name)
                 case ast.keyword("action", ast.Constant(str(name))) if name in PRESSES:
