@@ -10,16 +10,15 @@ window.makeStory = (column, figures, report) => {
   const section = k => list.children[k];
 
   const draw = () => {
-    const button = (action, k, more = '') => `<button data-do="${action}" data-value="${k}" ${more}></button>`;
     write(list, steps.map(({title, options}, k) => `<section data-step="${k + 1}" aria-label="${text(title)}">
       <p class="rxs-count">Step ${k + 1} of ${steps.length}</p><h2>${text(title)}</h2><p class="rxs-watch"></p>
       <dl class="rxs-pair" hidden><dt data-side="a">A</dt><dd></dd><dt data-side="b">B</dt><dd></dd></dl>
       <fieldset class="rxs-guess"><legend></legend>
-        <div>${options.map((_, n) => button('guess', n)).join('')}</div></fieldset>
+        <div>${options.map((_, n) => `<button data-do="guess" data-value="${n}"></button>`).join('')}</div></fieldset>
       <div class="rxs-answer" aria-live="polite" hidden><p></p><figure></figure></div>
       <div class="rxs-control"></div></section>`).join(''));
-    write(foot.querySelector('.rxs-dots'), steps.map(({title}, k) =>
-      button('story', k, `aria-label="Step ${k + 1}: ${text(title)}" title="${text(title)}"`)).join(''));
+    write(foot.querySelector('.rxs-dots'), steps.map(({title}, k) => `<button data-do="story" data-value="${k}"
+      aria-label="Step ${k + 1}: ${text(title)}" title="${text(title)}"></button>`).join(''));
     steps.forEach((step, k) => {
       const part = section(k), pair = part.querySelector('.rxs-pair');
       write(part.querySelector('.rxs-watch'), marked(step.watch));
