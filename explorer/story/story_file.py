@@ -151,7 +151,9 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
         "column": web.text("column.html"),
         "stage": web.text("wipe.html"),
         "data": web.json_block("story-data", record),
-        "scripts": web.scripts("chart.js", "scene.js", "still_rotor.js", "wipe.js", "story.js", "story_file.js"),
+        "scripts": web.scripts(
+            *("common.js", "chart.js", "scene.js", "still_rotor.js", "wipe.js", "story.js", "story_file.js")
+        ),
     }
     page, front = with_title(page, "Rotor explorer: lecture", web.policy()), web.fill("story.html", words)
     body = page.rindex(end_of("body"))

@@ -19,10 +19,12 @@ _FOLDER = Path(__file__).parent
 STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "big.css")
 """Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
-    *("viser.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js", "inset.js"),
-    *("plan.js", "ride.js", "rubber.js", "flight.js", "dial.js", "spoken.js", "wipe.js", "story.js", "lecture.js"),
+    *("viser.js", "common.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js"),
+    *("inset.js", "plan.js", "ride.js", "rubber.js", "flight.js", "dial.js", "spoken.js", "wipe.js", "story.js"),
+    "lecture.js",
 )
-"""Scripts of the page in the order in which they run: `viser.js` before viser's client; `frame.js` defines `RX`."""
+"""Scripts of the page in the order in which they run: `viser.js` before viser's client; `common.js` defines
+`Common`, `frame.js` defines `RX`."""
 
 _INSIDE = "data: blob:"  # viser's viewer evaluates text.
 _POLICY = (

@@ -1,99 +1,136 @@
-// The cards on the stage: power, quantity on the disk.
+// @ts-check
+// The cards on the stage: power, vibration, quantity on the disk.
 (() => {
-  const {text, part} = RX;
+  const {text, write} = Common, {part} = RX;
+  const coloured = kind => kind ? `rxf-${kind}` : '';
+  const WITHOUT_MASS = '<div class="rxf-sub">at this twist, without its mass</div>';
 
-  RX.paint('power', now => {
-    const place = part('power');
-    place.toggleAttribute('data-faded', Boolean(now.problem));
-    const total = Math.max(now.parts.reduce((sum, one) => sum + Math.max(one.share, 0), 0), 1e-6);
-    const bar = now.parts.map(one => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${one.part})"></div>`).join('')
-      + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
-    const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
-    const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
-    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(now.doubt)}"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span> <small data-explorer="within">${text(now.within)}</small></div>
-      ${now.since ? '' : '<div class="rxf-sub">total power</div>'}<div class="rxf-sub rxf-num" ${now.since ? '' : 'hidden'}><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>
-      <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(now.doubt)}">${now.sure ? `${text(now.change_within)} %: ${text(now.sure)}` : ''}</div></div>
-      <div class="rxf-rule"></div>
-      ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)} <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
-      <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2'))}</div></div>`}
-      <div class="rxf-rule"></div>
-      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details" aria-label="Power and trim in detail: ${now.parts.map(one => `${text(one.name)} ${text(one.value)}`).join(', ')}" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
-      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}"><span>${text(now.status.words)}${now.status.measured ? `<small data-explorer="validated">${text(now.status.measured)}</small>` : ''}</span></button>`;
+  // Before a flight with an actuator the verdict stands in place of what has changed.
+  RX.paint(['power', 'earns'], (power, earns) => {
+    const card = part('power'), {problem, since, status, parts} = power, compared = earns && !problem;
+    card.toggleAttribute('data-faded', Boolean(problem));
+    const widths = parts.map(({share}) => Math.max(share, 0));
+    const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
+    const bars = widths.map((width, k) =>
+      `<div style="flex:${width / total};background:var(--rx-${parts[k].part})"></div>`).join('');
+    const ideal = power.ideal === null ? ''
+      : `<u style="left:${100 * power.ideal / total}%" title="${text(power.ideal_title)}"></u>`;
+    const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
+      <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
+    const spoken = parts.map(one => `${one.name} ${one.value}`);
+    const change = `<div class="rxf-sub rxf-num" ${since ? '' : 'hidden'}>
+      <span data-explorer="change" class="${coloured(power.kind)}">${text(power.change)}</span> vs.
+      <span data-explorer="against">${text(power.against)}</span></div>`;
+    const latest = since
+      ? `<span class="${coloured(since.kind)}">${text(since.value)}</span> <small>${text(since.words)}</small>`
+      : `<span>${text(power.rest)}</span>`;
+    const problemOrChange = problem
+      ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
+        <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
+      : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${latest}</div>
+        <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
+    card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
+        <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
+        <small data-explorer="within">${text(power.within)}</small></div>
+      ${compared ? WITHOUT_MASS : `${since ? '' : '<div class="rxf-sub">total power</div>'}${change}`}
+      <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(power.doubt)}" ${power.sure ? '' : 'hidden'}>
+        ${text(power.change_within)} %: ${text(power.sure)}</div></div>
+      <div class="rxf-rule"></div>${compared ? '' : problemOrChange}<div class="rxf-rule"></div>
+      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+        title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
+        <div>${bars}${ideal}</div><dl>${key}</dl></div>
+      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
+        data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}">
+        <span>${text(status.words)}<small data-explorer="validated" ${status.measured ? '' : 'hidden'}>
+          ${text(status.measured)}</small></span></button>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
-    const why = place.querySelector('.rxf-why'), room = why && parseFloat(getComputedStyle(why).minHeight) + 1;
-    for (const clauses = now.why.split('; '); clauses.length > 1 && why?.offsetHeight > room;) {
-      clauses.pop();
-      why.textContent = `${clauses.join('; ')}.`;
+    const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
+    if (why) {
+      const room = parseFloat(getComputedStyle(why).minHeight) + 1;
+      why.textContent = power.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2');
+      while (clauses.length > 1 && why.offsetHeight > room) {
+        clauses.pop();
+        why.textContent = `${clauses.join('; ')}.`;
+      }
     }
-    const chip = place.querySelector('.rxf-chip');
-    if (now.status.kind === 'care') chip.style.cssText = 'background:var(--rx-warn);color:var(--rx-warn-ink)';
-    if (now.problem) RX.say(now.problem);
+    if (problem) RX.say(problem);
   });
 
-  // Vibration of blades that bend, a row of its own below the power, whose card is filled anew each time.
-  function vibration(now) {
-    const card = part('power'), html = document.documentElement;
-    html.toggleAttribute('data-vibration', Boolean(now));
-    card.querySelector('.rxf-vibration')?.remove();
-    if (!now) return;
-    const numbers = now.sentence ? `<span class="rxf-dim">${text(now.sentence)}</span>` : `<span class="rxf-num"><b data-explorer="index">${text(now.index)}</b> ${text(now.unit)}</span><span class="rxf-dim rxf-num" data-explorer="index-band">${text(now.band)}</span>
-      ${now.change ? `<span class="rxf-num ${now.kind ? `rxf-${now.kind}` : ''}" data-explorer="index-change">${text(now.change)}</span>` : ''}`;
-    card.insertAdjacentHTML('beforeend', `<div class="rxf-vibration" data-explorer="vibration" role="group" tabindex="0" aria-label="Vibration: ${text(now.sentence || `${now.index} ${now.unit}, ${now.band}${now.change ? `, ${now.change}` : ''}. ${now.title}`)}" title="${text(now.title)}"><b>Vibration${now.at ? ` ${text(now.at)}` : ''}</b>${numbers}</div>`);
-  }
-  RX.also('vibration', vibration);
-  RX.also('power', () => vibration(RX.state.vibration));
+  // Vibration of blades that bend, a row of its own below the power.
+  RX.paint('vibration', vibration => {
+    const row = part('vibration');
+    row.hidden = !vibration;
+    document.documentElement.toggleAttribute('data-vibration', Boolean(vibration));
+    if (!vibration) return;
+    const {at, sentence, index, unit, band, change, kind, title} = vibration;
+    row.title = title;
+    row.ariaLabel = `Vibration: ${sentence || `${index} ${unit}, ${band}${change ? `, ${change}` : ''}. ${title}`}`;
+    const numbers = `<span class="rxf-num"><b data-explorer="index">${text(index)}</b> ${text(unit)}</span>
+      <span class="rxf-dim rxf-num" data-explorer="index-band">${text(band)}</span>
+      <span class="rxf-num ${coloured(kind)}" data-explorer="index-change"
+        ${change ? '' : 'hidden'}>${text(change)}</span>`;
+    write(row, `<b>Vibration ${text(at)}</b>${sentence ? `<span class="rxf-dim">${text(sentence)}</span>` : numbers}`);
+  });
 
-  const REGIONS = {
-    stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
-    reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
-    wake: ['Tip vortices', '<path d="M0 8.500C6 1 13 1 20 6.5" stroke="var(--rx-accent)" stroke-width="1.800" fill="none"/>'],
-    drag_divergence: ['Drag divergence', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
-  };
-  const line = (colour, dashes = '') => `<path d="M0 5.5H20" stroke="${colour}" stroke-width="2.4" stroke-dasharray="${dashes}"/>`;
+  const line = (colour, dashes = '', width = 2.4) =>
+    `<path d="M0 5.5H20" stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dashes}"/>`;
+  const CURVE = 'd="M0 8.5C6 1 13 1 20 6.5" stroke="var(--rx-accent)" stroke-width="1.8" fill="none"';
+  const STRIPES = '<path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>';
+  const FRAMED = 'width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"';
+  // On the disk in the scene; on its plan, which draws outlines.
+  const REGIONS = [
+    ['stall', 'Stall', `<rect width="20" height="11" fill="#8fcf7c"/>${STRIPES}`],
+    ['reverse_flow', 'Reverse flow', `<rect x=".7" y=".7" ${FRAMED}/>`],
+    ['wake', 'Tip vortices', `<path ${CURVE}/>`],
+    ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '4.5 2.5', 2)],
+  ];
   const PLANNED = [
     ['stall', 'Stall', line('var(--rx-stall)')], ['negative_stall', 'Negative stall', line('var(--rx-stall)', '7 3')],
-    ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')], ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
+    ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')],
+    ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
   ];
-  RX.paint('field', now => {
+  RX.paint(['field', 'plan'], (field, plan) => {
     const card = document.querySelector('.rxf-field');
-    card.hidden = !now;
-    if (!now) return;
-    const menu = card.querySelector('select'), names = now.fields.join('|');
-    if (menu.dataset.names !== names) {
-      menu.dataset.names = names;
-      menu.innerHTML = now.fields.map(name => `<option>${text(name)}</option>`).join('');
-    }
-    if (menu.value !== now.field) menu.value = now.field;
-    menu.disabled = now.held;
-    part('unit').textContent = now.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
-    part('scale').className = now.faded ? 'rxf-faded' : '';
-    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: values beyond the range"><i style="background:${now.colours[0]};visibility:${now.beyond[0] ? 'visible' : 'hidden'}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)};visibility:${now.beyond[1] ? 'visible' : 'hidden'}"></i></div>${Charts.bar(now.ticks)}`;
-    const fit = card.querySelector('.rxf-fit');
-    fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
-    fit.textContent = now.fitted ? 'Reset' : 'Fit';
-    fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
-    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="wipe" aria-pressed="${now.wipe}">Wipe A | B</button>`;
-    // The plan draws outlines, and each region has its own share there.
-    const shares = RX.state.plan && Object.fromEntries(RX.state.plan.regions.map(one => [one.name, one.words.split(' · ')[0]]));
-    const entries = shares ? PLANNED.filter(([name]) => name !== 'negative_stall' || name in shares) : Object.entries(REGIONS).map(([name, [title, swatch]]) => [name, title, swatch]);
-    part('legend').innerHTML = entries.map(([name, title, swatch]) => {
-      const region = name === 'negative_stall' ? 'stall' : name, share = shares ? shares[name] : name === 'stall' && now.stalled;
-      return `<button data-do="region" data-value="${region}" aria-pressed="${now.regions[region]}" ${!shares && name === 'stall' ? 'title="Of the disk, at high and at negative angles of attack"' : ''}><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${share ? shares ? ` <span class="rxf-num">${text(share)}</span>` : ` ${text(share)}` : ''}</button>`;
-    }).join('') + apart;
+    card.hidden = !field;
+    if (!field) return;
+    const [menu, fit] = ['select', '.rxf-fit'].map(name => card.querySelector(name));
+    const {regions, difference, wipe} = field;
+    write(menu, field.fields.map(name => `<option>${text(name)}</option>`).join(''));
+    if (menu.value !== field.field) menu.value = field.field;
+    menu.disabled = field.held;
+    part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
+    part('scale').className = field.faded ? 'rxf-faded' : '';
+    write(part('scale'), Charts.bar(field.colours, field.ticks, field.beyond));
+    fit.dataset.value = field.fitted ? 'Default' : 'Rescale';
+    fit.textContent = field.fitted ? 'Reset' : 'Fit';
+    fit.ariaLabel = field.fitted ? 'Reset the colour range' : 'Fit the colour range';
+    // On the plan each region has its own share.
+    const shares = plan && Object.fromEntries(plan.regions.map(({name, words}) => [name, words.split(' · ')[0]]));
+    const shown = (plan ? PLANNED : REGIONS).filter(([name]) => name !== 'negative_stall' || name in shares);
+    const key = shown.map(([name, title, swatch]) => {
+      const region = name.replace('negative_', ''), sides = !plan && name === 'stall';
+      const share = text(plan ? shares[name] : sides && field.stalled || ''), words = share && plan
+        ? `<span class="rxf-num">${share}</span>` : share;
+      return `<button data-do="region" data-value="${region}" aria-pressed="${regions[region]}"
+        ${sides ? 'title="Of the disk, at high and at negative angles of attack"' : ''}>
+        <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
+    });
+    if (difference !== null) key.push(`
+      <button data-do="difference" data-value="${difference ? 'off' : 'on'}" aria-pressed="${difference}">Show B − A
+      </button>
+      <button data-do="region" data-value="wipe" aria-pressed="${wipe}">Wipe A | B</button>`);
+    write(part('legend'), key.join(''));
   });
 
-  RX.paint('turn', now => {
-    const slider = document.querySelector('.rxf-turn input'), button = document.querySelector('.rxf-turn [data-do=play]'), pace = document.querySelector('.rxf-turn [data-do=pace]');
-    if (document.activeElement !== slider || now.playing) slider.value = now.psi;
-    slider.disabled = now.held;
-    document.querySelector('.rxf-turn output').textContent = `ψ ${Math.round(now.psi)}°`;
-    pace.textContent = now.pace;
-    pace.ariaLabel = `Speed of the turning rotor: ${now.pace}`;
-    const wanted = now.playing ? 'pause' : 'play';
-    if (button.dataset.icon !== wanted) {
-      button.dataset.icon = wanted;
-      button.innerHTML = RX.icon(wanted);
-      button.ariaLabel = now.playing ? 'Stop the rotor' : 'Turn the rotor';
-    }
+  RX.paint('turn', turn => {
+    const row = document.querySelector('.rxf-turn'), slider = row.querySelector('input');
+    const [button, pace] = ['play', 'pace'].map(name => row.querySelector(`[data-do=${name}]`));
+    if (document.activeElement !== slider || turn.playing) slider.value = String(turn.psi);
+    slider.disabled = turn.held;
+    row.querySelector('output').textContent = `ψ ${Math.round(turn.psi)}°`;
+    pace.textContent = turn.pace;
+    pace.ariaLabel = `Speed of the turning rotor: ${turn.pace}`;
+    write(button, RX.icon(turn.playing ? 'pause' : 'play'));
+    button.ariaLabel = turn.playing ? 'Stop the rotor' : 'Turn the rotor';
   });
 })();

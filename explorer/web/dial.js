@@ -1,350 +1,447 @@
-// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, and the front of both beside it.
+// @ts-check
+// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it,
+// and the verdict on the actuator, which both stand for.
 (() => {
-  const {text, part} = RX, page = document.documentElement, DEGREE = Math.PI / 180;
-  const {signed} = Charts;
-  let chosen = 3, held = null, pressed = null, sent = 0, waiting = null, frame = 0;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm} = Common;
+  const {closest, soon, paced, drag, viewer} = Common, {part} = RX, page = document.documentElement;
+  const EDGE = 22;  // [px] Around the circle.
+  // `held`: the waves in the hand; `left`: those it has left, until the sliders have them. A wave is amplitude and
+  // phase [°] of one harmonic.
+  let chosen = 3, held = null, left = null;
 
-  // Loads at N_b/rev and power with cosines and sines [°] of n/rev twist, and power and index against the other blade [%].
-  function values(matrix, x) {
-    return matrix.base.map((base, k) => base + x.reduce((sum, a, i) => {
-      if (!a) return sum;
-      const second = matrix.second[k][i];
-      return sum + a * (matrix.slopes[k][i] + .5 * second.reduce((bent, h, j) => bent + h * x[j], 0));
+  // Loads at N_b/rev and power with cosines and sines [°] of n/rev twist.
+  function values({base, slopes, second}, x) {
+    return base.map((value, k) => value + x.reduce((sum, a, i) => {
+      const bent = a && second[k][i].reduce((all, curvature, j) => all + curvature * x[j], 0);
+      return sum + a * (slopes[k][i] + .5 * bent);
     }, 0));
   }
+  // Power and index of vibration against the other blade [%].
   function foresee(matrix, x) {
-    const all = values(matrix, x);
-    let forces = 0, moments = 0;
-    for (let k = 0; k < 5; k++) {
-      const size = matrix.gains[k] ** 2 * (all[2 * k] ** 2 + all[2 * k + 1] ** 2);
-      if (k < 3) forces += size; else moments += size;
-    }
-    return [100 * (all[10] / matrix.power - 1), 100 * ((Math.sqrt(forces) + Math.sqrt(moments)) / matrix.index - 1)];
+    const all = values(matrix, x), sums = [0, 0];  // Forces, moments.
+    for (let k = 0; k < 5; k++) sums[k < 3 ? 0 : 1] += matrix.gains[k] ** 2 * (all[2 * k] ** 2 + all[2 * k + 1] ** 2);
+    return [100 * (all[10] / matrix.power - 1), 100 * ((Math.sqrt(sums[0]) + Math.sqrt(sums[1])) / matrix.index - 1)];
   }
   RX.foresee = foresee;
-  // Amplitude and phase [°] of a harmonic: as the hand has it, or as the sliders do.
+  // As the hand has it, or as the sliders do.
   function wave(n) {
-    const ours = held?.waves ?? (pressed && performance.now() - pressed.at < 900 ? pressed.waves : null);
-    if (ours?.[n]) return ours[n];
-    const one = RX.state.dial.now.find(([order]) => order === n);
-    return one ? [one[1], one[2]] : [0, 0];
+    const ours = held ?? (left && performance.now() - left.at < 900 ? left.waves : null);
+    return ours?.[n] ?? RX.state.dial.now.find(([order]) => order === n)?.slice(1) ?? [0, 0];
   }
-  const parts = ([a, p]) => [a * Math.cos(p * DEGREE), a * Math.sin(p * DEGREE)];
-  const vector = () => RX.state.dial.harmonics.flatMap(n => parts(wave(n)));
+  const polar = (size, angle) => [size * Math.cos(angle * DEGREE), size * Math.sin(angle * DEGREE)];
+  const direction = (x, y) => turned(Math.round(Math.atan2(y, x) / DEGREE));
+  const hundredths = value => Math.round(100 * value) / 100;
+  const vector = () => RX.state.dial.harmonics.flatMap(n => polar(...wave(n)));
   // Largest twist of some harmonics together over a turn [°].
   function peak(orders) {
-    let most = 0;
-    for (let psi = 0; psi < 360; psi += 5) most = Math.max(most, Math.abs(orders.reduce((sum, n) => { const [a, p] = wave(n); return sum + a * Math.cos((n * psi - p) * DEGREE); }, 0)));
-    return most;
+    const waves = orders.map(n => [n, ...wave(n)]), azimuths = Array.from({length: 72}, (_, k) => 5 * k);
+    return Math.max(...azimuths.map(psi =>
+      Math.abs(waves.reduce((sum, [n, size, phase]) => sum + size * Math.cos((n * psi - phase) * DEGREE), 0))));
   }
 
-  // What flies against the other blade, with every inflow model, the design's own first: foreseen in the hand, else trimmed.
+  // What flies against the other blade, with every inflow model, the design's own first: foreseen in the hand, else
+  // trimmed.
   function change() {
     const {dial, dial_matrix: matrix} = RX.state;
-    if (!dial) return null;
-    if (!held && !pressed && dial.settled) return dial.settled;
-    if (!matrix) return null;
-    const x = vector(), all = [matrix, ...matrix.inflows].map(one => [one, foresee(one, x)]);
-    return {power: all.map(([one, [power]]) => power / 100 * one.power * dial.per_watt), index: all.map(([, [, index]]) => index)};
+    if (dial && !held && !left && dial.settled) return dial.settled;
+    if (!dial || !matrix) return null;
+    const x = vector(), models = [matrix, ...matrix.inflows], all = models.map(model => foresee(model, x));
+    const watts = all.map(([power], k) => power / 100 * models[k].power * dial.per_watt);
+    return {power: watts, index: all.map(([, index]) => index)};
   }
   const ends = list => [Math.min(...list), Math.max(...list)];
-  const round = value => Charts.fixed(value, Math.abs(value) < 10 ? 1 : 0);
-  const needs = power => Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${round(power)} ${RX.state.dial.unit} more` : `saves ${round(-power)} ${RX.state.dial.unit}`;
+  function needs(power) {
+    const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.state.dial.unit}`;
+    return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
+  }
+  function shakes(index) {
+    if (!index.length) return 'vibration is told from µ 0.2 on';
+    const [low, high] = ends(index), range = (from, to) => `${fixed(from)}…${fixed(to)} %`;
+    if (high < 0) return `takes ${fixed(-index[0])} % (${range(-high, -low)}) of the vibration`;
+    if (low > 0) return `adds ${fixed(index[0])} % (${range(low, high)}) to the vibration`;
+    const band = `${signed(low, 0)}…${signed(high, 0)} %`;
+    return `vibration ${signed(index[0], 0)} % (${band}: inflow models disagree)`;
+  }
+  function drives({whole, room, harmonics}) {
+    if (!whole) return peak(harmonics) ? ', more than this actuator can follow' : '';
+    const share = 100 * (1 - room + peak(harmonics) / whole);
+    return share > 100.5 ? `, with ${fixed(share)} % of its voltage: out of reach`
+      : share > .5 ? ` at ${fixed(share)} % of its voltage` : '';
+  }
   // Power, vibration and voltage in one sentence, and whether it is good, bad or both.
   function verdict() {
     const {dial} = RX.state, now = change();
     if (!now) return [dial?.problem || dial?.words || 'Computing what it changes here …', ''];
-    const {power: [power], index} = now, clauses = [needs(power)], share = dial.whole ? 100 * (1 - dial.room + peak(dial.harmonics) / dial.whole) : 0;
-    let calmer = false;
-    if (index.length) {
-      const [low, high] = ends(index), size = (v, w) => `${Charts.fixed(v, 0)}…${Charts.fixed(w, 0)} %`;
-      calmer = high < 0;
-      clauses.push(high < 0 ? `takes ${Charts.fixed(-index[0], 0)} % (${size(-high, -low)}) of the vibration` : low > 0 ? `adds ${Charts.fixed(index[0], 0)} % (${size(low, high)}) to the vibration`
-        : `vibration ${signed(index[0], 0)} % (${signed(low, 0)}…${signed(high, 0)} %: inflow models disagree)`);
-    } else clauses.push('vibration is told from µ 0.2 on');
-    const at = !dial.whole ? peak(dial.harmonics) ? ', more than this actuator can follow' : '' : share > 100.5 ? `, with ${Charts.fixed(share, 0)} % of its voltage: out of reach` : share > .5 ? ` at ${Charts.fixed(share, 0)} % of its voltage` : '';
-    return [`${clauses.join('; ')}${at}`, power > .05 ? calmer ? '' : 'loss' : 'gain'];
+    const {power: [power], index} = now, calmer = index.length && Math.max(...index) < 0;
+    return [`${needs(power)}; ${shakes(index)}${drives(dial)}`, power > .05 ? calmer ? '' : 'loss' : 'gain'];
   }
-  RX.verdict = verdict;
+  // In the card of power, in place of what has changed.
+  function drawVerdict() {
+    const {earns, power} = RX.state, place = part('verdict');
+    place.hidden = !earns || Boolean(power?.problem);
+    if (place.hidden) return;
+    const [words, tone] = earns.problem ? [earns.problem, ''] : verdict();
+    write(place, `<div class="rxf-why">Against
+        <button data-do="against" title="Compare with the other blade">${text(earns.against)} ⇄</button></div>
+      <div class="rxf-since rxf-num" data-explorer="verdict" data-kind="${earns.kind}" data-tone="${tone}"
+        title="This actuator on board, in this flight. Bands: over inflow models">${text(words)}</div>
+      <div class="rxf-why" data-explorer="mission">${text(earns.mission)}</div>`);
+  }
+  RX.paint(['earns', 'power', 'dial'], drawVerdict);
 
   // Values over the chosen dial on a grid, the other harmonics as they are.
   const GRID = 49;
-  let field = null;
+  let known = null;
   function fieldOf() {
-    const {dial, dial_matrix: matrix} = RX.state, at = dial.harmonics.indexOf(chosen), x = vector();
-    x[2 * at] = x[2 * at + 1] = 0;
-    const key = JSON.stringify([chosen, dial.reach, x]);
-    if (field?.key === key && field.matrix === matrix) return field;
-    const power = [], index = [];
-    const least = [null, null];
+    const {dial: {harmonics, reach}, dial_matrix: matrix} = RX.state, at = 2 * harmonics.indexOf(chosen), x = vector();
+    const seen = (model, point) => { [x[at], x[at + 1]] = point; return foresee(model, x); };
+    x[at] = x[at + 1] = 0;
+    const key = JSON.stringify([chosen, reach, x]);
+    if (known?.key === key && known.matrix === matrix) return known;
+    const power = [], index = [], least = [];
     for (let row = 0; row < GRID; row++) for (let column = 0; column < GRID; column++) {
-      const a = dial.reach * (2 * column / (GRID - 1) - 1), b = dial.reach * (1 - 2 * row / (GRID - 1));
-      x[2 * at] = a; x[2 * at + 1] = b;
-      const [p, v] = foresee(matrix, x);
-      power.push(p); index.push(v);
-      if (Math.hypot(a, b) > dial.reach) continue;
-      [p, v].forEach((value, k) => { if (!least[k] || value < least[k].value) least[k] = {value, a, b}; });
+      const point = [reach * (2 * column / (GRID - 1) - 1), reach * (1 - 2 * row / (GRID - 1))];
+      const both = seen(matrix, point);
+      power.push(both[0]);
+      index.push(both[1]);
+      if (Math.hypot(...point) <= reach)
+        both.forEach((value, k) => { if (!(value >= least[k]?.value)) least[k] = {value, point}; });
     }
     // What the least of each would change with every inflow model, against this harmonic at rest.
     least.forEach((one, k) => {
-      one.over = [matrix, ...matrix.inflows].map(wake => {
-        const [there, still] = [[one.a, one.b], [0, 0]].map(([a, b]) => { x[2 * at] = a; x[2 * at + 1] = b; return foresee(wake, x)[k]; });
-        return there - still;
-      });
+      one.over = [matrix, ...matrix.inflows].map(model => seen(model, one.point)[k] - seen(model, [0, 0])[k]);
       one.agreed = Math.max(...one.over) < 0;
     });
-    return field = {key, matrix, power, index, least};
+    return known = {key, matrix, power, index, least};
   }
-  // Segments of a line of one value on the grid, in cells.
+  // A line of one value on the grid, in cells: its path, and a point of each of its pieces.
   function contour(grid, level) {
+    const points = [];
     let path = '';
-    const places = [];
     for (let row = 0; row < GRID - 1; row++) for (let column = 0; column < GRID - 1; column++) {
       const corners = [[column, row], [column + 1, row], [column + 1, row + 1], [column, row + 1]], cuts = [];
       corners.forEach(([x0, y0], k) => {
         const [x1, y1] = corners[(k + 1) % 4], v0 = grid[y0 * GRID + x0] - level, v1 = grid[y1 * GRID + x1] - level;
-        if (v0 < 0 !== v1 < 0) { const t = v0 / (v0 - v1); cuts.push([x0 + t * (x1 - x0), y0 + t * (y1 - y0)]); }
+        const share = v0 / (v0 - v1);
+        if (v0 < 0 !== v1 < 0) cuts.push([lerp(x0, x1, share), lerp(y0, y1, share)]);
       });
-      for (let k = 0; k + 1 < cuts.length; k += 2) { path += `M${cuts[k].map(v => v.toFixed(2))}L${cuts[k + 1].map(v => v.toFixed(2))}`; places.push(cuts[k]); }
+      for (let k = 0; k + 1 < cuts.length; k += 2) {
+        path += `M${cuts[k].map(v => v.toFixed(2))}L${cuts[k + 1].map(v => v.toFixed(2))}`;
+        points.push(cuts[k]);
+      }
     }
-    return [path, places];
+    return {path, points};
   }
-  const small = n => {
-    const [a, p] = wave(n), r = 17, {reach} = RX.state.dial, x = 22 + r * a / reach * Math.cos(p * DEGREE), y = 22 - r * a / reach * Math.sin(p * DEGREE);
-    return `<button data-harmonic="${n}" aria-pressed="${n === chosen}" aria-label="${n}/rev: ${a.toFixed(2)}° at ${p.toFixed(0)}°"><svg width="44" height="44" viewBox="0 0 44 44" aria-hidden="true"><circle cx="22" cy="22" r="${r}" fill="var(--rx-field)" stroke="var(--rx-line)"/>
-      <path d="M22 22L${x.toFixed(1)} ${y.toFixed(1)}" stroke="var(--rx-blade)" stroke-width="1.6"/><circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${a ? 3.6 : 2.2}" fill="${a ? 'var(--rx-blade)' : 'var(--rx-faint)'}"/></svg><span>${n}/rev</span></button>`;
-  };
+  function small(n) {
+    const [size, phase] = wave(n), radius = 17, [dx, dy] = polar(radius * size / RX.state.dial.reach, phase);
+    const x = (22 + dx).toFixed(1), y = (22 - dy).toFixed(1);
+    const label = `${n}/rev: ${size.toFixed(2)}° at ${phase.toFixed(0)}°`;
+    return `<button data-harmonic="${n}" aria-pressed="${n === chosen}" aria-label="${label}">
+      <svg width="44" height="44" viewBox="0 0 44 44" aria-hidden="true">
+        <circle cx="22" cy="22" r="${radius}" fill="var(--rx-field)" stroke="var(--rx-line)"/>
+        <path d="M22 22L${x} ${y}" stroke="var(--rx-blade)" stroke-width="1.6"/>
+        <circle cx="${x}" cy="${y}" r="${size ? 3.6 : 2.2}" fill="var(${size ? '--rx-blade' : '--rx-faint'})"/></svg>
+      <span>${n}/rev</span></button>`;
+  }
 
   const LEVELS = [-8, -4, -2, -1, 0, 1, 2, 4, 8, 16];
+  // Places on a dial of this size [px].
+  function placing(size) {
+    const {reach} = RX.state.dial, middle = size / 2, radius = middle - EDGE, scale = radius / reach;
+    const at = (x, y) => [middle + scale * x, middle - scale * y];
+    return {reach, middle, radius, scale, at, spot: (amplitude, phase) => at(...polar(amplitude, phase))};
+  }
+  // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
+  function drawField(size) {
+    const {power, least} = fieldOf(), {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
+    const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
+    const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
+      const {path, points} = contour(power, level), free = points.map(([x, y]) => [EDGE + step * x, EDGE + step * y])
+        .filter(point => distance(point, [middle, middle]) < radius - 16 && distance(point, dot) > 30
+          && least.every(one => distance(point, at(...one.point)) > 26)
+          && names.every(name => distance(point, name) > 34));
+      if (free.length) names.push([...free[free.length >> 1], level]);
+      return `<path transform="translate(${EDGE} ${EDGE}) scale(${step})" d="${path}"
+        stroke-width="${(level ? .9 : 2) / step}" opacity="${level ? .55 : .9}"/>`;
+    });
+    const marks = [['P', 'least power'], ['V', 'least vibration']].map(([mark, name], k) => {
+      const {point, over, agreed} = least[k], [x, y] = at(...point), [low, high] = ends(over);
+      const band = `${signed(low)} to ${signed(high)} % over inflow models`;
+      const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
+      return `<g data-agreed="${agreed}"><title>${agreed ? `${name} on this dial, foreseen: ${where}, ${band}`
+        : `No phase is best: models disagree, ${band} where this one has ${name}`}</title>
+        <circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)"
+          stroke-width="1.3" ${agreed ? '' : 'stroke-dasharray="2 2" opacity=".75"'}/>
+        <text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle"
+          style="fill:var(--rx-ink);font-weight:700">${mark}${agreed ? '' : '?'}</text></g>`;
+    });
+    const words = names.map(([x, y, level]) => `<text x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle"
+      class="rxd-level">${signed(level, 0)} %</text>`);
+    return `<clipPath id="rxd${size}"><circle cx="${middle}" cy="${middle}" r="${radius}"/></clipPath>
+      <g clip-path="url(#rxd${size})" fill="none" stroke="var(--rx-ink)">${lines.join('')}</g>
+      ${words.join('')}${marks.join('')}`;
+  }
+  const AROUND = [[0, 'start', 3, 4], [90, 'middle', 0, -5], [180, 'end', -3, 4], [270, 'middle', 0, 14]];
+  function drawGrid({rings}, {reach, middle, scale, spot}) {
+    const outer = r => r > reach - 1e-6, circles = rings.map(([r]) => `<circle cx="${middle}" cy="${middle}" fill="none"
+      r="${(scale * r).toFixed(1)}" stroke="var(--rx-ink)" stroke-opacity="${outer(r) ? .5 : .17}"/>`);
+    const sizes = rings.filter((_, k) => k % 2 === 1).map(([r, word]) => {
+      const [x, y] = spot(r, -45);
+      return `<text x="${x + 2}" y="${y + (outer(r) ? 13 : 4)}" class="rxd-level">${word}°</text>`;
+    });
+    const rays = [0, 45, 90, 135].map(angle => trace([spot(reach, angle), spot(reach, angle + 180)]))
+      .map(path => `<path d="${path}" stroke="var(--rx-ink)" stroke-opacity=".13"/>`);
+    const angles = AROUND.map(([angle, anchor, dx, dy]) => {
+      const [x, y] = spot(reach, angle);
+      return `<text x="${x + dx}" y="${y + dy}" text-anchor="${anchor}">${angle}°</text>`;
+    });
+    return [...circles, ...sizes, ...rays, ...angles].join('');
+  }
   function dialSvg(size) {
-    const {dial, dial_matrix: matrix} = RX.state, edge = 22, radius = size / 2 - edge, middle = size / 2, scale = radius / dial.reach;
-    const [a, p] = wave(chosen), at = (amp, phase) => [middle + scale * amp * Math.cos(phase * DEGREE), middle - scale * amp * Math.sin(phase * DEGREE)];
-    let inside = '';
-    if (matrix) {
-      const found = fieldOf(), step = 2 * radius / (GRID - 1), range = Math.max(...found.power) - Math.min(...found.power);
-      const shown = LEVELS.filter(level => level === 0 || range < 14 || Math.abs(level) >= 2);
-      inside += `<clipPath id="rxd${size}"><circle cx="${middle}" cy="${middle}" r="${radius}"/></clipPath><g clip-path="url(#rxd${size})" fill="none" stroke="var(--rx-ink)">`;
-      const words = [];
-      for (const level of shown) {
-        const [path, places] = contour(found.power, level);
-        if (!path) continue;
-        inside += `<path transform="translate(${edge} ${edge}) scale(${step})" d="${path}" stroke-width="${(level ? .9 : 2) / step}" opacity="${level ? .55 : .9}"/>`;
-        // Where it is named: inside, away from the dot and from other names.
-        const [dx, dy] = at(a, p);
-        const free = places.map(([x, y]) => [edge + step * x, edge + step * y]).filter(([x, y]) => Math.hypot(x - middle, y - middle) < radius - 16 && Math.hypot(x - dx, y - dy) > 30 && found.least.every(one => Math.hypot(x - middle - scale * one.a, y - middle + scale * one.b) > 26) && words.every(w => Math.hypot(x - w[0], y - w[1]) > 34));
-        if (free.length) words.push([...free[free.length >> 1], level]);
-      }
-      inside += '</g>' + words.map(([x, y, level]) => `<text x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle" class="rxd-level">${signed(level, 0)} %</text>`).join('');
-      const [power, index] = found.least;
-      for (const [one, mark, name] of [[power, 'P', 'least power'], [index, 'V', 'least vibration']]) {
-        const x = middle + scale * one.a, y = middle - scale * one.b;
-        const band = `${signed(Math.min(...one.over), 1)} to ${signed(Math.max(...one.over), 1)} % over inflow models`;
-        const where = `${Math.hypot(one.a, one.b).toFixed(1)}° at ${((Math.atan2(one.b, one.a) / DEGREE + 360) % 360).toFixed(0)}°`;
-        const said = one.agreed ? `${name} on this dial, foreseen: ${where}, ${band}` : `No phase is best: models disagree, ${band} where this one has ${name}`;
-        inside += `<g data-agreed="${one.agreed}"><title>${said}</title><circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)" stroke-width="1.3" ${one.agreed ? '' : 'stroke-dasharray="2 2" opacity=".75"'}/><text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:700">${one.agreed ? mark : mark + '?'}</text></g>`;
-      }
-    }
-    const {rings} = dial;
-    const grid = rings.map(([r]) => `<circle cx="${middle}" cy="${middle}" r="${(scale * r).toFixed(1)}" fill="none" stroke="var(--rx-ink)" stroke-opacity="${r > dial.reach - 1e-6 ? .5 : .17}"/>`).join('')
-      + rings.filter((_, k) => k % 2 === 1).map(([r, word]) => `<text x="${(middle + scale * r * .707 + 2).toFixed(1)}" y="${(middle + scale * r * .707 + (r > dial.reach - 1e-6 ? 13 : 4)).toFixed(1)}" class="rxd-level">${word}°</text>`).join('')
-      + [0, 45, 90, 135].map(angle => { const [x, y] = at(dial.reach, angle), [u, v] = at(dial.reach, angle + 180); return `<path d="M${x.toFixed(1)} ${y.toFixed(1)}L${u.toFixed(1)} ${v.toFixed(1)}" stroke="var(--rx-ink)" stroke-opacity=".13"/>`; }).join('')
-      + [[0, 'start', 3, 4], [90, 'middle', 0, -5], [180, 'end', -3, 4], [270, 'middle', 0, 14]].map(([angle, anchor, dx, dy]) => { const [x, y] = at(dial.reach, angle); return `<text x="${x + dx}" y="${y + dy}" text-anchor="${anchor}">${angle}°</text>`; }).join('');
-    const room = dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen));
-    const ring = dial.whole ? `<circle cx="${middle}" cy="${middle}" r="${(scale * Math.min(Math.max(room, 0), dial.reach)).toFixed(1)}" class="rxd-ring"><title>Reach of the actuator: ${Math.max(room, 0).toFixed(2)}° at ${chosen}/rev with the voltage that is left</title></circle>` : '';
-    const [x, y] = at(a, p), label = `${chosen}/rev: ${a.toFixed(2)}° at phase ${p.toFixed(0)}°`;
-    return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group" aria-label="Twist at ${chosen}/rev, amplitude by phase">${grid}${inside}${ring}
-      <path d="M${middle} ${middle}L${x.toFixed(1)} ${y.toFixed(1)}" stroke="var(--rx-blade)" stroke-width="2"/><circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
-      <circle data-dot ${dial.whole && a > room + .005 ? 'data-beyond' : ''} cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="9" tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev" aria-valuemin="0" aria-valuemax="${dial.reach}" aria-valuenow="${a}" aria-valuetext="${label}"><title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
+    const {dial, dial_matrix: matrix} = RX.state, places = placing(size), {reach, middle, scale, spot} = places;
+    const [amplitude, phase] = wave(chosen), [x, y] = spot(amplitude, phase).map(v => v.toFixed(1));
+    const room = Math.max(dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen)), 0);
+    const ring = `<circle cx="${middle}" cy="${middle}" r="${scale * Math.min(room, reach)}" class="rxd-ring">
+      <title>Reach of the actuator: ${room.toFixed(2)}° at ${chosen}/rev with the voltage left</title></circle>`;
+    const label = `${chosen}/rev: ${amplitude.toFixed(2)}° at phase ${phase.toFixed(0)}°`;
+    return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group"
+        aria-label="Twist at ${chosen}/rev, amplitude by phase">
+      ${drawGrid(dial, places)}${matrix ? drawField(size) : ''}${dial.whole ? ring : ''}
+      <path d="M${middle} ${middle}L${x} ${y}" stroke="var(--rx-blade)" stroke-width="2"/>
+      <circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
+      <circle data-dot ${dial.whole && amplitude > room + .005 ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
+        tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev"
+        aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
+        <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
   }
   // Less vibration green, more red.
   function shade(canvas, size) {
+    const tile = document.createElement('canvas'), style = getComputedStyle(page), pen = canvas.getContext('2d');
+    const tones = ['--rx-good', '--rx-bad'].map(name =>
+      style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/gi).map(byte => parseInt(byte, 16)));
     canvas.width = canvas.height = GRID * 4;
-    const radius = size / 2 - 22, {index} = fieldOf(), style = getComputedStyle(page), pen = canvas.getContext('2d');
-    Object.assign(canvas.style, {left: '22px', top: '22px', width: `${2 * radius}px`, height: `${2 * radius}px`});
-    const tones = ['--rx-good', '--rx-bad'].map(name => style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/gi).map(v => parseInt(v, 16)));
-    const one = document.createElement('canvas');
-    one.width = one.height = GRID;
-    const pixels = one.getContext('2d').createImageData(GRID, GRID);
-    index.forEach((v, k) => {
-      const tone = tones[v > 0 ? 1 : 0], strength = Math.min(Math.abs(v) / (v > 0 ? 160 : 70), 1);
-      pixels.data.set([...tone, Math.round(190 * strength ** .8)], 4 * k);
+    canvas.style.cssText = `left:${EDGE}px;top:${EDGE}px;width:${size - 2 * EDGE}px;height:${size - 2 * EDGE}px`;
+    tile.width = tile.height = GRID;
+    const pixels = tile.getContext('2d').createImageData(GRID, GRID);
+    fieldOf().index.forEach((value, k) => {
+      const worse = value > 0, strength = Math.min(Math.abs(value) / (worse ? 160 : 70), 1);
+      pixels.data.set([...tones[worse ? 1 : 0], Math.round(190 * strength ** .8)], 4 * k);
     });
-    one.getContext('2d').putImageData(pixels, 0, 0);
+    tile.getContext('2d').putImageData(pixels, 0, 0);
     pen.imageSmoothingQuality = 'high';
-    pen.drawImage(one, 0, 0, canvas.width, canvas.height);
+    pen.drawImage(tile, 0, 0, canvas.width, canvas.height);
   }
 
   // The front with this twist on it.
-  function front(place, width, height) {
-    const {dial_front: chart, dial_matrix: matrix} = RX.state, seen = matrix && foresee(matrix, vector());
+  function drawFront(element, width, height) {
+    const {dial_front: chart, dial_matrix: matrix} = RX.state;
     if (!chart) return;
-    const now = seen ? [{kind: 'points', label: 'this twist', x: [seen[0]], y: [seen[1]], colour: 'var(--rx-blade)', size: 6.5}] : [];
-    const series = chart.series.map(one => width < 360 && one.beside === 'below' ? {...one, names: []} : one);  // They would lie on each other.
-    Charts.fill(place, {...chart, series: [...series, ...now]}, {width, height});
-  }
-  // The twist of the front nearest to a pixel of its chart, between two of its points by a straight line.
-  function along(place, px, py) {
-    const {front: all} = RX.state.dial, {X, Y} = place.drawn.place;
-    let best = null;
-    for (let k = 0; k + 1 < all.length; k++) {
-      const [[p0, v0, u0], [p1, v1, u1]] = [all[k], all[k + 1]], [x0, y0, x1, y1] = [X(p0), Y(v0), X(p1), Y(v1)];
-      const t = Charts.clamp(((px - x0) * (x1 - x0) + (py - y0) * (y1 - y0)) / Math.max((x1 - x0) ** 2 + (y1 - y0) ** 2, 1e-9), 0, 1);
-      const far = Math.hypot(x0 + t * (x1 - x0) - px, y0 + t * (y1 - y0) - py);
-      if (!best || far < best.far) best = {far, x: u0.map((u, j) => (1 - t) * u + t * u1[j])};
+    const series = chart.series.map((/** @type {any} */ one) =>  // In little room their names would lie on each other.
+      width < 360 && one.beside === 'below' ? {...one, names: []} : one);
+    if (matrix) {
+      const [power, index] = foresee(matrix, vector()), colour = 'var(--rx-blade)';
+      series.push({kind: 'points', label: 'this twist', x: [power], y: [index], colour, size: 6.5});
     }
-    return best && Object.fromEntries(RX.state.dial.harmonics.map((n, k) => {
-      const [a, b] = [best.x[2 * k] ?? 0, best.x[2 * k + 1] ?? 0];
-      return [n, [Math.round(100 * Math.hypot(a, b)) / 100, (Math.round(Math.atan2(b, a) / DEGREE) + 360) % 360]];
+    Charts.fill(element, {...chart, series}, {width, height});
+  }
+  // The waves of the front nearest to a pixel of its chart, between two of its points by a straight line.
+  function along(element, x, y) {
+    const {front, harmonics} = RX.state.dial, {X, Y} = element.drawn.place;
+    let best = null;
+    for (let k = 0; k + 1 < front.length; k++) {
+      const [[p0, v0, from], [p1, v1, to]] = [front[k], front[k + 1]];
+      const x0 = X(p0), y0 = Y(v0), dx = X(p1) - x0, dy = Y(v1) - y0;
+      const share = clamp(((x - x0) * dx + (y - y0) * dy) / Math.max(dx ** 2 + dy ** 2, 1e-9), 0, 1);
+      const far = Math.hypot(x0 + share * dx - x, y0 + share * dy - y);
+      if (!(far >= best?.far)) best = {far, twist: from.map((value, j) => lerp(value, to[j], share))};
+    }
+    return best && Object.fromEntries(harmonics.map((n, k) => {
+      const [a, b] = [best.twist[2 * k] ?? 0, best.twist[2 * k + 1] ?? 0];
+      return [n, [hundredths(Math.hypot(a, b)), direction(a, b)]];
     }));
   }
 
   // Two meters: the bar is the band over inflow models, the mark the design's own, the line the other blade.
-  function meter(name, told, low, high, zero, said, kind) {
-    const at = v => 100 * Charts.clamp((v - low) / (high - low), 0, 1), [a, b] = ends(told).map(at);
-    return `<div class="rxd-meter" role="img" aria-label="${name}: ${said}"><span>${name}</span><div><i style="left:${a}%;width:${b - a}%"></i><s style="left:${at(zero)}%"></s><b data-kind="${kind}" style="left:${at(told[0])}%"></b></div><em class="rxf-num" data-kind="${kind}">${said}</em></div>`;
+  function meter(name, models, most, least, words) {
+    const at = value => 50 + 50 * clamp(value / most, -1, 1), [low, high] = ends(models).map(at), [own] = models;
+    const kind = Math.abs(own) < least ? '' : own > 0 ? 'loss' : 'gain';
+    return `<div class="rxd-meter" role="img" aria-label="${name}: ${words}"><span>${name}</span>
+      <div><i style="left:${low}%;width:${high - low}%"></i><s style="left:50%"></s>
+        <b data-kind="${kind}" style="left:${at(own)}%"></b></div>
+      <em class="rxf-num" data-kind="${kind}">${words}</em></div>`;
   }
   function readout() {
-    const {dial, dial_matrix: matrix} = RX.state, [a, p] = wave(chosen), now = change(), head = `<p class="rxf-num"><b>${chosen}/rev</b> ${a.toFixed(2)}° <span class="rxf-dim">at phase ${p.toFixed(0)}°</span></p>`;
-    const wait = dial.computing || !now ? `<p class="rxf-dim">${text(dial.words || 'Response to n/rev twist: computing …')}</p>` : '';
+    const {dial, dial_matrix: matrix, earns} = RX.state, [amplitude, phase] = wave(chosen), now = change();
+    const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
+    const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
+      <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
+    const wait = dial.computing || !now ? dim(dial.words || 'Response to n/rev twist: computing …') : '';
     if (!now) return head + wait;
-    const [power] = now.power, whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power)), [index] = now.index;
-    const kind = (v, least) => Math.abs(v) < least ? '' : v > 0 ? 'loss' : 'gain';
-    const shaking = held && matrix && !still.matches ? `<p class="rxf-dim">Shaking of the cabin drawn × ${dial.exaggerated}, slowed</p>` : '';
-    return `${head}${meter('Power', now.power, -whole, whole, 0, `${signed(power, 1)} ${dial.unit}`, kind(power, .05))}
-      ${now.index.length ? meter('Vibration', now.index, -100, 100, 0, `${signed(index, 0)} %`, kind(index, .5)) : ''}
-      <p class="rxf-dim">${RX.state.earns ? '' : `${text(verdict()[0])}, `}against ${text(dial.against)}, ${text(dial.where)}${held || !dial.settled ? ', foreseen' : ''}</p>${wait}${shaking}`;
+    const [power] = now.power, [index] = now.index;
+    const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
+    const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', foreseen' : ''}`;
+    return `${head}${meter('Power', now.power, whole, .05, `${signed(power)} ${dial.unit}`)}
+      ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
+      ${dim(earns ? against : `${verdict()[0]}, ${against}`)}${wait}
+      ${held && matrix && !calm.matches ? dim(`Shaking of the cabin drawn × ${dial.exaggerated}, slowed`) : ''}`;
   }
 
   function fill(place) {
-    const {dial, dial_matrix: matrix} = RX.state, large = place.hasAttribute('data-large'), width = place.clientWidth - (large ? 44 : 28);
+    const {dial, dial_matrix: matrix, dial_front: chart} = RX.state, large = place.hasAttribute('data-large');
+    const width = place.clientWidth - (large ? 44 : 28), scheme = page.dataset.mantineColorScheme;
     if (!dial || width < 120) return;
-    const stamp = JSON.stringify([dial, RX.state.dial_front, chosen, width, place.clientHeight, held, pressed && wave(chosen), page.dataset.mantineColorScheme]);
+    const stamp = JSON.stringify([dial, chart, chosen, width, place.clientHeight, held, left && wave(chosen), scheme]);
     if (place.stamp === stamp && place.matrix === matrix && place.childElementCount) return;
-    place.stamp = stamp;
-    place.matrix = matrix;
-    const focus = place.contains(document.activeElement) ? document.activeElement : null, again = focus?.matches('[data-dot]') ? '[data-dot]' : focus?.dataset.harmonic ? `[data-harmonic="${focus.dataset.harmonic}"]` : null;
-    const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 780) : Math.min(width, 300), wide = large ? width - size - 44 : width, high = large ? size + 20 : 228;
-    if (!place.firstElementChild || place.dataset.size !== `${size} ${wide}`) {
-      place.dataset.size = `${size} ${wide}`;
-      place.shaded = null;  // Its canvas is another.
-      place.innerHTML = `<div class="rxd-side"><div class="rxd-row"></div><div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div><p class="rxf-dim rxd-key"></p><div class="rxd-read" data-explorer="dial-read"></div></div>
-        <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>'}</div>${large ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>' : ''}`;
-    }
-    place.querySelector('.rxd-row').innerHTML = dial.harmonics.map(small).join('');
-    const canvas = place.querySelector('canvas');
+    Object.assign(place, {stamp, matrix});
+    const {dataset: focus} = place.contains(document.activeElement) ? document.activeElement : place;
+    const again = 'dot' in focus ? '[data-dot]' : focus.harmonic ? `[data-harmonic="${focus.harmonic}"]` : null;
+    const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 780) : Math.min(width, 300);
+    const frontWidth = large ? width - size - 44 : width, frontHeight = large ? size + 20 : 228;
+    const button = large
+      ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>'
+      : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>';
+    write(place, `<div class="rxd-side"><div class="rxd-row"></div>
+        <div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div>
+        <p class="rxf-dim rxd-key"></p><div class="rxd-read" data-explorer="dial-read"></div></div>
+      <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : button}</div>${large ? button : ''}`);
+    const [row, canvas, round, key, read, front] =
+      ['.rxd-row', 'canvas', '.rxd-round > div', '.rxd-key', '.rxd-read', '.rxd-front']
+        .map(name => place.querySelector(name));
+    write(row, dial.harmonics.map(small).join(''));
     canvas.hidden = !matrix;
-    if (matrix && (place.shaded !== fieldOf() || place.scheme !== page.dataset.mantineColorScheme)) { shade(canvas, size); place.shaded = fieldOf(); place.scheme = page.dataset.mantineColorScheme; }
-    place.querySelector('.rxd-round > div').innerHTML = dialSvg(size);
-    place.querySelector('.rxd-key').textContent = matrix ? `P least power · V least vibration${dial.whole ? ' · ring: reach' : ''}` : '';
-    place.querySelector('.rxd-read').innerHTML = readout();
-    front(place.querySelector('.rxd-front'), wide, high);
+    if (matrix && (canvas.field !== fieldOf() || canvas.scheme !== scheme)) {
+      shade(canvas, size);
+      Object.assign(canvas, {field: fieldOf(), scheme});
+    }
+    write(round, dialSvg(size));
+    key.textContent = matrix ? `P least power · V least vibration${dial.whole ? ' · ring: reach' : ''}` : '';
+    write(read, readout());
+    drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
-  function draw() {
-    frame ||= requestAnimationFrame(() => { frame = 0; RX.told?.(); for (const place of document.querySelectorAll('[data-dial]')) fill(place); });
+  const draw = soon(() => {
+    drawVerdict();
+    for (const place of document.querySelectorAll('[data-dial]')) fill(place);
+  });
+  // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
+  function arrived([n, [size, phase]]) {
+    const [, amplitude, angle] = RX.state.dial.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
+    return Math.abs(amplitude - size) < .021 && (amplitude < .03 || Math.abs(angle - phase) < .6);
   }
-  // What was pressed holds until the sliders have it; from then on they tell, or an undo would not be seen.
-  RX.paint('dial', now => {
-    if (now && pressed && Object.entries(pressed.waves).every(([n, [size, phase]]) => {
-      const [, a, p] = now.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
-      return Math.abs(a - size) < .021 && (a < .03 || Math.abs(p - phase) < .6);
-    })) pressed = null;
+  RX.paint(['dial', 'dial_matrix', 'dial_front', 'earns'], dial => {
+    if (dial && left && Object.entries(left.waves).every(arrived)) left = null;
     draw();
   });
-  for (const name of ['dial_matrix', 'dial_front']) RX.paint(name, draw);
   new ResizeObserver(draw).observe(document.querySelector('.rxf-stage'));
-  new MutationObserver(() => { for (const place of document.querySelectorAll('[data-dial]')) if (!place.childElementCount) draw(); }).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
+  new MutationObserver(() => { if (document.querySelector('[data-dial]:empty')) draw(); })
+    .observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 
-  // The hand, on a dial or along the front. The dot goes where the pointer is; its place is sent at most every 50 ms.
-  const tell = waves => {
-    waiting = Object.entries(waves).map(([n, [a, p]]) => [Number(n), a, p]);
-    setTimeout(() => { if (waiting) { sent = performance.now(); RX.send('dial', waiting); waiting = null; } }, Math.max(0, 50 - (performance.now() - sent)));
-  };
-  const press = waves => {
-    pressed = {waves, at: performance.now()};  // Until the sliders have come.
-    setTimeout(() => { if (pressed && performance.now() - pressed.at > 900) pressed = null; draw(); }, 950);
-    draw();
-  };
-  function follow(event) {
-    const box = held.place.getBoundingClientRect();
-    if (held.front) held.waves = along(held.place, event.clientX - box.left, event.clientY - box.top - held.above) ?? held.waves;
-    else {
-      const radius = box.width / 2 - 22, x = (event.clientX - box.left - box.width / 2) / radius, y = (box.top + box.height / 2 - event.clientY) / radius;
-      const size = Math.round(100 * RX.state.dial.reach * Math.min(Math.hypot(x, y), 1)) / 100;
-      held.waves = {[chosen]: [size < .04 ? 0 : size, (Math.round(Math.atan2(y, x) / DEGREE) + 360) % 360]};  // The middle means none.
-    }
-    tell(held.waves);
+  // The hand, on a dial or along the front. The dot goes where the pointer is; its place is sent now and then.
+  const send = waves => RX.send('dial', Object.entries(waves).map(([n, [size, phase]]) => [Number(n), size, phase]));
+  const heard = paced(send);
+  function leave(waves) {
+    left = {waves, at: performance.now()};
+    setTimeout(() => { if (left && performance.now() - left.at > 900) left = null; draw(); }, 950);
     draw();
   }
-  document.addEventListener('pointerdown', event => {
-    const near = event.target instanceof Element && event.isPrimary && event.button === 0 && event.target, circle = near && near.closest('.rxd-round'), chart = near && near.closest('.rxd-front');
-    if (!(circle || (chart && near.closest('svg') && RX.state.dial?.front.length > 1)) || RX.state.dial?.held) return;
-    const box = (circle || chart).getBoundingClientRect();
-    if (circle && Math.hypot(event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2) > box.width / 2 - 8) return;
+  // Places of the pointer on a dial, with its radius as 1.
+  function onDial(circle, {clientX, clientY}) {
+    const box = circle.getBoundingClientRect(), radius = box.width / 2 - EDGE;
+    return [(clientX - box.left - box.width / 2) / radius, (box.top + box.height / 2 - clientY) / radius];
+  }
+  function turn(circle, event) {
+    const point = onDial(circle, event), size = hundredths(RX.state.dial.reach * Math.min(Math.hypot(...point), 1));
+    return {[chosen]: [size < .04 ? 0 : size, direction(...point)]};  // The middle means none.
+  }
+  function trade(front, {clientX, clientY}) {
+    const box = front.querySelector('svg').getBoundingClientRect();
+    return along(front, clientX - box.left, clientY - box.top) ?? held;
+  }
+  drag(document, '.rxd-round, .rxd-front svg', (pressed, event) => {
+    const {dial} = RX.state, circle = pressed.matches('.rxd-round'), place = circle ? pressed : pressed.parentElement;
+    if (!dial || dial.held || !(circle || dial.front.length > 1)) return null;
+    if (circle && Math.hypot(...onDial(place, event)) > 1 + (EDGE - 8) / (place.clientWidth / 2 - EDGE)) return null;
     event.preventDefault();
-    held = {place: circle || chart, front: !circle, waves: {}, above: circle ? 0 : near.closest('svg').getBoundingClientRect().top - box.top};
-    circle?.querySelector('[data-dot]')?.focus({preventScroll: true});
+    if (circle) place.querySelector('[data-dot]')?.focus({preventScroll: true});
     RX.send('dial', 'start');
-    follow(event);
+    held = {};
+    const move = now => {
+      held = (circle ? turn : trade)(place, now);
+      heard.send(held);
+      draw();
+    };
+    move(event);
     shake();
+    return {
+      move,
+      end() {
+        heard.drop();
+        send(held);
+        RX.send('dial', 'end');
+        const waves = held;
+        held = null;
+        leave(waves);
+      },
+    };
   });
-  addEventListener('pointermove', event => { if (held && event.isPrimary) follow(event); });
-  for (const end of ['pointerup', 'pointercancel'])
-    addEventListener(end, event => {
-      if (!held || !event.isPrimary) return;
-      const {waves} = held;
-      waiting = null;
-      RX.send('dial', Object.entries(waves).map(([n, [a, p]]) => [Number(n), a, p]));
-      RX.send('dial', 'end');
-      held = null;
-      press(waves);
-    });
+  const STEPS = {
+    ArrowUp: [.05, 0], ArrowDown: [-.05, 0], PageUp: [.25, 0], PageDown: [-.25, 0],
+    ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0],
+  };
   document.addEventListener('keydown', event => {
-    const near = event.target instanceof Element && event.target;
-    if (event.key === 'Escape' && page.dataset.enlarged) { event.stopPropagation(); enlarge(false); return; }
-    const dot = near && near.closest('[data-dot]'), many = event.shiftKey ? 5 : 1;
-    const step = dot && {ArrowUp: [.05, 0], ArrowDown: [-.05, 0], PageUp: [.25, 0], PageDown: [-.25, 0], ArrowLeft: [0, 5], ArrowRight: [0, -5], Delete: [-99, 0]}[event.key];
+    const closing = event.key === 'Escape' && page.dataset.enlarged;
+    const step = closest(event, '[data-dot]') && STEPS[event.key], many = event.shiftKey ? 5 : 1;
+    if (closing || step) event.stopPropagation();
+    if (closing) return enlarge(false);
     if (!step) return;
     event.preventDefault();
-    event.stopPropagation();
-    const [a, p] = wave(chosen), waves = {[chosen]: [Charts.clamp(Math.round(100 * (a + many * step[0])) / 100, 0, RX.state.dial.reach), (p + many * step[1] + 360) % 360]};
-    tell(waves);
-    press(waves);
+    const [size, phase] = wave(chosen), wished = clamp(hundredths(size + many * step[0]), 0, RX.state.dial.reach);
+    const waves = {[chosen]: [wished, (phase + many * step[1] + 360) % 360]};
+    heard.send(waves);
+    leave(waves);
   }, true);
 
   // While the hand is on the dial, and some seconds longer, the cabin moves as a rigid body under the foreseen loads at
   // N_b/rev, A cos(N_b ψ − φ)/(m (N_b Ω)²): exaggerated and slowed, and not for those who asked for less motion.
-  const still = matchMedia('(prefers-reduced-motion: reduce)'), NODE = '/airframe', SHAKES = 2.5, LONGER = 4000;
-  let shaken = 0, rest = null, last = null;
+  const SHAKES = 2.5, LONGER = 4000;  // [1/s], [ms]
+  let shaking = false;
   function shake() {
-    if (still.matches || shaken) return;
-    const pose = () => window.__viserMutable?.nodePoseData?.[NODE], begun = performance.now();
-    let until = Infinity;
-    const put = position => { const now = pose(); if (now) { last = position; Object.assign(now, {position, poseUpdateState: 'needsUpdate'}); window.__viserMutable.requestRender?.(); } };
-    const step = now => {
-      const {dial, dial_matrix: matrix} = RX.state, at = pose();
-      if (held) until = now + LONGER;
-      if (!dial || !matrix || !at || now > until) { if (rest) put(rest); shaken = 0; rest = last = null; return; }
-      if (at.position !== last) rest = [...at.position];
-      const loads = values(matrix, vector()), turn = 2 * Math.PI * SHAKES * (now - begun) / 1000;
-      put(rest.map((v, k) => v + dial.shake * (loads[2 * k] * Math.cos(turn) + loads[2 * k + 1] * Math.sin(turn))));
-      shaken = requestAnimationFrame(step);
+    if (calm.matches || shaking) return;
+    const begun = performance.now();
+    let until = Infinity, rest = null, last = null;
+    const put = (pose, position) => {
+      last = position;
+      Object.assign(pose, {position, poseUpdateState: 'needsUpdate'});
+      viewer().requestRender?.();
     };
-    shaken = requestAnimationFrame(step);
+    const step = now => {
+      const {dial, dial_matrix: matrix} = RX.state, pose = viewer()?.nodePoseData?.['/airframe'];
+      if (held) until = now + LONGER;
+      shaking = Boolean(dial && matrix && pose) && now <= until;
+      if (!shaking) { if (rest && pose) put(pose, rest); return; }
+      if (pose.position !== last) rest = [...pose.position];
+      const loads = values(matrix, vector()), angle = 2 * Math.PI * SHAKES * (now - begun) / 1000;
+      put(pose, rest.map((value, k) =>
+        value + dial.shake * (loads[2 * k] * Math.cos(angle) + loads[2 * k + 1] * Math.sin(angle))));
+      requestAnimationFrame(step);
+    };
+    shaking = true;
+    requestAnimationFrame(step);
   }
   document.addEventListener('click', event => {
-    const near = event.target instanceof Element && event.target.closest('[data-harmonic], [data-dial-large]');
-    if (!near) return;
-    if (near.dataset.harmonic) { chosen = Number(near.dataset.harmonic); draw(); } else enlarge(!page.dataset.enlarged);
+    const button = closest(event, '[data-harmonic], [data-dial-large]');
+    if (!button) return;
+    if (!button.dataset.harmonic) return enlarge(!page.dataset.enlarged);
+    chosen = Number(button.dataset.harmonic);
+    draw();
   });
 
   // Dial and front over the stage, as large as it allows.
   function enlarge(open) {
-    const place = part('large');
     if (open) page.dataset.enlarged = 'large'; else delete page.dataset.enlarged;
-    place.hidden = !open;
-    place.innerHTML = open ? '<div class="rxd" data-dial data-large data-explorer="dial-large"></div>' : '';
+    part('large').hidden = !open;
+    part('large').innerHTML = open ? '<div class="rxd" data-dial data-large data-explorer="dial-large"></div>' : '';
     draw();
   }
-  RX.also('bar', bar => { if (bar.mode !== 'actuate' && page.dataset.enlarged) enlarge(false); });
+  RX.paint('bar', bar => { if (bar.mode !== 'actuate' && page.dataset.enlarged) enlarge(false); });
 })();

@@ -1,37 +1,38 @@
+// @ts-check
 // Actuate: tip twist over a flight that is scrubbed or played, and what the actuator earns.
 (() => {
-  const {text, part} = RX, page = document.documentElement;
-  const card = part('fly'), earns = part('earns'), WHOLE = 14000, SEND = 70;  // [ms] of a played flight, and between two messages.
-  const {clamp} = Charts, degrees = value => Charts.signed(value, 2) + '°';
-  let at = 0, own = 0, sent = 0, waiting = 0, playing = 0, before = 0, moved = -Infinity;
+  const {text, clamp, lerp, write, closest, paced, drag} = Common, {part} = RX;
+  const card = part('fly'), earns = part('earns');
+  const WHOLE = 14000, SEND = 70, LATER = SEND + 80;  // [ms] A played flight; between two messages; after the last.
+  const degrees = value => `${Common.signed(value, 2)}°`;
+  let at = 0, scrubbed = false, moved = -Infinity, playing = 0, release = null;
 
   const last = () => RX.state.flight.legs.length - 1;
   const between = (values, x) => {
-    const step = last() / (values.length - 1), k = clamp(Math.floor(x / step), 0, values.length - 2), u = x / step - k;
-    return (1 - u) * values[k] + u * values[k + 1];
+    const step = last() / (values.length - 1), k = clamp(Math.floor(x / step), 0, values.length - 2);
+    return lerp(values[k], values[k + 1], x / step - k);
   };
 
   // By hand or by itself: the marker follows at once, the server hears of it a few times a second.
+  const flown = paced(x => RX.send('fly', Math.round(1000 * x) / 1000), SEND);
   function go(x) {
     at = clamp(x, 0, last());
     moved = performance.now();
     mark();
-    const rest = sent + SEND - moved;
-    clearTimeout(waiting);
-    waiting = setTimeout(() => { sent = performance.now(); RX.send('fly', Math.round(1000 * at) / 1000); }, Math.max(0, rest));
+    flown.send(at);
   }
   function stop() {
     if (!playing) return;
     cancelAnimationFrame(playing);
     playing = 0;
-    setTimeout(() => RX.send('hold', false), SEND + 80);
-    button();
+    release();
+    drawButton();
   }
   function play() {
     if (playing) return stop();
     if (at > last() - 0.02) go(0);
-    before = performance.now();
-    RX.send('hold', true);
+    let before = performance.now();
+    release = RX.hold(LATER);
     const step = now => {
       playing = requestAnimationFrame(step);
       go(at + last() * Math.min(now - before, 200) / WHOLE);
@@ -39,198 +40,219 @@
       if (at >= last()) stop();
     };
     playing = requestAnimationFrame(step);
-    button();
+    drawButton();
   }
-  function button() {
-    const place = card.querySelector('[data-fly=play]');
-    if (!place) return;
-    place.innerHTML = RX.icon(playing ? 'pause' : 'play');
-    place.ariaLabel = playing ? 'Stop the flight' : 'Fly from hover to fast';
+  function drawButton() {
+    const button = card.querySelector('[data-fly=play]');
+    if (!button) return;
+    write(button, RX.icon(playing ? 'pause' : 'play'));
+    button.ariaLabel = playing ? 'Stop the flight' : 'Fly from hover to fast';
   }
 
   card.addEventListener('click', event => {
-    const near = event.target.closest('[data-fly]');
-    if (!near) return;
-    if (near.dataset.fly === 'play') return play();
+    const leg = closest(event, '[data-fly]')?.dataset.fly;
+    if (!leg) return;
+    if (leg === 'play') return play();
     stop();
-    go(Number(near.dataset.fly));
+    go(Number(leg));
   });
-  card.addEventListener('input', event => { if (event.target.type === 'range') { stop(); go(Number(event.target.value)); } });
-  card.addEventListener('pointerdown', event => {
-    if (event.target.type !== 'range') return;
-    own++;
-    RX.send('hold', true);
-    addEventListener('pointerup', () => { own = 0; setTimeout(() => RX.send('hold', false), SEND + 80); }, {once: true});
+  card.addEventListener('input', ({target}) => { if (target.type === 'range') { stop(); go(Number(target.value)); } });
+  drag(card, 'input[type=range]', () => {
+    const letGo = RX.hold(LATER);
+    scrubbed = true;
+    return {end() { scrubbed = false; letGo(); }};
   });
 
   let scale = null;
-  RX.paint('flight', now => {
-    if (page.toggleAttribute('data-flight', Boolean(now)) !== !card.hidden) { RX.again('power', 'inset', 'strip'); dispatchEvent(new Event('resize')); }
-    card.hidden = !now;
-    if (!now) { stop(); card.innerHTML = ''; return; }
-    if (!own && !playing && performance.now() - moved > 900) at = clamp(now.at, 0, last());
-    if (!card.firstChild) {
-      card.innerHTML = `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b><span class="rxf-dim rxf-num" data-words></span></div>
-        <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button><input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`;
-      button();
-    }
-    const slider = card.querySelector('input'), legs = card.querySelector('.rxf-fly-bar > div');
-    slider.max = last();
-    const names = JSON.stringify(now.legs);
-    if (legs.dataset.names !== names) {
-      legs.dataset.names = names;
-      legs.innerHTML = now.legs.map(([name, words], k) => `<button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}"><b>${text(name)}</b><small>${text(words)}</small></button>`).join('');
-    }
-    card.toggleAttribute('data-faded', now.kind !== 'ready');
-    card.dataset.kind = now.kind;
-    draw(now);
+  RX.paint('flight', flight => {
+    if (document.documentElement.toggleAttribute('data-flight', Boolean(flight)) === card.hidden)
+      dispatchEvent(new Event('resize'));
+    card.hidden = !flight;
+    if (!flight) { stop(); write(card, ''); return; }
+    if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
+    write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
+        <span class="rxf-dim rxf-num" data-words></span></div>
+      <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
+        <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
+    drawButton();
+    card.querySelector('input').max = last();
+    write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
+      <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
+        <b>${text(name)}</b><small>${text(words)}</small></button>`).join(''));
+    card.toggleAttribute('data-faded', flight.kind !== 'ready');
+    card.dataset.kind = flight.kind;
+    draw(flight.chart);
     mark();
   });
 
   // Everything but the marker.
-  function draw(now) {
+  function draw(chart) {
     const svg = card.querySelector('svg'), width = card.clientWidth - 28, height = svg.clientHeight;
     if (width < 120 || height < 30) return;
-    scale = Charts.frame(now.chart, width, height, {left: 46, right: 16, bottom: 8});
+    scale = Charts.frame(chart, width, height, {left: 46, right: 16, bottom: 8});
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    svg.innerHTML = `${Charts.rows(now.chart, scale)}${Charts.inside(now.chart, scale)}<g data-marker></g>`;
+    svg.innerHTML = `${Charts.rows(chart, scale)}${Charts.inside(chart, scale)}<g data-marker></g>`;
   }
 
   function mark() {
-    const now = RX.state.flight, slider = card.querySelector('input');
-    if (!now || !slider || !scale) return;
+    const {flight} = RX.state, slider = card.querySelector('input');
+    if (!flight || !slider || !scale) return;
     if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
     slider.style.setProperty('--at', `${100 * at / last()}%`);
-    const {X, Y, height} = scale, x = X(at), near = now.legs[Math.round(at)];
-    card.querySelectorAll('.rxf-fly-bar [data-fly]:not([data-fly=play])').forEach((one, k) => one.toggleAttribute('data-here', Math.abs(k - at) < .02));
-    let inside = `<path d="M${x.toFixed(1)} 2V${height}" class="rxf-fly-now"/>`, words = now.words, said = '';
-    if (now.chart.series.length) {
-      const [wanted, reached] = ['wanted', 'reached'].map(name => between(now.chart.series.find(one => one.label === name).y, at));
-      inside += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/><circle cx="${x}" cy="${Y(now.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
-      said = now.flown ? degrees(reached) : now.tip;
+    card.querySelectorAll('.rxf-fly-bar > div > button')
+      .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
+    const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
+    let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {words} = flight, tip = '';
+    if (series.length) {
+      const [wanted, reached] = ['wanted', 'reached']
+        .map(name => between(/** @type {any} */ (series.find(({label}) => label === name)).y, at));
+      marker += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/>
+        <circle cx="${x}" cy="${Y(flight.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
+      tip = flight.flown ? degrees(reached) : flight.tip;
       const works = `${degrees(reached)} of ${degrees(wanted)} wanted`;
-      words = `${now.flown ? `of ${degrees(wanted)} wanted` : now.frozen === null ? `now; reaches ${works}` : `stopped; working, it reaches ${works}`}${now.kind === 'ready' ? '' : ' · computing…'}`;
-      slider.ariaValueText = `${near[0]}: ${said} ${words}`;
-    } else slider.ariaValueText = near[0];
+      words = flight.flown ? `of ${degrees(wanted)} wanted`
+        : flight.frozen === null ? `now; reaches ${works}` : `stopped; working, it reaches ${works}`;
+      if (flight.kind !== 'ready') words += ' · computing…';
+    }
+    slider.ariaValueText = flight.legs[Math.round(at)][0] + (series.length ? `: ${tip} ${words}` : '');
     const group = card.querySelector('[data-marker]');
-    if (group) group.innerHTML = inside;
-    const place = card.querySelector('[data-words]');
-    if (place.textContent !== words) place.textContent = words;
-    card.querySelector('[data-explorer=tip-twist]').textContent = said;
+    if (group) group.innerHTML = marker;
+    write(card.querySelector('[data-words]'), text(words));
+    card.querySelector('[data-explorer=tip-twist]').textContent = tip;
   }
 
-  // One waterfall: where the power goes.
-  RX.paint('earns', now => {
-    earns.hidden = !now;
-    RX.again('power');
-    if (!now) { earns.innerHTML = ''; return; }
-    const {suppose} = RX.state;
-    earns.toggleAttribute('data-faded', now.kind !== 'ready' && !suppose);
-    earns.toggleAttribute('data-suppose', Boolean(suppose));
-    if (suppose) return breakEven(suppose);
-    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span class="rxf-dim">${text(now.unit)}, ${text(now.where)}</span><button class="rxf-push" data-do="suppose" data-value="on" title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
-      <svg role="img"></svg>
-      <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(now.mass_note)}">${text(now.mass)}</span><b class="rxf-push rxf-num" data-kind="${now.fuel_kind}" data-explorer="fuel" title="${text(now.fuel_note)}">${text(now.fuel)}</b></div>`;
-    const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight, bars = now.bars;
-    if (!bars.length || width < 100 || height < 40) { svg.innerHTML = ''; return; }
-    let sum = 0;
-    const ends = bars.map(bar => { const from = bar.total ? 0 : sum; sum = bar.total ? bar.value : sum + bar.value; return [from, sum]; });
-    const all = [0, ...ends.flat()], low = Math.min(...all), high = Math.max(...all), span = Math.max(high - low, 1e-6);
-    const Y = v => 20 + (high - v) / span * (height - 62), room = width / bars.length, wide = Math.min(64, 0.66 * room);
-    let inside = `<path d="M0 ${Y(0).toFixed(1)}H${width}" stroke="var(--rx-faint)"/>`;
-    bars.forEach((bar, k) => {
-      const [from, to] = ends[k], x = room * (k + .5), top = Math.min(Y(from), Y(to)), tall = Math.max(2, Math.abs(Y(to) - Y(from))), up = to > from;
-      if (k) inside += `<path d="M${room * (k - .5) + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (bar.total ? wide / 2 : -wide / 2)}" class="rxf-earns-link"/>`;
-      inside += `<rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3" class="rxf-earns-bar" data-kind="${bar.kind}" ${bar.total ? 'data-total' : ''}/>
-        <text x="${x}" y="${(up ? top - 5 : top + tall + (bar.total ? 18 : 14)).toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${bar.kind}" ${bar.total ? 'data-total data-explorer="net"' : ''}>${text(bar.text)}</text>
-        <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${bar.total ? 'data-total' : ''}>${text(bar.name)}</text>`;
-    });
-    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
-    svg.innerHTML = inside;
+  // One waterfall: where the power goes. Or the line where an actuator pays for itself.
+  RX.paint(['earns', 'suppose'], (balance, other) => {
+    earns.hidden = !balance;
+    if (!balance) { earns.innerHTML = ''; return; }
+    earns.toggleAttribute('data-faded', balance.kind !== 'ready' && !other);
+    earns.toggleAttribute('data-suppose', Boolean(other));
+    if (other) drawBreakEven(other);
+    else drawBalance(balance);
   });
-  RX.paint('suppose', () => RX.again('earns'));
+  // The drawing of this card, and its size, where it has room.
+  function room() {
+    const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight;
+    if (width < 100 || height < 40) return {};
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    return {svg, width, height};
+  }
+  function drawBalance({bars, unit, where, mass, mass_note, fuel, fuel_kind, fuel_note}) {
+    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b>
+        <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
+        <button class="rxf-push" data-do="suppose" data-value="on"
+          title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
+      <svg role="img"></svg>
+      <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(mass_note)}">${text(mass)}</span>
+        <b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
+          title="${text(fuel_note)}">${text(fuel)}</b></div>`;
+    const {svg, width, height} = room();
+    if (!bars.length || !svg) return;
+    let sum = 0;
+    const ends = bars.map(({total, value}) => {
+      const from = total ? 0 : sum;
+      sum = from + value;
+      return [from, sum];
+    });
+    const all = [0, ...ends.flat()], high = Math.max(...all), span = Math.max(high - Math.min(...all), 1e-6);
+    const Y = value => 20 + (high - value) / span * (height - 62);
+    const step = width / bars.length, wide = Math.min(64, 0.66 * step);
+    const drawn = bars.map(({kind, total, name, text: words}, k) => {
+      const [from, to] = ends[k], x = step * (k + .5), top = Math.min(Y(from), Y(to));
+      const tall = Math.max(2, Math.abs(Y(to) - Y(from))), above = to > from ? top - 5 : top + tall + (total ? 18 : 14);
+      const link = k ? `M${x - step + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (total ? wide : -wide) / 2}` : '';
+      return `<path d="${link}" class="rxf-earns-link"/>
+        <rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3"
+          class="rxf-earns-bar" data-kind="${kind}" ${total ? 'data-total' : ''}/>
+        <text x="${x}" y="${above.toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${kind}"
+          ${total ? 'data-total data-explorer="net"' : ''}>${text(words)}</text>
+        <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${total ? 'data-total' : ''}>
+          ${text(name)}</text>`;
+    });
+    svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
+    svg.innerHTML = `<path d="M0 ${Y(0).toFixed(1)}H${width}" stroke="var(--rx-faint)"/>${drawn.join('')}`;
+  }
 
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
-  let held = null, told_at = 0, queued = 0;
+  let held = null;
   const driven = ({series}, {X, Y}) => {
     const {x, y} = series.find(one => one.dashes), end = y.length - 1;
-    return y[end] === null ? '' : `<text x="${X(x[end]).toFixed(1)}" y="${(Y(y[end]) + 13).toFixed(1)}" text-anchor="end">half goes to the drive</text>`;
+    return y[end] === null ? ''
+      : `<text x="${X(x[end])}" y="${Y(y[end]) + 13}" text-anchor="end">half goes to the drive</text>`;
   };
   // A name that would lie on another stands below or beside its point, or waits for the pointer.
-  function apart(svg) {
-    const taken = [...svg.querySelectorAll('g > title ~ circle')].map(dot => [+dot.getAttribute('cx') - 5, +dot.getAttribute('cy') + 5, 10]);
+  function spread(svg, left) {
+    const taken = [...svg.querySelectorAll('g > title ~ circle')]
+      .map(dot => [+dot.getAttribute('cx') - 5, +dot.getAttribute('cy') + 5, 10]);
     for (const word of svg.querySelectorAll('[data-name]')) {
-      const dot = word.parentNode.querySelector('circle').getBBox(), wide = word.getBBox().width, x = dot.x + dot.width / 2, y = dot.y + dot.height / 2;
-      const places = [[x - wide / 2, y - 8], [x - wide / 2, y + 18], [x + 9, y + 4], [x - wide - 9, y + 4], [x, y - 8], [x, y + 18]].filter(([left]) => left > earns.place.left);
-      const free = places.find(([left, low]) => taken.every(one => left > one[0] + one[2] + 3 || left + wide + 3 < one[0] || Math.abs(low - one[1]) > 12));
+      const dot = word.parentNode.querySelector('circle').getBBox(), {width} = word.getBBox();
+      const x = dot.x + dot.width / 2, y = dot.y + dot.height / 2;
+      const apart = spot => ([start, height, wide]) =>
+        spot[0] > start + wide + 3 || spot[0] + width + 3 < start || Math.abs(spot[1] - height) > 12;
+      const above = y - 8, below = y + 18, middle = x - width / 2;
+      const free = [[middle, above], [middle, below], [x + 9, y + 4], [x - width - 9, y + 4], [x, above], [x, below]]
+        .find(spot => spot[0] > left && taken.every(apart(spot)));
       if (!free) { word.remove(); continue; }
-      taken.push([...free, wide]);
+      taken.push([...free, width]);
       word.setAttribute('text-anchor', 'start');
       word.setAttribute('x', free[0].toFixed(1));
       word.setAttribute('y', free[1].toFixed(1));
     }
   }
-  function breakEven(now) {
-    const focused = earns.contains(document.activeElement) && document.activeElement.dataset.supposed !== undefined;
-    earns.innerHTML = `<div class="rxf-head"><b>What would pay</b><span class="rxf-dim">range of twist, mass of all blades</span><button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
-      <div class="rxf-num rxf-supposed" data-kind="${now.kind}" data-explorer="supposed">${text(now.words)}</div><svg></svg>${now.note ? `<div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(now.note)}">${text(now.note)}</div>` : ''}`;
-    const svg = earns.querySelector('svg'), width = earns.clientWidth - 28, height = svg.clientHeight;
-    if (!now.chart || width < 100 || height < 40) return;
-    const place = Charts.frame(now.chart, width, height, {bottom: 32}), [x, y] = held?.at ?? now.at, {left, right, top, base} = place;
-    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    svg.innerHTML = `${Charts.axes(now.chart, place)}${Charts.inside(now.chart, place)}${width > 420 ? driven(now.chart, place) : ''}<text x="${right - 6}" y="${base - 4}" text-anchor="end" data-pays>pays</text>${width > 420 ? `<text x="${right - 6}" y="${top + 12}" text-anchor="end" data-costs>mass costs more than twist saves</text>` : ''}
-      <circle data-supposed data-kind="${now.kind}" cx="${clamp(place.X(x), left, right)}" cy="${clamp(place.Y(y), top, base)}" r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${x}" aria-valuetext="${text(now.words)}"><title>Drag: range of twist and mass of all blades</title></circle>`;
+  function drawBreakEven({chart, kind, words, note, at: given}) {
+    const focused = earns.contains(document.activeElement) && document.activeElement.matches('[data-supposed]');
+    earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
+        <span class="rxf-dim">range of twist, mass of all blades</span>
+        <button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
+      <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
+      <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
+        ${note ? '' : 'hidden'}>${text(note)}</div>`;
+    const {svg, width, height} = room();
+    if (!chart || !svg) return;
+    const place = Charts.frame(chart, width, height, {bottom: 32}), {X, Y, left, right, top, base} = place;
+    const [twist, mass] = held?.at ?? given, label = (y, name, content) =>
+      `<text x="${right - 6}" y="${y}" text-anchor="end" data-${name}>${content}</text>`;
+    svg.innerHTML = `${Charts.axes(chart, place)}${Charts.inside(chart, place)}${label(base - 4, 'pays', 'pays')}
+      ${width > 420 ? driven(chart, place) + label(top + 12, 'costs', 'mass costs more than twist saves') : ''}
+      <circle data-supposed data-kind="${kind}" cx="${clamp(X(twist), left, right)}" cy="${clamp(Y(mass), top, base)}"
+        r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${twist}"
+        aria-valuetext="${text(words)}">
+        <title>Drag: range of twist and mass of all blades</title></circle>`;
     earns.place = place;
-    apart(svg);
+    spread(svg, left);
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
-  const suppose = (twist, mass) => {
-    const {left, right, top, base, atX, atY, X, Y} = earns.place;
-    const px = clamp(X(twist), left + 1, right), py = clamp(Y(mass), top, base), dot = earns.querySelector('[data-supposed]');
-    dot?.setAttribute('cx', px);
-    dot?.setAttribute('cy', py);
-    clearTimeout(queued);
-    queued = setTimeout(() => { told_at = performance.now(); RX.send('suppose', [atX(px), atY(py)]); }, Math.max(0, 60 - (performance.now() - told_at)));
-    return [atX(px), atY(py)];
-  };
-  earns.addEventListener('pointerdown', event => {
-    if (event.button || !event.target.closest('[data-supposed]')) return;
+  const supposed = paced(point => RX.send('suppose', point), 60);
+  /** @returns {[number, number]} */
+  function suppose(twist, mass) {
+    const {left, right, top, base, atX, atY, X, Y} = earns.place, dot = earns.querySelector('[data-supposed]');
+    const x = clamp(X(twist), left + 1, right), y = clamp(Y(mass), top, base);
+    dot?.setAttribute('cx', x);
+    dot?.setAttribute('cy', y);
+    supposed.send([atX(x), atY(y)]);
+    return [atX(x), atY(y)];
+  }
+  drag(earns, '[data-supposed]', (dot, event) => {
     event.preventDefault();
-    event.target.focus({preventScroll: true});
+    dot.focus({preventScroll: true});
     held = {at: RX.state.suppose.at};
+    return {
+      move({clientX, clientY}) {
+        const box = earns.querySelector('svg').getBoundingClientRect(), {atX, atY} = earns.place;
+        held.at = suppose(atX(clientX - box.left), atY(clientY - box.top));
+      },
+      end() { held = null; },
+    };
   });
-  addEventListener('pointermove', event => {
-    if (!held || !earns.place) return;
-    const box = earns.querySelector('svg').getBoundingClientRect(), {atX, atY} = earns.place;
-    held.at = suppose(atX(event.clientX - box.left), atY(event.clientY - box.top));
-  });
-  for (const name of ['pointerup', 'pointercancel']) addEventListener(name, () => { held = null; });
+  const STEPS = {ArrowLeft: [-.1, 1], ArrowRight: [.1, 1], ArrowDown: [0, 1 / 1.05], ArrowUp: [0, 1.05]};
   earns.addEventListener('keydown', event => {
-    const step = event.target.dataset?.supposed !== undefined && {ArrowLeft: [-.1, 1], ArrowRight: [.1, 1], ArrowDown: [0, 1 / 1.05], ArrowUp: [0, 1.05]}[event.key];
+    const step = closest(event, '[data-supposed]') && STEPS[event.key];
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();
-    const [x, y] = RX.state.suppose.at, many = event.shiftKey ? 5 : 1;
-    RX.state.suppose.at = suppose(x + many * step[0], y * step[1] ** many);
+    const [twist, mass] = RX.state.suppose.at, many = event.shiftKey ? 5 : 1;
+    RX.state.suppose.at = suppose(twist + many * step[0], mass * step[1] ** many);
   });
-  // The card of power tells the one verdict, here and over the flight, against one blade.
-  const told = () => {
-    const now = RX.state.earns, place = now && part('power').querySelector('[data-explorer=verdict]');
-    if (!place) return;
-    const [words, kind] = now.problem ? [now.problem, ''] : RX.verdict();
-    place.textContent = words;
-    place.dataset.tone = kind;
-  };
-  RX.told = told;
-  RX.also('dial', told);
-  RX.also('power', () => {
-    const now = RX.state.earns, change = part('power').querySelector('.rxf-change');
-    if (!now || !change) return;
-    change.innerHTML = `<div class="rxf-why">Against <button data-do="against" title="Compare with the other blade">${text(now.against)} ⇄</button></div><div class="rxf-since rxf-num" data-explorer="verdict" data-kind="${now.kind}" title="This actuator on board, in this flight. Bands: over inflow models"></div><div class="rxf-why" data-explorer="mission">${text(now.mission)}</div>`;
-    told();
-    const under = part('power').querySelector('.rxf-sub');
-    if (under) under.textContent = 'at this twist, without its mass';
-  });
-  for (const [name, place] of [['flight', card], ['earns', earns]]) new ResizeObserver(() => { if (RX.state[name]) RX.again(name); }).observe(place);
+  for (const [name, element] of [['flight', card], ['earns', earns]])
+    new ResizeObserver(() => { if (RX.state[name]) RX.again(name); }).observe(element);
 })();

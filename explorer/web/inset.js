@@ -1,59 +1,77 @@
+// @ts-check
 // The reference blade seen end-on in an oblique projection: sections, ribbon, and the reference as a grey ghost.
 (() => {
-  const {text, part} = RX, DEGREE = Math.PI / 180;
+  const {DEGREE, text, lerp, trace} = Common, {part} = RX, degrees = angle => `${Common.signed(angle)}°`;
   const STOPS = [[52, 91, 219], [134, 84, 208], [208, 66, 130], [222, 64, 40]];
-  const along = t => {
-    const k = Math.min(2, Math.floor(3 * t)), f = 3 * t - k;
-    return `rgb(${STOPS[k].map((v, j) => Math.round(v + f * (STOPS[k + 1][j] - v)))})`;
+  const along = RX.along = share => {
+    const k = Math.min(2, Math.floor(3 * share));
+    return `rgb(${STOPS[k].map((value, j) => Math.round(lerp(value, STOPS[k + 1][j], 3 * share - k)))})`;
   };
-  RX.along = along;
-  const signed = value => Charts.signed(value) + '°';
 
-  RX.paint('inset', now => {
+  RX.paint('inset', inset => {
     const card = part('inset');
-    card.hidden = !now;
-    if (!now || card.clientWidth < 80) return;
-    const width = card.clientWidth - 28, height = card.clientHeight - 15, root = now.r[0];
+    card.hidden = !inset;
+    if (!inset || card.clientWidth < 80) return;
+    const {r: stations, theta, ghost, cuts, datum, times} = inset, ghostDatum = inset.ghost_datum;
+    const width = card.clientWidth - 28, height = card.clientHeight - 15, [root] = stations, slope = .06 * height;
     const share = r => (r - root) / (1 - root);
-    // How far the drawn sections reach above and below the quarter chord, in chords: strong twist is drawn smaller, not over the numbers.
-    const reach = now.cuts.flatMap(cut => [[cut.theta, now.datum], [cut.ghost ?? cut.theta, cut.ghost === null ? now.datum : now.ghost_datum]].map(([angle, datum]) => {
-      const drawn = (datum + now.times * (angle - datum)) * DEGREE, ups = cut.outline.map(([x, z]) => x * Math.sin(drawn) + z * Math.cos(drawn));
-      return [share(cut.r), Math.max(...ups), -Math.min(...ups)];
-    }));
-    let chord = Math.min(122, width / 6.2, 0.78 * height), y0 = 0;
-    for (let tries = 0; tries < 12; tries++) {
-      y0 = height - 33 - Math.max(0.47 * chord, ...reach.map(([at, , down]) => down * chord + 0.06 * height * at + 2));
-      if (reach.every(([at, up]) => y0 + 0.06 * height * at - up * chord > 17)) break;
-      chord *= 0.93;
-    }
-    const x0 = Math.max(0.62 * chord + 8, 84), x1 = width - 0.62 * chord - 12, y1 = y0 + 0.06 * height, at = r => [x0 + (x1 - x0) * share(r), y0 + (y1 - y0) * share(r)];
-    // Points forward and up of the quarter chord, in chords; the leading edge is drawn on the right.
-    const turned = ([ox, oy], angle, [x, z], datum = now.datum) => {
-      const drawn = (datum + now.times * (angle - datum)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
-      return `${(ox + chord * (x * c - z * s)).toFixed(1)} ${(oy - chord * (x * s + z * c)).toFixed(1)}`;
+    const changed = cut => cut.ghost !== null && Math.abs(cut.theta - cut.ghost) >= .05;
+    // A point forward and up of the quarter chord, in chords, of a blade turned so much from its datum, drawn `times`.
+    const turn = (corner, angle, from) => {
+      const [x, z] = corner, drawn = (from + times * (angle - from)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
+      return [x * c - z * s, x * s + z * c];
     };
-    const edge = (angles, x, datum) => now.r.map((r, k) => turned(at(r), angles[k], [x, 0], datum));
-    const lead = edge(now.theta, .25), trail = edge(now.theta, -.75), changed = one => one.ghost !== null && Math.abs(one.theta - one.ghost) >= .05;
-    let inside = `<defs><linearGradient id="rxi">${[0, 1, 2, 3].map(k => `<stop offset="${k / 3}" stop-color="${along(k / 3)}"/>`).join('')}</linearGradient></defs>`;
-    inside += `<path d="M${x0 - chord / 2} ${y0}L${x1 + .4 * chord} ${y1}" stroke="var(--rx-line)"/>`;
-    if (now.cuts.some(changed)) for (const x of [.25, -.75]) inside += `<path d="M${edge(now.ghost, x, now.ghost_datum).join('L')}" class="rxf-ghost-line"/>`;
-    inside += `<path d="M${lead.join('L')}L${trail.slice().reverse().join('L')}Z" fill="url(#rxi)" opacity=".13"/><path d="M${lead.join('L')}" stroke="url(#rxi)" stroke-width="1.6" fill="none"/><path d="M${trail.join('L')}" stroke="url(#rxi)" stroke-width="1.6" fill="none" opacity=".75"/>`;
-    // In a narrow card every other section has room.
-    const sparse = width < 560;
-    now.cuts.forEach((cut, k) => {
-      if (sparse && k % 2 === 1 && k < now.cuts.length - 1) return;
-      const o = at(cut.r), shade = along(share(cut.r)), shape = (angle, kind, datum) => `<path d="M${cut.outline.map(p => turned(o, angle, p, datum)).join('L')}Z" ${kind}>${changed(cut) ? `<title>${signed(cut.theta - cut.ghost)} from ${text(now.ghost_name)}</title>` : ''}</path>`;
-      if (changed(cut)) inside += shape(cut.ghost, 'class="rxf-ghost-cut"', now.ghost_datum);
-      inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${cut.r}"`);
-      if (k < now.cuts.length - 1 && (k % 2 || k === now.cuts.length - 2)) return;  // Every other section has numbers, none beside the tip's.
-      inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
-        <text x="${o[0]}" y="${height - 1}" text-anchor="middle" data-between>${cut.r.toFixed(2)}</text>`;
+    // How far the drawn sections reach above and below: strong twist is drawn smaller, not over the numbers.
+    const reach = cuts.flatMap(cut => [[cut.theta, datum], ...(cut.ghost === null ? [] : [[cut.ghost, ghostDatum]])]
+      .map(([angle, from]) => cut.outline.map(corner => turn(corner, angle, from)[1]))
+      .map(ups => [share(cut.r), Math.max(...ups), -Math.min(...ups)]));
+    let chord = Math.min(122, width / 6.2, .78 * height), y0 = 0;
+    for (let tries = 0; tries < 12; tries++) {
+      y0 = height - 33 - Math.max(.47 * chord, ...reach.map(([at, , down]) => down * chord + slope * at + 2));
+      if (reach.every(([at, up]) => y0 + slope * at - up * chord > 17)) break;
+      chord *= .93;
+    }
+    const x0 = Math.max(.62 * chord + 8, 84), x1 = width - .62 * chord - 12;
+    const at = r => [lerp(x0, x1, share(r)), y0 + slope * share(r)];
+    // The leading edge is drawn on the right.
+    const point = (r, angle, corner, from = datum) => {
+      const [x, y] = at(r), [forward, up] = turn(corner, angle, from);
+      return [x + chord * forward, y - chord * up];
+    };
+    const edge = (angles, x, from) => stations.map((r, k) => point(r, angles[k], [x, 0], from));
+    const lead = edge(theta, .25), trail = edge(theta, -.75), stops = [0, 1, 2, 3].map(k => k / 3);
+    let drawn = `<defs><linearGradient id="rxi">
+        ${stops.map(stop => `<stop offset="${stop}" stop-color="${along(stop)}"/>`).join('')}</linearGradient></defs>
+      <path d="M${x0 - chord / 2} ${y0}L${x1 + .4 * chord} ${y0 + slope}" stroke="var(--rx-line)"/>`;
+    if (cuts.some(changed))
+      for (const x of [.25, -.75]) drawn += `<path d="${trace(edge(ghost, x, ghostDatum))}" class="rxf-ghost-line"/>`;
+    drawn += `<path d="${trace([...lead, ...trail.toReversed()])}Z" fill="url(#rxi)" opacity=".13"/>
+      <path d="${trace(lead)}" stroke="url(#rxi)" stroke-width="1.6" fill="none"/>
+      <path d="${trace(trail)}" stroke="url(#rxi)" stroke-width="1.6" fill="none" opacity=".75"/>`;
+    const last = cuts.length - 1;
+    cuts.forEach((cut, k) => {
+      const {r, outline} = cut, [x] = at(r), odd = k % 2 === 1, shade = along(share(r));
+      if (width < 560 && odd && k < last) return;  // In a narrow card every other section has room.
+      const title = `${degrees(cut.theta - cut.ghost)} from ${text(inset.ghost_name)}`;
+      const shape = (angle, style, from) => `
+        <path d="${trace(outline.map(corner => point(r, angle, corner, from)))}Z" ${style}>${
+          changed(cut) ? `<title>${title}</title>` : ''}</path>`;
+      if (changed(cut)) drawn += shape(cut.ghost, 'class="rxf-ghost-cut"', ghostDatum);
+      drawn += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${r}"`);
+      if (k < last && (odd || k === last - 1)) return;  // Every other section has numbers, none beside the tip's.
+      drawn += `<text x="${x}" y="${height - 14}" text-anchor="middle"
+          style="fill:var(--rx-ink);font-weight:620;font-size:12px">${degrees(cut.theta)}</text>
+        <text x="${x}" y="${height - 1}" text-anchor="middle" data-between>${r.toFixed(2)}</text>`;
     });
     // What the two rows of numbers are.
-    inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
-    const spoken = now.cuts.map(cut => `${signed(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
-    card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b><button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${now.times}${now.times > 1 ? ', as in the scene' : ''}</button>
-      <div class="rxf-key"><span title="${text(now.name_hint)}"><i></i>${text(now.name)}</span>${now.ghost ? `<span title="${text(now.ghost_hint)}"><i data-ghost></i>${text(now.ghost_name)}</span>` : ''}<span>root ← r/R → tip</span></div></div>
-      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist: ${spoken}">${inside}</svg>`;
+    drawn += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
+    const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
+    const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;
+    card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>
+        <button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${times}${
+          times > 1 ? ', as in the scene' : ''}</button>
+        <div class="rxf-key">${key(inset.name_hint, '', inset.name)}${
+          ghost ? key(inset.ghost_hint, 'data-ghost', inset.ghost_name) : ''}<span>root ← r/R → tip</span></div></div>
+      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist: ${spoken}">${drawn}</svg>`;
   });
 })();

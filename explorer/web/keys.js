@@ -1,17 +1,17 @@
+// @ts-check
 // Keys in addition to viser's: coarse steps of sliders, and who gets a key.
 (() => {
   const arrows = new Set(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']);
   const pages = {PageUp: 'ArrowUp', PageDown: 'ArrowDown'};
-  const on = (target, selector) => target instanceof Element && target.closest(selector);
-  const number = target => on(target, 'input[inputmode=decimal], input[inputmode=numeric]');
+  const {closest: on} = Common;
 
   // Shift and an arrow, Page up, Page down: so many single steps, each after the page has taken the one before.
   window.addEventListener('keydown', async event => {
     if (!event.isTrusted || event.ctrlKey || event.metaKey || event.altKey) return;
     const key = pages[event.key] ?? (event.shiftKey && arrows.has(event.key) ? event.key : null);
-    const field = number(event.target);
+    const field = on(event, 'input[inputmode=decimal], input[inputmode=numeric]');
     // The dial's dot has coarse steps of its own: each step draws it anew, so a second event would not reach it.
-    if (!key || !(on(event.target, '[role=slider]:not([data-dot])') || field)) return;
+    if (!key || !(on(event, '[role=slider]:not([data-dot])') || field)) return;
     if (field && (key === 'ArrowLeft' || key === 'ArrowRight')) return;  // There they select text.
     event.preventDefault();
     event.stopPropagation();
@@ -28,7 +28,7 @@
     const moves = arrows.has(event.key) || event.key in pages;
     const presses = event.key === ' ' || event.key === 'Enter';
     const pressed = 'button:not([role=tab]), a, summary, input';
-    if ((moves && on(event.target, widget)) || (presses && on(event.target, pressed))) event.stopPropagation();
+    if ((moves && on(event, widget)) || (presses && on(event, pressed))) event.stopPropagation();
   });
 
   // Arrows step the probe; viser would turn the camera with them too. Commands listen here, its camera further out.
@@ -38,11 +38,11 @@
 
   // A box that was clicked, or a field that was left with Escape, does not keep the keyboard to itself.
   window.addEventListener('click', event => {
-    if (event.detail > 0 && on(event.target, 'input[type=checkbox], label')) setTimeout(() => {
+    if (event.detail > 0 && on(event, 'input[type=checkbox], label')) setTimeout(() => {
       if (document.activeElement?.type === 'checkbox') document.activeElement.blur();
     });
   });
   window.addEventListener('keydown', event => {
-    if (event.key === 'Escape' && on(event.target, 'input')) event.target.blur();
+    if (event.key === 'Escape' && on(event, 'input')) event.target.blur();
   });
 })();

@@ -1,3 +1,4 @@
+// @ts-check
 // The lecture in the page: what the server says of it, drawn by `story.js`.
 (() => {
   const page = document.documentElement, place = RX.part('caption');

@@ -1,3 +1,4 @@
+// @ts-check
 // The veil goes when the page has an answer and its layout is at rest, and comes back when the server returns.
 (() => {
   const SLOW = 6000, ENOUGH = 25000, BRIEF = 300, ASK = 500;  // [ms]
@@ -38,7 +39,8 @@
     if (power) {
       const number = document.createElement('b');
       number.textContent = power;
-      veil.querySelector('output').replaceChildren(number, ...lines.map(line => Object.assign(document.createElement('span'), {textContent: line})));
+      const spans = lines.map(line => Object.assign(document.createElement('span'), {textContent: line}));
+      veil.querySelector('output').replaceChildren(number, ...spans);
     } else if (tries && page.classList.contains('rx-veiled')) setTimeout(foretell, 120, tries - 1);
   }
 
@@ -46,11 +48,13 @@
   function look() {
     // What was shown before the connection was lost is no answer: its buttons would speak to a session that has gone.
     const canvas = !stale && document.querySelector(sign) && document.querySelector('canvas');
-    const place = canvas ? JSON.stringify([canvas.getBoundingClientRect(), window.__viserMutable?.camera?.matrixWorld.elements]) : '';
+    const {elements} = window.__viserMutable?.camera?.matrixWorld ?? {};
+    const place = canvas ? JSON.stringify([canvas.getBoundingClientRect(), elements]) : '';
     calm = place && place === last ? calm + 1 : 0;
     last = place;
     if (window.RX?.state.power || document.querySelector('[data-explorer=lobby]')) stale = false;
-    const now = performance.now(), answered = !stale && document.querySelector(sign) && !document.querySelector(unanswered);
+    const now = performance.now();
+    const answered = !stale && document.querySelector(sign) && !document.querySelector(unanswered);
     if (!answered && now < held) { begun = now; calm = 0; }
     const took = now - begun;
     if (!stale && (calm >= 3 || took > ENOUGH)) return lift();
@@ -61,7 +65,8 @@
 
   function lift() {
     page.classList.remove('rx-veiled');
-    if (!document.querySelector(sign)) for (const one of document.querySelectorAll('.rxf-opening')) one.textContent =
+    const opening = document.querySelector('.rxf-opening');
+    if (opening && !document.querySelector(sign)) opening.textContent =
       'The server does not answer: it is busy, or this address does not lead to it. The page goes on trying.';
     hold(false);
     tellLost();
@@ -71,38 +76,40 @@
 
   // Without a server nothing can be changed, so that no change is lost: what is under way ends.
   function hold(inert) {
-    if (inert) for (const end of ['pointerup', 'mouseup', 'touchend', 'pointercancel']) document.dispatchEvent(new Event(end, {bubbles: true}));
-    for (const part of [document.getElementById('root'), document.getElementById('rx')]) if (part) part.inert = inert;
+    const ends = inert ? ['pointerup', 'mouseup', 'touchend', 'pointercancel'] : [];
+    for (const end of ends) document.dispatchEvent(new Event(end, {bubbles: true}));
+    for (const part of document.querySelectorAll('#root, #rx')) part.inert = inert;
     page.toggleAttribute('data-held', inert);
+  }
+  function warn(id, sentence) {
+    const note = Object.assign(document.createElement('div'), {id, role: 'alert', textContent: sentence});
+    document.body.append(note);
+    return note;
   }
   // Sliders by name: the value that was set when the connection broke may not have arrived.
   function sliders() {
     const found = new Map();
-    for (const one of document.querySelectorAll('[data-dock-region=right] .mantine-Slider-root [role=slider]')) if (one.ariaLabel) found.set(one.ariaLabel, one.ariaValueNow);
+    for (const thumb of document.querySelectorAll('[data-dock-region=right] .mantine-Slider-root [role=slider]'))
+      if (thumb.ariaLabel) found.set(thumb.ariaLabel, thumb.ariaValueNow);
     return found;
   }
   function tellLost(tries = 50) {
     const now = sliders();
-    if (shown && tries && [...shown.keys()].some(name => !now.has(name))) { setTimeout(tellLost, 100, tries - 1); return; }
-    const lost = [...shown ?? []].filter(([name, value]) => now.has(name) && now.get(name) !== value);
+    if (shown && tries && [...shown.keys()].some(name => !now.has(name))) return setTimeout(tellLost, 100, tries - 1);
+    const lost = [...shown ?? []].filter(([name, value]) => now.has(name) && now.get(name) !== value)
+      .map(([name, value]) => `${name} was ${value}, is ${now.get(name)}`);
     shown = null;
     if (!lost.length) return;
-    const note = document.createElement('div');
-    note.id = 'rx-lost';
-    note.setAttribute('role', 'alert');
-    note.textContent = `The last change did not arrive before the connection was lost: ${lost.map(([name, value]) => `${name} was ${value}, is ${now.get(name)}`).join('; ')}. Set it again.`;
-    document.body.append(note);
+    const note = warn('rx-lost',
+      `The last change did not arrive before the connection was lost: ${lost.join('; ')}. Set it again.`);
     addEventListener('pointerdown', () => note.remove(), {once: true, capture: true});
   }
 
   function say(gone) {
     const before = document.getElementById('rx-gone');
-    if (!gone || before) { if (!gone && before) before.remove(); return; }
-    const note = document.createElement('div');
-    note.id = 'rx-gone';
-    note.setAttribute('role', 'alert');
-    note.textContent = 'Connection lost; retrying. Nothing can be changed meanwhile. The address of this page holds your design.';
-    document.body.append(note);
+    if (!gone) before?.remove();
+    else if (!before) warn('rx-gone', 'Connection lost; retrying. Nothing can be changed meanwhile. '
+      + 'The address of this page holds your design.');
   }
 
   window.addEventListener('rx-connection', ({detail: open}) => {
@@ -113,7 +120,8 @@
       hold(true);
       setTimeout(() => say(down), BRIEF);
     }
-    if (open) { say(false); if (was) { RX.forget(); stale = true; lay(); } }
+    if (open) say(false);
+    if (open && was) { RX.forget(); stale = true; lay(); }
   });
   lay();
   foretell(40);

@@ -1,6 +1,7 @@
+// @ts-check
 // What the server asks of the page by name, and the fields that clicks write to.
 (() => {
-  const KEPT = 'rx-kept', page = document.documentElement;
+  const {clamp, closest} = Common, KEPT = 'rx-kept', page = document.documentElement;
   const kept = () => JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
   const answer = (key, text) => localStorage.setItem(`viser-user:${key}`, text);  // Where the server reads it.
   const loaded = Array.from(crypto.getRandomValues(new Uint32Array(4)), n => n.toString(36)).join('');
@@ -13,24 +14,23 @@
     Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(input, text);
     input.dispatchEvent(new Event('input', {bubbles: true}));
   }
-  const labels = (within, field) => [...within.querySelectorAll('label')].find(one => one.textContent === field);
+  const labelOf = (within, field) => [...within.querySelectorAll('label')].find(label => label.textContent === field);
 
   // A click on `data-write="FIELD"` writes `data-value` into the nearest field of that name.
   document.addEventListener('click', event => {
-    const near = event.target instanceof Element && event.target.closest('[data-write]');
-    if (!near) return;
-    const {write, value} = near.dataset;
-    let within = near, label = null;
-    while (within && !(label = labels(within, write))) within = within.parentElement;
-    type(label, value);
+    const control = closest(event, '[data-write]');
+    if (!control) return;
+    let within = control, label = null;
+    while (within && !(label = labelOf(within, control.dataset.write))) within = within.parentElement;
+    type(label, control.dataset.value);
   });
 
   // A click on the map of power tells its place, 0…1 from the left and from below.
   document.addEventListener('click', event => {
-    const map = event.target instanceof Element && event.target.closest('[data-map]');
-    if (!map) return;
-    const box = map.getBoundingClientRect();
-    RX.send('map_at', [(event.clientX - box.left) / box.width, (box.bottom - event.clientY) / box.height].map(part => Charts.clamp(part, 0, 1)));
+    const {left, bottom, width, height} = closest(event, '[data-map]')?.getBoundingClientRect() ?? {};
+    if (!width) return;
+    const across = (event.clientX - left) / width, up = (bottom - event.clientY) / height;
+    RX.send('map_at', [clamp(across, 0, 1), clamp(up, 0, 1)]);
   });
 
   Object.assign(RX, {
@@ -38,16 +38,19 @@
     // duplicated tab has too, and a name that it does not share. A page that was open before, and whose server has come
     // back, stays as it was.
     facts(key) {
-      const wished = matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode');
+      const wished = matchMedia('(prefers-color-scheme: dark)').matches
+        || new URLSearchParams(location.search).has('darkMode');
       const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;
       asked = true;
       answer(key, JSON.stringify({dark, query: location.search, kept: kept(), page: loaded}));
     },
     // A text too long for the browser's store (some megabytes) is not kept, nor what stood there before.
     keep(name, text) {
-      try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); } catch { sessionStorage.removeItem(KEPT); }
+      try { sessionStorage.setItem(KEPT, JSON.stringify({...kept(), [name]: text})); }
+      catch { sessionStorage.removeItem(KEPT); }
     },
-    // All places are taken: ask until one is free, then begin anew. Pages that were turned away together ask at other times.
+    // All places are taken: ask until one is free, then begin anew. Pages that were turned away together ask at other
+    // times.
     awaitPlace() {
       setTimeout(async () => {
         if (!document.querySelector('[data-explorer=lobby]')) return;  // The server has come back, with a place.

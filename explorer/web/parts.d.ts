@@ -555,7 +555,7 @@ type RxWavePress = [per_rev: number, amplitude: number, phase: number];
 declare const RX: {
   state: RxState;
   paint<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
-  also<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
+  paint<N extends (keyof RxState)[]>(names: [...N], draw: (...values: {[K in keyof N]: RxState[N[K]]}) => void): void;
   again(...names: (keyof RxState)[]): void;
   set(parts: Partial<RxState>): void;
   send<N extends keyof RxPresses>(name: N, value?: RxPresses[N]): void;

@@ -1,272 +1,342 @@
+// @ts-check
 // The disk as a plan: picture, crisp outlines, labels outside the rim, values under the pointer, pinned cards, and the
 // angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
 (() => {
-  const {text, part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
-  const DEGREE = Math.PI / 180, RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34, CARDS = 288, STACKED = 350;  // [px] The last two: cards beside the circle, and above and below it.
-  const COLOURS = {stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)'};
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, closest, soon} = Common;
+  const {part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
+  const RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
+  const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
+  const COLOURS = {
+    stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)',
+    drag_divergence: 'var(--rx-ink)',
+  };
   const DASHES = {negative_stall: '7 3', drag_divergence: '3 4'};
+  /** @type {[string, string, number, string][]} */
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'c_l', 2, ''], ['margin', 'To stall', 1, '°']];
-  const fixed = (value, digits, unit = '') => Charts.fixed(value, digits) + unit;
-  let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null, told = null;
+  const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
+  // `pointer` and each of `pins` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
+  let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
 
   const unpack = ({low, step, data}) => {
-    const bytes = Uint8Array.from(atob(data), one => one.charCodeAt(0)), steps = new Uint16Array(bytes.buffer);
-    return Float32Array.from(steps, one => low + step * one);
+    const bytes = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
+    return Float32Array.from(new Uint16Array(bytes.buffer), count => low + step * count);
   };
   // Linear between four neighbours.
-  const at = (table, r, psi) => {
-    const root = RX.state.plan.root, row = Math.min(Math.max((r - root) / (1 - root), 0), 1) * (RADII - 1), i = Math.min(Math.floor(row), RADII - 2);
-    const column = ((psi / 360) % 1 + 1) % 1 * AZIMUTHS, j = Math.floor(column) % AZIMUTHS, k = (j + 1) % AZIMUTHS, u = row - i, v = column - Math.floor(column);
-    const of = n => (1 - v) * table[n * AZIMUTHS + j] + v * table[n * AZIMUTHS + k];
-    return (1 - u) * of(i) + u * of(i + 1);
-  };
-  const read = (r, psi) => {
-    const value = Object.fromEntries(Object.entries(tables).map(([name, table]) => [name, at(table, r, psi)]));
-    return {...value, margin: Math.min(value.upper - value.alpha, value.alpha - value.lower)};
-  };
-  const reversed = (r, psi) => RX.state.plan.mu * Math.sin(psi * DEGREE) + r < 0;
+  function at(table, {r, psi}) {
+    const {root} = RX.state.plan, row = clamp((r - root) / (1 - root), 0, 1) * (RADII - 1);
+    const i = Math.min(Math.floor(row), RADII - 2), column = turned(psi) / 360 * AZIMUTHS;
+    const j = Math.floor(column) % AZIMUTHS, k = (j + 1) % AZIMUTHS, share = column - Math.floor(column);
+    const along = n => lerp(table[n * AZIMUTHS + j], table[n * AZIMUTHS + k], share);
+    return lerp(along(i), along(i + 1), row - i);
+  }
+  function read(spot) {
+    /** @type {Record<string, number>} */
+    const value = Object.fromEntries(Object.entries(tables).map(([name, table]) => [name, at(table, spot)]));
+    value.margin = Math.min(value.upper - value.alpha, value.alpha - value.lower);
+    return value;
+  }
+  const reversed = ({r, psi}) => RX.state.plan.mu * Math.sin(psi * DEGREE) + r < 0;
   // Nose up, advancing side right.
-  const xy = (r, psi) => [layout.x + layout.radius * r * Math.sin(psi * DEGREE), layout.y + layout.radius * r * Math.cos(psi * DEGREE)];
-  const polar = (x, y) => [Math.hypot(x - layout.x, y - layout.y) / layout.radius, (Math.atan2(x - layout.x, y - layout.y) / DEGREE + 360) % 360];
-  const path = line => 'M' + line.map(([x, y]) => `${(layout.x + layout.radius * x).toFixed(1)} ${(layout.y + layout.radius * y).toFixed(1)}`).join('L');
+  const pixel = ([x, y]) => [layout.x + layout.radius * x, layout.y + layout.radius * y];
+  const xy = (r, psi) => pixel([r * Math.sin(psi * DEGREE), r * Math.cos(psi * DEGREE)]);
+  const where = ({r, psi}) => xy(r, psi);
+  const path = line => trace(line.map(pixel));
 
-  // The largest circle: beside the cards, or between them on a stage that is high; there the key of the regions has their
-  // shares, which labels beside the circle have else. Labels stand on its right too where that costs the circle little.
+  // The largest circle: beside the cards, or between them on a stage that is high; there the key of the regions has
+  // their shares, which labels beside the circle have else. Labels stand on its right too where that costs it little.
   function arrange() {
-    const {held} = RX.state.plan, width = place.clientWidth, height = place.clientHeight, wide = !held && width > 560 && width - CARDS > height - STACKED;
+    const {held} = RX.state.plan, {clientWidth: width, clientHeight: height} = place, chart = around.firstElementChild;
+    const wide = !held && width > 560 && width - CARDS > height - STACKED;
+    const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
-    const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM), left = wide ? CARDS : held ? 34 : 8, right = wide ? (both ? LABEL.width : 0) + 26 : held ? 34 : 8, top = wide ? ROOM : (seen('.rxf-power')?.bottom ?? 0) + ROOM + (held ? 20 : 0), bottom = wide ? ROOM : held ? 104 : height - low + ROOM;
-    const radius = Math.max(60, Math.min((height - top - bottom) / 2, (width - left - right) / 2));
-    const chart = around.firstElementChild;
-    return {chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)}, width, height, wide, both, radius, x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2};
+    const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
+    const [left, right, top, bottom] = wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
+      : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
+    return {
+      width, height, wide, both, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
+      x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,
+      chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)},
+    };
   }
 
-  function rim() {
-    const {x, y, radius} = layout, marks = [];
-    for (let psi = 0; psi < 360; psi += 10) {
-      const main = psi % 90 === 0, some = psi % 30 === 0, [ax, ay] = xy(1.008, psi), [bx, by] = xy(1 + (main ? .04 : some ? .026 : .014), psi);
-      marks.push(`M${ax.toFixed(1)} ${ay.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}`);
-    }
+  function drawRim() {
+    const {x, y, radius, width} = layout, {flight, root} = RX.state.plan;
+    const marks = Array.from({length: 36}, (_, k) => 10 * k).map(psi =>
+      trace([xy(1.008, psi), xy(psi % 90 === 0 ? 1.04 : psi % 30 === 0 ? 1.026 : 1.014, psi)]));
     // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
-    const flight = RX.state.plan.flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(RX.state.plan.flight)}</tspan>`, below = y + radius + 27, side = Math.max(radius, 172), east = Math.min(x + side, layout.width - 8), west = Math.max(x - side, 8);
-    const words = [[x, below, 'middle', 'TAIL · ψ 0°'], [east, below, 'end', 'ADVANCING · 90° →'], [west, below, 'start', '← RETREATING · 270°'], [x, y - radius - 15, 'middle', `NOSE · 180°${flight}`]]
-      .map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
-    const [ax, ay] = xy(1.055, 32), [bx, by] = xy(1.055, 52), head = [[1.03, 52], [1.055, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi).map(v => v.toFixed(1)));
-    words.push(`<path d="M${ax} ${ay}A${1.055 * radius} ${1.055 * radius} 0 0 0 ${bx} ${by}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/><polygon points="${head.join(' ')}" fill="var(--rx-dim)"/>`);
-    return `<circle cx="${x}" cy="${y}" r="${radius}" fill="none" stroke="var(--rx-ink)"/><circle cx="${x}" cy="${y}" r="${radius * RX.state.plan.root}" fill="var(--rx-paper)" stroke="var(--rx-faint)"/>
-      <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${words.join('')}`;
+    const ahead = flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(flight)}</tspan>`;
+    const below = y + radius + 27, side = Math.max(radius, 172), words = [
+      [x, below, 'middle', 'TAIL · ψ 0°'], [Math.min(x + side, width - 8), below, 'end', 'ADVANCING · 90° →'],
+      [Math.max(x - side, 8), below, 'start', '← RETREATING · 270°'],
+      [x, y - radius - 15, 'middle', `NOSE · 180°${ahead}`],
+    ].map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
+    const out = 1.055, arc = `M${xy(out, 32)}A${out * radius} ${out * radius} 0 0 0 ${xy(out, 52)}`;
+    const head = [[1.03, 52], [out, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi));
+    return `<circle cx="${x}" cy="${y}" r="${radius}" fill="none" stroke="var(--rx-ink)"/>
+      <circle cx="${x}" cy="${y}" r="${radius * root}" fill="var(--rx-paper)" stroke="var(--rx-faint)"/>
+      <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${words.join('')}
+      <path d="${arc}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/>
+      <path d="${trace(head)}Z" fill="var(--rx-dim)"/>`;
   }
 
   // Beside the blade in the hand: what the colours are, what the dashes, and the shares of the regions.
-  function key(regions) {
+  function drawKey(regions) {
     const {field, unit, held} = RX.state.plan, {y, radius, width} = layout, high = y - radius - 38;
-    return `<text x="20" y="${high}">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text><path d="M${width - 92} ${high - 4}h22" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/><text x="${width - 64}" y="${high}">${held}</text>`
-      + regions.map((one, k) => `<text x="20" y="${y + radius + 46 + 18 * k}"><tspan style="fill:${COLOURS[one.name]};font-weight:640">${text(one.title)}</tspan><tspan dx="7">${text(one.words)}</tspan></text>`).join('');
+    const shares = regions.map(({name, title, words}, k) => `<text x="20" y="${y + radius + 46 + 18 * k}">
+      <tspan style="fill:${COLOURS[name]};font-weight:640">${text(title)}</tspan><tspan
+        dx="7">${text(words)}</tspan></text>`);
+    return `<text x="20" y="${high}">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text>
+      <path d="M${width - 92} ${high - 4}h22" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>
+      <text x="${width - 64}" y="${high}">${held}</text>${shares.join('')}`;
   }
 
   // Each label on the nearer side, as high as its region, none over another; what has no room left goes right.
-  function labels(regions) {
-    if (!layout.wide) return {lines: '', boxes: []};
-    const low = seen('.rxf-field'), high = seen('.rxf-power');
-    const columns = {
-      left: {x: 16, from: (high?.bottom ?? 20) + 12, to: (low?.top ?? layout.height) - LABEL.height - 12, taken: []},
-      right: {x: layout.width - LABEL.width - 16, from: 62, to: layout.height - LABEL.height - 16, taken: []},
-    };
-    const boxes = [];
-    for (const one of regions) {
-      const points = one.lines.reduce((most, line) => line.length > most.length ? line : most), side = points.reduce((sum, [x]) => sum + x, 0) < 0 ? 'left' : 'right';
-      const middle = layout.y + layout.radius * points.reduce((sum, [, y]) => sum + y, 0) / points.length - LABEL.height / 2;
-      const room = (layout.both ? [side, side === 'left' ? 'right' : 'left'] : ['left']).map(name => ({name, top: free(columns[name], middle)})).find(found => found.top !== null);
-      if (!room) continue;
-      const column = columns[room.name], end = room.name === 'left' ? column.x + LABEL.width : column.x;
-      column.taken.push(room.top);
-      const [ex, ey] = [end, room.top + LABEL.height / 2];
-      const all = one.lines.flat(), same = all.filter(([x]) => (x < 0) === (room.name === 'left'));
-      const [px, py] = (room.name === side ? points : same.length ? same : all).map(([x, y]) => [layout.x + layout.radius * x, layout.y + layout.radius * y]).reduce((best, p) => Math.hypot(p[0] - ex, p[1] - ey) < Math.hypot(best[0] - ex, best[1] - ey) ? p : best);
-      boxes.push({one, left: column.x, top: room.top, line: `M${ex} ${ey}L${px.toFixed(1)} ${py.toFixed(1)}`, px, py});
+  function placeLabels(regions) {
+    if (!layout.wide) return [];
+    const from = (seen('.rxf-power')?.bottom ?? 20) + 12, x = layout.width - LABEL.width - 16;
+    const to = (seen('.rxf-field')?.top ?? layout.height) - LABEL.height - 12;
+    const left = {x: 16, end: 16 + LABEL.width, from, to, taken: []};
+    const right = {x, end: x, from: 62, to: layout.height - LABEL.height - 16, taken: []};
+    const placed = [];
+    for (const region of regions) {
+      const largest = region.lines.reduce((most, line) => line.length > most.length ? line : most);
+      const [sumX, sumY] = largest.reduce(([sx, sy], [px, py]) => [sx + px, sy + py], [0, 0]);
+      const nearer = sumX < 0 ? left : right, other = sumX < 0 ? right : left;
+      const middle = layout.y + layout.radius * sumY / largest.length - LABEL.height / 2;
+      const column = (layout.both ? [nearer, other] : [left]).find(one => free(one, middle) !== null);
+      if (!column) continue;
+      const top = free(column, middle), end = [column.end, top + LABEL.height / 2];
+      column.taken.push(top);
+      const all = region.lines.flat(), same = all.filter(([px]) => (px < 0) === (column === left));
+      const corners = column === nearer ? largest : same.length ? same : all;
+      const tip = corners.map(pixel).reduce((best, spot) => distance(spot, end) < distance(best, end) ? spot : best);
+      placed.push({region, left: column.x, top, end, tip});
     }
-    return {
-      boxes, lines: boxes.map(({one, line, px, py}) => `<path d="${line}" stroke="var(--rx-paper)" stroke-width="3.5" opacity=".8"/><path d="${line}" stroke="${COLOURS[one.name]}" stroke-width="1.4"/>
-        <circle cx="${px}" cy="${py}" r="3.5" fill="${COLOURS[one.name]}" stroke="var(--rx-paper)" stroke-width="1.5"/>`).join(''),
-    };
+    return placed;
   }
-  function free(column, wanted) {
-    const step = LABEL.height + 8, spots = [Math.min(Math.max(wanted, column.from), column.to)];
-    for (const top of column.taken) spots.push(top - step, top + step);
-    const possible = spots.filter(top => top >= column.from && top <= column.to && column.taken.every(other => Math.abs(other - top) >= step - .5));
-    return possible.length ? possible.reduce((best, top) => Math.abs(top - wanted) < Math.abs(best - wanted) ? top : best) : null;
+  const circleAt = (centre, r, style) => `<circle cx="${centre[0]}" cy="${centre[1]}" r="${r}" ${style}/>`;
+  const drawTie = ({region: {name}, end, tip}) => `
+    <path d="${trace([end, tip])}" stroke="var(--rx-paper)" stroke-width="3.5" opacity=".8"/>
+    <path d="${trace([end, tip])}" stroke="${COLOURS[name]}" stroke-width="1.4"/>
+    ${circleAt(tip, 3.5, `fill="${COLOURS[name]}" stroke="var(--rx-paper)" stroke-width="1.5"`)}`;
+  const labelOf = ({region: {name, title, words}, left, top}) => `<div class="rxf-card rxf-region" data-region="${name}"
+    style="--c:${COLOURS[name]};left:${left}px;top:${top}px"><b>${text(title)}</b>
+    <span class="rxf-num">${text(words)}</span></div>`;
+  function free({taken, from, to}, wanted) {
+    const step = LABEL.height + 8, tops = [clamp(wanted, from, to), ...taken.flatMap(top => [top - step, top + step])];
+    const possible = tops.filter(top =>
+      top >= from && top <= to && taken.every(other => Math.abs(other - top) >= step - .5));
+    return possible.sort((a, b) => Math.abs(a - wanted) - Math.abs(b - wanted))[0] ?? null;
   }
   // A card of the stage, in the stage's own coordinates.
   function seen(name) {
-    const box = document.querySelector(name)?.getClientRects()[0], stage = place.getBoundingClientRect();
-    return box && {left: box.left - stage.left, right: box.right - stage.left, top: box.top - stage.top, bottom: box.bottom - stage.top};
+    const box = document.querySelector(name)?.getClientRects()[0], {left, top} = place.getBoundingClientRect();
+    return box && {left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top};
   }
 
-  RX.paint('plan', now => {
-    if (!now && page.hasAttribute('data-rubber')) return;  // It leaves with the blade.
-    if (!now) delete page.dataset.plan;
-    const told_now = now && now.regions.map(one => one.words).join();
-    if (told_now !== told) { told = told_now; RX.again('field'); }  // Its key is that of the plan.
-    place.hidden = !now;
-    around.hidden = !now || Boolean(now.held);
-    if (!now) { pointer = null; pins = []; around.innerHTML = ''; return; }
-    if (!now.held && !around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
-    if (now.values) {
-      tables = Object.fromEntries(Object.entries(now.values).map(([name, one]) => [name, unpack(one)]));
-      tables.before = now.alpha_a ? unpack(now.alpha_a) : undefined;
-      if (!tables.before) delete tables.before;
+  RX.paint('plan', plan => {
+    if (!plan && page.hasAttribute('data-rubber')) return;  // It leaves with the blade.
+    place.hidden = !plan;
+    around.hidden = !plan || Boolean(plan.held);
+    if (!plan) {
+      delete page.dataset.plan;
+      pointer = null;
+      pins = [];
+      around.innerHTML = '';
+      return;
     }
-    place.toggleAttribute('data-moving', !now.values);
+    if (!plan.held && !around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
+    if (plan.values) {
+      const packed = Object.entries({...plan.values, ...(plan.alpha_a ? {before: plan.alpha_a} : {})});
+      tables = Object.fromEntries(packed.map(([name, table]) => [name, unpack(table)]));
+    }
+    place.toggleAttribute('data-moving', !plan.values);
     layout = arrange();
-    const {x, y, radius, width, height} = layout, half = radius * now.reach, shown = now.regions.filter(one => one.lines.length), named = labels(shown);
-    const before = now.regions.flatMap(one => one.before).map(line => `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`).join('');
-    const outlines = shown.flatMap(one => one.lines.map(line => `<path d="${path(line)}" stroke="var(--rx-paper)" stroke-width="4" opacity=".75"/><path d="${path(line)}" stroke="${COLOURS[one.name]}" stroke-width="2" ${DASHES[one.name] ? `stroke-dasharray="${DASHES[one.name]}"` : ''}/>`)).join('');
-    place.querySelector('svg').innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}" href="data:image/png;base64,${now.picture}"/>
-      ${rim()}${now.held ? key(shown) : ''}<g data-blades></g>${before}<g fill="none" stroke-linejoin="round">${outlines}${named.lines}</g><g data-tied></g><g data-cursor></g>`;
-    place.querySelector('svg').setAttribute('viewBox', `0 0 ${width} ${height}`);
-    place.querySelector('[data-labels]').innerHTML = named.boxes.map(({one, left, top}) => `<div class="rxf-card rxf-region" data-region="${one.name}" style="--c:${COLOURS[one.name]};left:${left}px;top:${top}px"><b>${text(one.title)}</b><span class="rxf-num">${text(one.words)}</span></div>`).join('');
-    turn();
-    cursor();
+    const {x, y, radius, width, height} = layout, half = radius * plan.reach, svg = place.querySelector('svg');
+    const regions = plan.regions.filter(({lines}) => lines.length), labels = placeLabels(regions);
+    const before = plan.regions.flatMap(region => region.before).map(line =>
+      `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`);
+    const outlines = regions.flatMap(({name, lines}) => lines.map(line => `
+      <path d="${path(line)}" stroke="var(--rx-paper)" stroke-width="4" opacity=".75"/>
+      <path d="${path(line)}" stroke="${COLOURS[name]}" stroke-width="2"
+        stroke-dasharray="${DASHES[name] ?? 'none'}"/>`));
+    svg.innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}"
+        href="data:image/png;base64,${plan.picture}"/>
+      ${drawRim()}${plan.held ? drawKey(regions) : ''}<g data-blades></g>${before.join('')}
+      <g fill="none" stroke-linejoin="round">${outlines.join('')}${labels.map(drawTie).join('')}</g>
+      <g data-tied></g><g data-cursor></g>`;
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    write(place.querySelector('[data-labels]'), labels.map(labelOf).join(''));
+    drawBlades();
+    drawCursor();
     drawPins();
     drawAround();
   });
 
   // Blades as spokes; while the rotor plays they follow the page's own clock.
-  function turn() {
-    const blades = place.querySelector('[data-blades]'), now = RX.state.plan;
-    if (!blades || !now) return;
-    const psi = RX.state.turn?.playing ? (window.rotorScene?.psi ?? 0) / DEGREE : RX.state.turn?.psi ?? 0;
-    blades.innerHTML = Array.from({length: now.blades}, (_, k) => {
-      const angle = psi + 360 * k / now.blades, [ax, ay] = xy(now.root, angle), [bx, by] = xy(1, angle);
-      return `<path d="M${ax.toFixed(1)} ${ay.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}" stroke="var(${k ? '--rx-ink' : '--rx-blade'})" stroke-width="${k ? 1.4 : 2.4}" opacity="${k ? .55 : 1}"/>`;
+  function drawBlades() {
+    const spokes = place.querySelector('[data-blades]'), {plan, turn} = RX.state;
+    if (!spokes || !plan) return;
+    const psi = turn?.playing ? (window.rotorScene?.psi ?? 0) / DEGREE : turn?.psi ?? 0;
+    spokes.innerHTML = Array.from({length: plan.blades}, (_, k) => {
+      const angle = psi + 360 * k / plan.blades, [ink, width, opacity] = k ? ['ink', 1.4, .55] : ['blade', 2.4, 1];
+      return `<path d="${trace([xy(plan.root, angle), xy(1, angle)])}" stroke="var(--rx-${ink})" stroke-width="${width}"
+        opacity="${opacity}"/>`;
     }).join('');
+    if (turn?.playing) drawNext();
   }
-  const step = () => { if (RX.state.plan) { if (RX.state.turn?.playing) turn(); requestAnimationFrame(step); } else stepping = false; };
-  let stepping = false;
-  RX.also('turn', () => { turn(); if (RX.state.plan && RX.state.turn?.playing && !stepping) { stepping = true; requestAnimationFrame(step); } });
+  const drawNext = soon(drawBlades);
+  RX.paint('turn', drawBlades);
 
-  const rows = (r, psi) => {
-    const value = read(r, psi), now = RX.state.plan, own = !['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'].includes(now.field);
-    const field = own ? `<dt>${text(now.field)}</dt><dd>${fixed(value.field, Math.abs(value.field) < 1 ? 3 : 1)} ${text(now.unit)}</dd>` : '';
-    if (reversed(r, psi)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${field}<dt>Reverse flow</dt><dd></dd>`;
-    return ROWS.map(([name, title, digits, unit]) => `<dt>${title}</dt><dd class="${name === 'margin' && value.margin < 0 ? 'rxf-bad' : ''}">${fixed(value[name], digits, unit)}</dd>`).join('') + field;
-  };
-  const card = (r, psi, pin) => `<div class="rxf-head"><b class="rxf-num">${r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>${pin === null ? '' : `<button data-ride-at="${pin}" title="One slow turn with this section">Ride</button><button data-unpin="${pin}" aria-label="Unpin this reading" title="Unpin">×</button>`}</div><dl class="rxf-num">${rows(r, psi)}</dl>`;
+  function rows(spot) {
+    const value = read(spot), {field, unit} = RX.state.plan;
+    const number = fixed(value.field, Math.abs(value.field) < 1 ? 3 : 1);
+    const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
+    if (reversed(spot)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
+    return ROWS.map(([name, title, decimals, of]) => {
+      const bad = name === 'margin' && value.margin < 0 ? 'rxf-bad' : '';
+      return `<dt>${title}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
+    }).join('') + own;
+  }
+  const card = (spot, buttons = '') => `<div class="rxf-head">
+      <b class="rxf-num">${spot.r.toFixed(2)} R · ψ ${Math.round(spot.psi)}°</b>${buttons}</div>
+    <dl class="rxf-num">${rows(spot)}</dl>`;
   // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
-  function size(element) {
-    const kind = `${element.querySelectorAll('dt').length} ${element.hasAttribute('data-pin')} ${RX.state.plan.field}`;
+  function sizeOf(element) {
+    const {length} = element.querySelectorAll('dt'), pin = element.matches('[data-pin]');
+    const kind = `${length} ${pin} ${RX.state.plan.field}`;
     return sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
   }
-  const inside = (left, top, w, h) => [Math.min(Math.max(8, left), layout.width - w - 8), Math.min(Math.max(8, top), layout.height - h - 8)];
-  // Beside its point, away from the hub where there is room.
-  function put(element, r, psi) {
-    const [x, y] = xy(r, psi), [w, h] = size(element), [left, top] = inside(x >= layout.x ? x + 16 : x - 16 - w, y - h / 2, w, h);
+  const within = (left, top, [w, h]) => [clamp(left, 8, layout.width - w - 8), clamp(top, 8, layout.height - h - 8)];
+  const move = (element, left, top) => {
     element.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
+  };
+  // Beside its point, away from the hub where there is room.
+  function placeReading(element, spot) {
+    const [x, y] = where(spot), size = sizeOf(element);
+    move(element, ...within(x >= layout.x ? x + 16 : x - 16 - size[0], y - size[1] / 2, size));
   }
   // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
-  function tie(all) {
-    const stage = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean), named = [...place.querySelectorAll('[data-labels] > *')].map(one => ({left: one.offsetLeft, top: one.offsetTop, right: one.offsetLeft + one.offsetWidth, bottom: one.offsetTop + one.offsetHeight}));
-    const points = RX.state.plan.regions.flatMap(one => one.lines.flat()).map(([px, py]) => [layout.x + layout.radius * px, layout.y + layout.radius * py]).concat(pins.map(pin => xy(pin.r, pin.psi)));
-    const taken = [...stage, ...named], lines = [];
-    pins.forEach((pin, k) => {
-      if (!all[k]) return;
-      const [x, y] = xy(pin.r, pin.psi), [w, h] = size(all[k]);
+  function placePins(elements) {
+    const taken = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean);
+    for (const label of place.querySelectorAll('[data-labels] > *')) {
+      const {offsetLeft: left, offsetTop: top, offsetWidth, offsetHeight} = label;
+      taken.push({left, top, right: left + offsetWidth, bottom: top + offsetHeight});
+    }
+    const points = RX.state.plan.regions.flatMap(({lines}) => lines.flat()).map(pixel).concat(pins.map(where));
+    const ties = elements.map((element, k) => {
+      const [x, y] = where(pins[k]), size = sizeOf(element), [w, h] = size;
       let best = null;
       for (let angle = 0; angle < 360; angle += 15) for (const far of [14, 60, 120, 200, 300]) {
-        const [ux, uy] = [Math.cos(angle * DEGREE), Math.sin(angle * DEGREE)], [left, top] = inside(x + ux * (far + w / 2) - w / 2, y + uy * (far + h / 2) - h / 2, w, h);
-        const over = taken.filter(box => left < box.right && box.left < left + w && top < box.bottom && box.top < top + h).length;
-        const hides = points.filter(([px, py]) => px > left - 6 && px < left + w + 6 && py > top - 6 && py < top + h + 6).length;
-        const cost = 1000 * over + 12 * hides + far;
-        if (!best || cost < best.cost) best = {cost, left, top};
+        const ux = Math.cos(angle * DEGREE), uy = Math.sin(angle * DEGREE);
+        const [left, top] = within(x + ux * (far + w / 2) - w / 2, y + uy * (far + h / 2) - h / 2, size);
+        const right = left + w, bottom = top + h;
+        const over = taken.filter(box => left < box.right && box.left < right && top < box.bottom && box.top < bottom);
+        const hidden = points.filter(([px, py]) => px > left - 6 && px < right + 6 && py > top - 6 && py < bottom + 6);
+        const cost = 1000 * over.length + 12 * hidden.length + far;
+        if (!best || cost < best.cost) best = {cost, left, top, right, bottom};
       }
-      taken.push({left: best.left, top: best.top, right: best.left + w, bottom: best.top + h});
-      lines.push(`<path d="M${x} ${y}L${Math.min(Math.max(x, best.left), best.left + w)} ${Math.min(Math.max(y, best.top), best.top + h)}" stroke="var(--rx-accent)" stroke-width="1.5"/>`);
-      all[k].style.transform = `translate(${best.left.toFixed(0)}px, ${best.top.toFixed(0)}px)`;
+      taken.push(best);
+      move(element, best.left, best.top);
+      const edge = [clamp(x, best.left, best.right), clamp(y, best.top, best.bottom)];
+      return `<path d="${trace([[x, y], edge])}" stroke="var(--rx-accent)" stroke-width="1.5"/>`;
     });
-    place.querySelector('[data-tied]').innerHTML = lines.join('');
+    place.querySelector('[data-tied]').innerHTML = ties.join('');
   }
-  function cursor() {
-    const here = place.querySelector('[data-cursor]'), reading = place.querySelector('[data-reading]');
-    if (!here) return;
-    const dots = pins.map(pin => { const [x, y] = xy(pin.r, pin.psi); return `<circle cx="${x}" cy="${y}" r="4.5" fill="var(--rx-accent)" stroke="#fff" stroke-width="2"/>`; }).join('');
-    const ring = RX.state.plan.held ? '' : `<circle cx="${layout.x}" cy="${layout.y}" r="${circle * layout.radius}" fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"/>`;
-    const point = pointer ? (() => { const [x, y] = xy(pointer.r, pointer.psi); return `<circle cx="${x}" cy="${y}" r="5" fill="none" stroke="#fff" stroke-width="2"/><circle cx="${x}" cy="${y}" r="6.5" fill="none" stroke="#000" stroke-opacity=".5"/>`; })() : '';
-    here.innerHTML = ring + dots + point;
+  function drawCursor() {
+    const cursor = place.querySelector('[data-cursor]'), reading = place.querySelector('[data-reading]');
+    if (!cursor) return;
+    const spot = pointer && where(pointer), dot = 'fill="var(--rx-accent)" stroke="#fff" stroke-width="2"';
+    const ring = 'fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"';
+    cursor.innerHTML = (RX.state.plan.held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
+      + pins.map(pin => circleAt(where(pin), 4.5, dot)).join('')
+      + (spot ? circleAt(spot, 5, 'fill="none" stroke="#fff" stroke-width="2"')
+        + circleAt(spot, 6.5, 'fill="none" stroke="#000" stroke-opacity=".5"') : '');
     // Where a pin is, its card says the same.
-    const pinned = pointer && pins.some(pin => Math.hypot(...xy(pin.r, pin.psi).map((v, k) => v - xy(pointer.r, pointer.psi)[k])) < 8);
-    const shown = Boolean(pointer && tables.alpha && !pinned);
-    reading.hidden = !shown;
-    if (shown) { reading.innerHTML = card(pointer.r, pointer.psi, null); put(reading, pointer.r, pointer.psi); }
+    reading.hidden = !spot || !tables.alpha || pins.some(pin => distance(where(pin), spot) < 8);
+    if (reading.hidden) return;
+    reading.innerHTML = card(pointer);
+    placeReading(reading, pointer);
   }
   function drawPins() {
     const all = place.querySelector('[data-pins]');
-    all.innerHTML = tables.alpha ? pins.map((pin, k) => `<div class="rxf-card rxf-reading" data-pin>${card(pin.r, pin.psi, k)}</div>`).join('') : '';
-    tie([...all.children]);
+    const buttons = k => `<button data-ride-at="${k}" title="One slow turn with this section">Ride</button>
+      <button data-unpin="${k}" aria-label="Unpin this reading" title="Unpin">×</button>`;
+    write(all, tables.alpha ? pins.map((pin, k) =>
+      `<div class="rxf-card rxf-reading" data-pin>${card(pin, buttons(k))}</div>`).join('') : '');
+    placePins([...all.children]);
   }
 
   // α around the circle, with the stall angles there.
   function drawAround() {
     if (!tables.alpha || !layout.chart) return;
-    const chart = around.firstElementChild, {width, height} = layout.chart, x = Array.from({length: 121}, (_, k) => 3 * k);
-    const at360 = table => x.map(psi => reversed(circle, psi) ? null : at(table, circle, psi));
-    const alpha = at360(tables.alpha), upper = at360(tables.upper), lower = at360(tables.lower), line = (y, colour, thick, dashes) => ({kind: 'line', x, y, colour, width: thick, dashes});
-    const margins = alpha.map((v, k) => v === null ? Infinity : Math.min(upper[k] - v, v - lower[k])), margin = Math.min(...margins), here = pointer && !reversed(circle, pointer.psi);
-    Charts.fill(chart, {
-      ...RX.state.plan.around, y: {...RX.state.plan.around.y, label: `° at ${circle.toFixed(2)} R, the circle under the pointer`},
-      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow', kind: margin < 0 ? 'bad' : '',
-      rules: here ? [{at: pointer.psi, along: 'x', colour: 'var(--rx-faint)'}] : [],
-      series: [
-        line(upper, 'var(--rx-stall)', 1.3, '3 3'), line(lower, 'var(--rx-stall)', 1.3, '3 3'), ...(tables.before ? [line(at360(tables.before), 'var(--rx-pinned)', 1.7, '6 3')] : []),
-        line(alpha, 'var(--rx-blade)', 2.1), ...(here ? [{kind: 'points', x: [pointer.psi], y: [at(tables.alpha, circle, pointer.psi)], colour: 'var(--rx-blade)'}] : []),
-      ],
-    }, {width, height});
+    const x = Array.from({length: 121}, (_, k) => 3 * k), {around: chart} = RX.state.plan;
+    const onCircle = table => x.map(psi => reversed({r: circle, psi}) ? null : at(table, {r: circle, psi}));
+    const [alpha, upper, lower] = [tables.alpha, tables.upper, tables.lower].map(onCircle);
+    const line = (y, colour, width, dashes) => ({kind: 'line', x, y, colour: `var(--rx-${colour})`, width, dashes});
+    /** @type {any[]} */
+    const series = [line(upper, 'stall', 1.3, '3 3'), line(lower, 'stall', 1.3, '3 3')];
+    if (tables.before) series.push(line(onCircle(tables.before), 'pinned', 1.7, '6 3'));
+    series.push(line(alpha, 'blade', 2.1));
+    const here = pointer && !reversed({r: circle, psi: pointer.psi}) ? [pointer.psi] : [];
+    for (const psi of here)
+      series.push({kind: 'points', x: here, y: [at(tables.alpha, {r: circle, psi})], colour: 'var(--rx-blade)'});
+    const margin = Math.min(...alpha.map((angle, k) =>
+      angle === null ? Infinity : Math.min(upper[k] - angle, angle - lower[k])));
+    Charts.fill(around.firstElementChild, {
+      ...chart, y: {...chart.y, label: `° at ${circle.toFixed(2)} R, the circle under the pointer`}, series,
+      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow',
+      kind: margin < 0 ? 'bad' : '', rules: here.map(psi => ({at: psi, along: 'x', colour: 'var(--rx-faint)'})),
+    }, layout.chart);
   }
 
-  RX.also('power', now => place.toggleAttribute('data-faded', Boolean(now.problem)));
+  RX.paint('power', power => place.toggleAttribute('data-faded', Boolean(power.problem)));
 
-  // Once a frame at most.
-  let due = 0;
-  const later = () => { due ||= requestAnimationFrame(() => { due = 0; if (!RX.state.plan) return; cursor(); drawAround(); }); };
-  const find = event => {
-    const box = place.getBoundingClientRect(), [r, psi] = polar(event.clientX - box.left, event.clientY - box.top);
-    return r >= RX.state.plan.root && r <= 1 ? {r, psi} : null;
-  };
+  const redraw = soon(() => { if (RX.state.plan) { drawCursor(); drawAround(); } });
+  function find(event) {
+    const box = place.getBoundingClientRect();
+    const x = event.clientX - box.left - layout.x, y = event.clientY - box.top - layout.y;
+    const r = Math.hypot(x, y) / layout.radius;
+    return r >= RX.state.plan.root && r <= 1 ? {r, psi: turned(Math.atan2(x, y) / DEGREE)} : null;
+  }
   place.addEventListener('pointermove', event => {
     if (!layout || !RX.state.plan) return;
     pointer = find(event);
     if (pointer) circle = pointer.r;
-    later();
+    redraw();
   });
-  place.addEventListener('pointerleave', () => { pointer = null; later(); });
+  place.addEventListener('pointerleave', () => { pointer = null; redraw(); });
   place.addEventListener('pointerdown', event => { pressed = [event.clientX, event.clientY]; });
   place.addEventListener('click', event => {
-    const unpin = event.target instanceof Element && event.target.closest('[data-unpin]');
-    const ride = event.target instanceof Element && event.target.closest('[data-ride-at]');
-    if (ride) { const {r, psi} = pins[Number(ride.dataset.rideAt)]; RX.send('ride', [r, psi]); }
-    else if (unpin) pins.splice(Number(unpin.dataset.unpin), 1);
+    const {unpin, rideAt} = closest(event, '[data-unpin], [data-ride-at]')?.dataset ?? {};
+    if (rideAt) RX.send('ride', [pins[rideAt].r, pins[rideAt].psi]);
+    else if (unpin) pins.splice(Number(unpin), 1);
     else {
-      const found = layout && RX.state.plan && find(event);
-      if (!found || !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 5) return;
-      pins = [...pins, found].slice(-4);
+      const spot = layout && RX.state.plan && find(event);
+      if (!spot || !pressed || distance([event.clientX, event.clientY], pressed) > 5) return;
+      pins = [...pins, spot].slice(-4);
     }
-    cursor();
+    drawCursor();
     drawPins();
   });
   // By key: along the blade and around the disk, Enter pins.
+  const STEPS = {ArrowUp: [.01, 0], ArrowDown: [-.01, 0], ArrowRight: [0, 5], ArrowLeft: [0, -5]};
   place.addEventListener('keydown', event => {
-    const move = {ArrowUp: [.01, 0], ArrowDown: [-.01, 0], ArrowRight: [0, 5], ArrowLeft: [0, -5]}[event.key];
-    if (!RX.state.plan || (!move && event.key !== 'Enter')) return;
-    if (event.target !== place) return;
+    const step = STEPS[event.key], {plan} = RX.state;
+    if (!plan || event.target !== place || (!step && event.key !== 'Enter')) return;
     event.preventDefault();
     event.stopPropagation();
     pointer ??= {r: circle, psi: 90};
-    if (move) pointer = {r: Math.min(1, Math.max(RX.state.plan.root, pointer.r + move[0])), psi: (pointer.psi + move[1] + 360) % 360};
+    if (step) pointer = {r: clamp(pointer.r + step[0], plan.root, 1), psi: turned(pointer.psi + step[1])};
     else pins = [...pins, pointer].slice(-4);
     circle = pointer.r;
-    cursor(); drawPins(); drawAround();
-    RX.say(card(pointer.r, pointer.psi, null).replace(/<dt>/g, ', ').replace(/<\/dt>/g, ' ').replace(/<[^>]+>/g, ''));
+    drawCursor();
+    drawPins();
+    drawAround();
+    RX.say(card(pointer).replace(/<dt>/g, ', ').replace(/<\/dt>/g, ' ').replace(/<[^>]+>/g, ''));
   });
-  for (const one of [place, ...document.querySelectorAll('.rxf-field, .rxf-power')]) new ResizeObserver(() => RX.again('plan')).observe(one);
+  for (const element of [place, ...document.querySelectorAll('.rxf-field, .rxf-power')])
+    new ResizeObserver(() => RX.again('plan')).observe(element);
 })();

@@ -1,3 +1,4 @@
+// @ts-check
 // The theme of the report, and its 3D picture, loaded when it comes into view.
 (() => {
   const root = document.documentElement, system = matchMedia('(prefers-color-scheme: dark)');

@@ -1,7 +1,8 @@
+// @ts-check
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
-  const viewer = () => window.__viserMutable;
-  let seat = null, surfaces = {}, lit = {}, motion = null, compared = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  const {clamp, lerp, calm, viewer, node, setPose} = Common, TURN = 2 * Math.PI;
+  let surfaces = {}, lit = {};
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -11,167 +12,169 @@
   let sharp = null;
 
   // Materials come and go with their nodes, so they are looked at again and again; a dressed one is left alone.
-  const dress = () => {
-    const nodes = viewer()?.nodeRefFromName;
+  // `change` gives true for a material that it has changed.
+  function changeMaterials(wishes, change) {
     let changed = false;
+    for (const [name, wish] of Object.entries(wishes))
+      node(name)?.traverse?.(({isMesh, material}) => {
+        if (isMesh && material?.userData && change(material, wish)) changed = true;
+      });
+    if (changed) viewer().requestRender?.();
+  }
+  function dress() {
     sharp ??= viewer()?.canvas ? hardware() : null;
-    for (const [name, wanted] of Object.entries(surfaces))
-      nodes?.[name]?.traverse?.(part => {
-        const material = part.material;
-        if (!part.isMesh || !material?.userData) return;
-        if (wanted.flat && sharp && material.map && material.map.anisotropy < 8) {
-          material.map.anisotropy = 8;
-          material.map.needsUpdate = changed = true;
-        }
-        if (material.userData.dressed) return;
-        if (wanted.flat ? !material.map : material.roughness === undefined) return;
-        material.userData.dressed = changed = true;
-        if (wanted.flat) material.depthWrite = false;
-        else Object.assign(material, {roughness: wanted.roughness ?? 1, metalness: wanted.metalness ?? 0});
-      });
-    if (changed) viewer().requestRender?.();
-  };
+    changeMaterials(surfaces, (material, {flat, roughness = 1, metalness = 0}) => {
+      const {map, userData} = material, blurred = flat && sharp && map && map.anisotropy < 8;
+      if (blurred) Object.assign(map, {anisotropy: 8, needsUpdate: true});
+      if (userData.dressed || (flat ? !map : material.roughness === undefined)) return blurred;
+      Object.assign(material, flat ? {depthWrite: false} : {roughness, metalness});
+      return userData.dressed = true;
+    });
+  }
   // Pieces that shine by themselves: [colour, strength] by node. Looked at again and again for the same reason.
-  const light = () => {
-    let changed = false;
-    for (const [name, [colour, strength]] of Object.entries(lit))
-      viewer()?.nodeRefFromName?.[name]?.traverse?.(part => {
-        const {material} = part, wanted = `${colour} ${strength}`;
-        if (!part.isMesh || !material?.emissive || material.userData.lit === wanted) return;
-        material.emissive.set(colour);
-        material.emissiveIntensity = 0.9 * strength;
-        material.userData.lit = wanted;
-        changed = true;
-      });
-    if (changed) viewer().requestRender?.();
-  };
+  function light() {
+    changeMaterials(lit, (material, [colour, strength]) => {
+      const wish = `${colour} ${strength}`;
+      if (!material.emissive || material.userData.lit === wish) return false;
+      material.emissive.set(colour);
+      material.emissiveIntensity = 0.9 * strength;
+      material.userData.lit = wish;
+      return true;
+    });
+  }
 
   // Turned by psi about the shaft, flapped about the hinge, then pitched: R_z(ψ) R_y(−β) R_x(θ).
-  const place = (name, angle, flap, pitch, hinge) => {
-    const [a, b, c] = [angle / 2, -flap / 2, pitch / 2];
-    const [ca, sa, cb, sb, cc, sc] = [Math.cos(a), Math.sin(a), Math.cos(b), Math.sin(b), Math.cos(c), Math.sin(c)];
-    viewer().nodePoseData[name] = {
-      wxyz: [ca * cb * cc + sa * sb * sc, ca * cb * sc - sa * sb * cc, ca * sb * cc + sa * cb * sc, sa * cb * cc - ca * sb * sc],
-      position: [hinge * Math.cos(angle), hinge * Math.sin(angle), 0], poseUpdateState: 'needsUpdate',
-    };
-  };
+  function place(name, angle, flap, pitch, hinge) {
+    const halves = [angle / 2, -flap / 2, pitch / 2];
+    const [ca, cb, cc] = halves.map(Math.cos), [sa, sb, sc] = halves.map(Math.sin);
+    setPose(name, [
+      ca * cb * cc + sa * sb * sc, ca * cb * sc - sa * sb * cc,
+      ca * sb * cc + sa * cb * sc, sa * cb * cc - ca * sb * sc,
+    ], [hinge * Math.cos(angle), hinge * Math.sin(angle), 0]);
+  }
   // Of 1, cos ψ, sin ψ, cos 2ψ, …
   const harmonic = ([mean, ...waves], angle) =>
     waves.reduce((sum, size, k) => sum + size * (k % 2 ? Math.sin : Math.cos)((1 + (k >> 1)) * angle), mean);
-  const pose = (of, at) => {
-    for (let k = 0; k < of.blades; k++) {
-      const angle = at + 2 * Math.PI * k / of.blades;
-      place(`${of.root}/blade_${k}`, angle, harmonic(of.flap, angle), harmonic(of.pitch, angle), of.hinge);
+  function pose({root, blades, flap, pitch, hinge}, at) {
+    for (let k = 0; k < blades; k++) {
+      const angle = at + TURN * k / blades;
+      place(`${root}/blade_${k}`, angle, harmonic(flap, angle), harmonic(pitch, angle), hinge);
     }
-    place(`${of.root}/head`, at, 0, 0, 0);
-  };
-  const show = at => {
+    place(`${root}/head`, at, 0, 0, 0);
+  }
+  function show(at) {
     pose(motion, at);
     if (compared) pose(compared, at);
     trail(at);
     viewer().requestRender?.();
-  };
+  }
 
-  // Tip vortices are moved point by point: behind a flying rotor they do not turn as a whole.
-  const trail = at => {
-    const node = viewer().nodeRefFromName[motion.vortices], {along, turns, points, radius, sink} = motion.path;
-    const last = radius.length - 1, end = 2 * Math.PI * turns;
-    node?.traverse?.(part => {
+  // Tip vortices are moved point by point: behind a flying rotor they do not turn as a whole. What left the tip at an
+  // azimuth has an age [rad].
+  function trail(at) {
+    const {blades, hinge, flap, radius: tip, path: {along, turns, points, radius, sink}} = motion;
+    const pieces = points - 1, last = radius.length - 1;
+    const point = (age, azimuth) => {
+      const of = last * age / (TURN * turns), i = Math.min(Math.floor(of), last - 1), share = of - i;
+      const turn = azimuth / TURN * sink.length, column = Math.floor(turn);
+      const depth = n => {
+        const row = sink[((n % sink.length) + sink.length) % sink.length];
+        return lerp(row[i], row[i + 1], share);
+      };
+      const r = lerp(radius[i], radius[i + 1], share), sunk = lerp(depth(column), depth(column + 1), turn - column);
+      return [
+        tip * (r * Math.cos(azimuth) + along * age), tip * r * Math.sin(azimuth),
+        (tip - hinge) * harmonic(flap, azimuth) - tip * sunk,
+      ];
+    };
+    node(motion.vortices)?.traverse?.(part => {
       const data = part.geometry?.attributes?.instanceStart?.data;
-      if (data?.array?.length !== 6 * motion.blades * (points - 1)) return;
-      let k = 0;
-      for (let blade = 0; blade < motion.blades; blade++) {
-        let previous = null;
-        for (let j = 0; j < points; j++) {
-          const age = end * j / (points - 1), left = at + 2 * Math.PI * blade / motion.blades - age;
-          const i = Math.min(Math.floor(last * age / end), last - 1), u = last * age / end - i;
-          const turn = left / (2 * Math.PI) * sink.length, column = Math.floor(turn), v = turn - column;
-          const of = n => { const row = sink[((n % sink.length) + sink.length) % sink.length]; return (1 - u) * row[i] + u * row[i + 1]; };
-          const r = (1 - u) * radius[i] + u * radius[i + 1], depth = (1 - v) * of(column) + v * of(column + 1);
-          const here = [
-            motion.radius * (r * Math.cos(left) + along * age), motion.radius * r * Math.sin(left),
-            (motion.radius - motion.hinge) * harmonic(motion.flap, left) - motion.radius * depth,
-          ];
-          if (previous) { data.array.set(previous, k); data.array.set(here, k + 3); k += 6; }
-          previous = here;
-        }
+      if (data?.array?.length !== 6 * blades * pieces) return;
+      for (let blade = 0; blade < blades; blade++) for (let k = 0; k <= pieces; k++) {
+        const age = TURN * turns * k / pieces, here = point(age, at + TURN * blade / blades - age);
+        if (k < pieces) data.array.set(here, 6 * (blade * pieces + k));
+        if (k) data.array.set(here, 6 * (blade * pieces + k) - 3);
       }
       data.needsUpdate = true;
     });
-  };
+  }
 
   // The server says ten or twenty times a second where the reference blade is; in between the page goes on at that rate
-  // and closes what is left between the two. Whoever asked for less motion sees the rotor at rest in steps of 30° or more,
-  // at most two a second.
-  const calm = matchMedia('(prefers-reduced-motion: reduce)');
-  const near = angle => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+  // and closes what is left between the two. Whoever asked for less motion sees the rotor at rest in steps of 30° or
+  // more, at most two a second.
+  let motion = null, compared = null, seat = null, spin = 0, heard = null, mark = null, rate = 0, psi = 0;
+  const shortest = angle => angle - TURN * Math.round(angle / TURN);
   const LATE = 400;  // [ms] After which nothing more is expected of the server.
-  let stepping = false;
-  // Frames are asked for only while something turns; in software, where each keeps the processors busy, no rotor turns by itself.
+  let stepping = false, before = 0, stepped = 0;
+  // Frames are asked for only while something turns; in software, where each keeps the processors busy, no rotor turns
+  // by itself.
   const follows = now => heard && !(heard.still && now - heard.at > LATE);
   const turning = now => motion && !seat && (follows(now) || (spin && sharp && !calm.matches));
-  const go = () => {
+  function go() {
     const now = performance.now();
     if (stepping || !turning(now)) return;
     stepping = true;
     before = now;
     requestAnimationFrame(step);
-  };
-  const step = now => {
+  }
+  function step(now) {
     stepping = turning(now);
     if (!stepping) return;
     requestAnimationFrame(step);
-    const passed = Math.max(0, Math.min((now - before) / 1000, 0.5)), own = Math.min(passed, 0.1);
+    const passed = clamp((now - before) / 1000, 0, 0.5), own = Math.min(passed, 0.1);
     before = now;
     if (!follows(now)) { show(psi += spin * own); return; }
-    const since = (now - heard.at) / 1000, going = since < 0.3 ? rate : 0, aim = heard.psi + rate * Math.min(since, 0.3), last = psi;
+    const since = (now - heard.at) / 1000, going = since < 0.3 ? rate : 0, last = psi;
+    const aim = heard.psi + rate * Math.min(since, 0.3);
     if (calm.matches) {
-      heard.still = Math.abs(near(aim - psi)) < Math.PI / 6;
+      heard.still = Math.abs(shortest(aim - psi)) < Math.PI / 6;
       if (heard.still || now - stepped < 500) return;
       psi = aim;
       stepped = now;
     } else {
-      psi += going * own + near(aim - psi - going * own) * Math.min(1, 5 * passed);
+      psi += going * own + shortest(aim - psi - going * own) * Math.min(1, 5 * passed);
       heard.still = Math.abs(psi - last) < 1e-4;
     }
     show(psi);
-  };
+  }
 
   const smooth = t => t * t * t * (t * (6 * t - 15) + 10);
   let flight = 0;
 
   window.rotorScene = {
-    // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the rotor's
+    // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the
     // reference blade to where it is held, or back. `offset`: of the blade's origin from the flap hinge, along it.
     lift(name, out, duration, held, offset) {
       const client = viewer(), control = client.cameraControl, own = ++flight, begun = performance.now();
       if (calm.matches || !control || !client.camera) return;
-      const vector = () => client.camera.position.clone(), get = () => ({p: control.getPosition(vector()), t: control.getTarget(vector())});
-      const start = get();
+      const vector = () => client.camera.position.clone();
+      const look = () => [control.getPosition(vector()), control.getTarget(vector())];
+      const start = look();
       let last = start, goal = null;
       const onRotor = () => {
-        const root = client.nodeRefFromName[name]?.parent, blade = client.nodeRefFromName[`/rotor/blade_0`];
+        const root = node(name)?.parent, blade = node('/rotor/blade_0');
         if (!root || !blade) return null;
         blade.updateWorldMatrix(true, false);
-        const at = root.matrixWorld.clone().invert().multiply(blade.matrixWorld), turn = blade.quaternion.clone(), origin = vector();
-        at.decompose(origin, turn, vector());
+        const turn = blade.quaternion.clone(), origin = vector();
+        root.matrixWorld.clone().invert().multiply(blade.matrixWorld).decompose(origin, turn, vector());
         return {place: origin.add(vector().set(offset, 0, 0).applyQuaternion(turn)), turn};
       };
       const frame = now => {
         if (own !== flight) return;
-        const e = smooth(Math.min(1, (now - begun) / duration)), here = get();
-        if (!goal || here.p.distanceTo(last.p) > 1e-3 || here.t.distanceTo(last.t) > 1e-3) goal = here;
-        const p = start.p.clone().lerp(goal.p, e), t = start.t.clone().lerp(goal.t, e);
-        control.setLookAt(p.x, p.y, p.z, t.x, t.y, t.z, false);
-        last = get();
+        const done = smooth(Math.min(1, (now - begun) / duration)), here = look();
+        if (!goal || here.some((spot, k) => spot.distanceTo(last[k]) > 1e-3)) goal = here;
+        const [from, to] = start.map((spot, k) => spot.clone().lerp(goal[k], done).toArray());
+        control.setLookAt(...from, ...to, false);
+        last = look();
         const blade = onRotor();
         if (blade) {
-          const share = out ? e : 1 - e, [w, x, y, z] = held.wxyz;
-          const position = blade.place.lerp(vector().set(...held.position), share), turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
-          client.nodePoseData[name] = {wxyz: [turn.w, turn.x, turn.y, turn.z], position: position.toArray(), poseUpdateState: 'needsUpdate'};
+          const share = out ? done : 1 - done, [w, x, y, z] = held.wxyz;
+          const turn = blade.turn.slerp(blade.turn.clone().set(x, y, z, w), share);
+          const position = blade.place.lerp(vector().set(...held.position), share).toArray();
+          setPose(name, [turn.w, turn.x, turn.y, turn.z], position);
         }
         client.requestRender?.();
-        if (e < 1) requestAnimationFrame(frame);
+        if (done < 1) requestAnimationFrame(frame);
       };
       frame(begun);
     },
@@ -190,30 +193,38 @@
       if (!heard) psi = angle;
       // Messages come in bursts: the rate is taken over a quarter of a second. After a rest it begins anew.
       if (!mark || at - heard.at > 2 * LATE) { mark = {psi: angle, at}; rate = 0; }
-      else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
+      else if (at - mark.at > 250) {
+        rate = 1000 * shortest(angle - mark.psi) / (at - mark.at);
+        mark = {psi: angle, at};
+      }
       heard = {psi: angle, at};
       go();
     },
     // The reference blade at ψ, and the camera behind and above its section so far out [m]; `leave` flies back.
     ride(angle, out, radius) {
-      const client = viewer(), control = client?.cameraControl, node = client?.nodeRefFromName?.['/rotor/blade_0'], world = node?.parent;
+      const control = viewer()?.cameraControl, blade = node('/rotor/blade_0'), world = blade?.parent;
       if (!motion || !control || !world) return;
-      const point = node.position.clone();
-      if (!seat) seat = {from: control.getPosition(point.clone()), to: control.getTarget(point.clone())};
+      const point = blade.position.clone(), now = performance.now();
+      seat ??= {from: control.getPosition(point.clone()), to: control.getTarget(point.clone()), since: now};
       show(psi = angle);
       world.updateWorldMatrix(true, false);
-      const c = Math.cos(angle), s = Math.sin(angle), flapped = (out - motion.hinge) * Math.sin(harmonic(motion.flap, angle)), far = Math.max(.52 * radius, 2.7);  // Beyond the camera's near plane.
-      const at = (x, y, z) => point.clone().set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld);
-      const from = at(out - .6 * far, -far, .5 * far), to = at(out + .12 * far, .1 * far, -.32 * far);  // The section above the card.
-      control.setLookAt(from.x, from.y, from.z, to.x, to.y, to.z, !calm.matches && performance.now() - (seat.since ??= performance.now()) < 900);
+      const c = Math.cos(angle), s = Math.sin(angle);
+      const flapped = (out - motion.hinge) * Math.sin(harmonic(motion.flap, angle));
+      const far = Math.max(.52 * radius, 2.7);  // Beyond the camera's near plane.
+      const at = (x, y, z) =>
+        point.set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld).toArray();
+      // The section above the card.
+      const from = at(out - .6 * far, -far, .5 * far), to = at(out + .12 * far, .1 * far, -.32 * far);
+      control.setLookAt(...from, ...to, !calm.matches && now - seat.since < 900);
     },
     async leave() {
       const back = seat, control = viewer()?.cameraControl;
       seat = null;
       if (!back || !control) return;
       heard = mark = null;
-      await Promise.race([control.setLookAt(...back.from.toArray(), ...back.to.toArray(), !calm.matches), new Promise(done => setTimeout(done, 1500))]);
-      await new Promise(done => setTimeout(done, 200));  // Until the server has heard where the camera is.
+      const wait = time => new Promise(done => setTimeout(done, time));
+      await Promise.race([control.setLookAt(...back.from.toArray(), ...back.to.toArray(), !calm.matches), wait(1500)]);
+      await wait(200);  // Until the server has heard where the camera is.
     },
     // A second rotor at the same place turns with it.
     compare(other) { compared = other; },
@@ -221,11 +232,12 @@
     pose(of, at) { pose(of, at); viewer().requestRender?.(); },
     // The camera goes there smoothly, unless less motion was asked for.
     look(position, target) {
-      const control = viewer()?.cameraControl, world = viewer()?.nodeRefFromName?.['/airframe']?.parent;
+      const control = viewer()?.cameraControl, world = node('/airframe')?.parent;
       if (!control || !world) return;
       world.updateWorldMatrix(true, false);
-      const [from, to] = [position, target].map(at => world.position.clone().set(...at).applyMatrix4(world.matrixWorld));
-      control.setLookAt(from.x, from.y, from.z, to.x, to.y, to.z, !calm.matches);
+      const [from, to] = [position, target].map(at =>
+        world.position.clone().set(...at).applyMatrix4(world.matrixWorld).toArray());
+      control.setLookAt(...from, ...to, !calm.matches);
       viewer().requestRender?.();
     },
     stop() { motion = heard = mark = null; },
@@ -234,4 +246,4 @@
     get sharp() { return sharp; },
   };
   setInterval(() => { dress(); light(); go(); }, 500);
-})()
+})();

@@ -1,14 +1,19 @@
+// @ts-check
 // Names that screen readers speak, and keys, for what viser draws without them; focus that survives a repaint.
 (() => {
+  const {closest, soon} = Common;
   const FOLDER = '[data-dock-region] .mantine-Paper-root[data-with-border] > .mantine-Paper-root';
-  const NAMELESS = '[data-dock-region] :is([role=slider], input:not([type=hidden], [type=checkbox], [role=combobox]), textarea):is(:not([aria-label]), [aria-label=""])';
+  const NAMED = 'input:not([type=hidden], [type=checkbox], [role=combobox])';
+  const NAMELESS = `[data-dock-region] :is([role=slider], ${NAMED}, textarea):is(:not([aria-label]), [aria-label=""])`;
 
   // viser writes the label of a slider and of its number field into their row, and ties it to neither.
   function labelOf(control) {
-    for (let row = control.parentElement?.closest('[class*=Flex-root]'); row; row = row.parentElement?.closest('[class*=Flex-root]')) {
+    const rowAround = element => element.parentElement?.closest('[class*=Flex-root]');
+    for (let row = rowAround(control); row; row = rowAround(row)) {
       const label = row.querySelector('label');
       if (!label) continue;
-      const alike = [...row.querySelectorAll(control.matches('[role=slider]') ? '[role=slider]' : 'input:not([type=hidden]), textarea')];
+      const kind = control.matches('[role=slider]') ? '[role=slider]' : 'input:not([type=hidden]), textarea';
+      const alike = [...row.querySelectorAll(kind)];
       return label.textContent.trim() + (alike.length > 1 ? ` ${alike.indexOf(control) + 1}` : '');
     }
     return control.labels?.length ? '' : control.placeholder?.trim() ?? '';
@@ -46,8 +51,8 @@
   document.addEventListener('focusin', event => { last = event.target; });
   document.addEventListener('pointerdown', () => { last = null; }, true);
   document.addEventListener('click', event => {
-    const near = event.target instanceof Element && event.target.closest('[data-do=drawer]');
-    if (near && near.dataset.value && event.detail === 0) [opener, wanted] = [near, near.dataset.value];
+    const button = closest(event, '[data-do=drawer]');
+    if (button?.dataset.value && event.detail === 0) [opener, wanted] = [button, button.dataset.value];
   }, true);
   function refocus() {
     if (wanted) {
@@ -60,8 +65,5 @@
     else if (opener && !RX.state.bar?.drawer) (opener.isConnected ? opener : control(opener, document))?.focus();
   }
 
-  let due = 0;
-  new MutationObserver(() => {
-    due ||= requestAnimationFrame(() => { due = 0; name(); refocus(); });
-  }).observe(document.body, {childList: true, subtree: true});
+  new MutationObserver(soon(() => { name(); refocus(); })).observe(document.body, {childList: true, subtree: true});
 })();

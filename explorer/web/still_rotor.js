@@ -1,11 +1,12 @@
-// Rotors of a file without a server: blades shaped from harmonics of their pitch, and pictures on the disk, by the points
-// that `explorer/export/still_rotor.py` makes. `data` holds the blade's shape, its rings and faces.
+// @ts-check
+// Rotors of a file without a server: blades shaped from harmonics of their pitch, and pictures on the disk, by the
+// points that `explorer/export/still_rotor.py` makes. `data` holds the blade's shape, its rings and faces.
 window.stillRotor = data => {
   const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
   const floats = text => new Float32Array(bytes(text));
   const faces = new Uint32Array(bytes(data.faces));
   const shape = floats(data.shape), [rings, points] = data.rings;
-  const viewer = () => window.__viserMutable, node = name => viewer()?.nodeRefFromName?.[name];
+  const {viewer, node, setPose} = Common;
   const waves = new Map(), images = new Map(), wanted = {};
 
   // After the rings come those of root and tip once more, and the centres of both.
@@ -13,7 +14,8 @@ window.stillRotor = data => {
   const turned = pitch => {
     const vertices = new Float32Array(shape);
     for (let v = 0; v < shape.length / 3; v++) {
-      const angle = pitch[ringOf[v]], cos = Math.cos(angle), sin = Math.sin(angle), y = shape[3 * v + 1], z = shape[3 * v + 2];
+      const angle = pitch[ringOf[v]], cos = Math.cos(angle), sin = Math.sin(angle);
+      const y = shape[3 * v + 1], z = shape[3 * v + 2];
       vertices[3 * v + 1] = y * cos - z * sin;
       vertices[3 * v + 2] = y * sin + z * cos;
     }
@@ -31,15 +33,15 @@ window.stillRotor = data => {
   // A viewer keeps a mesh with shared corners, or one corner for each face: both are filled.
   const fill = (name, vertices) => {
     node(name)?.traverse?.(part => {
-      const geometry = part.geometry, place = geometry?.attributes?.position;
-      if (!part.isMesh || !place) return;
+      const geometry = part.geometry, position = geometry?.attributes?.position;
+      if (!part.isMesh || !position) return;
       // Equal vertices are one array in the file, for all meshes that have them.
-      if (!geometry.userData.own) { place.array = place.array.slice(); geometry.userData.own = true; }
-      if (place.array.length === vertices.length) place.array.set(vertices);
-      else if (place.array.length === 3 * faces.length)
-        faces.forEach((corner, n) => { for (let i = 0; i < 3; i++) place.array[3 * n + i] = vertices[3 * corner + i]; });
+      if (!geometry.userData.own) { position.array = position.array.slice(); geometry.userData.own = true; }
+      if (position.array.length === vertices.length) position.array.set(vertices);
+      else if (position.array.length === 3 * faces.length)
+        faces.forEach((corner, n) => position.array.set(vertices.subarray(3 * corner, 3 * corner + 3), 3 * n));
       else return;
-      place.needsUpdate = true;
+      position.needsUpdate = true;
       geometry.computeVertexNormals();
       geometry.computeBoundingSphere();
     });
@@ -48,11 +50,12 @@ window.stillRotor = data => {
 
   return {
     node,
-    pose(name, [wxyz, position]) { viewer().nodePoseData[name] = {wxyz, position, poseUpdateState: 'needsUpdate'}; },
+    pose(name, [wxyz, position]) { setPose(name, wxyz, position); },
     // The blades of the rotor below this node, the first one at `angle`.
     shape(root, point, angle) {
-      const series = kept(waves, point.flown, () => floats(point.flown));
-      for (let k = 0; k < point.motion.blades; k++) fill(`${root}/blade_${k}`, turned(pitchAt(series, angle + 2 * Math.PI * k / point.motion.blades)));
+      const series = kept(waves, point.flown, () => floats(point.flown)), {blades} = point.motion;
+      for (let k = 0; k < blades; k++)
+        fill(`${root}/blade_${k}`, turned(pitchAt(series, angle + 2 * Math.PI * k / blades)));
       viewer().requestRender?.();
     },
     // The picture on its disk; the newest one that was asked for is what stays.

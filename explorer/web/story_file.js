@@ -1,8 +1,10 @@
+// @ts-check
 // The lecture as a file: what the server would answer is in it, by step and by position of the control.
 (() => {
-  const data = JSON.parse(document.getElementById('story-data').textContent), root = document.documentElement;
-  const page = document.getElementById('rx'), part = name => page.querySelector(`[data-part=${name}]`), rotor = window.stillRotor(data);
-  const state = {at: 0, stop: data.steps[0].start, guesses: {}}, calm = matchMedia('(prefers-reduced-motion: reduce)');
+  const {clamp, closest, calm, viewer, follow} = Common, page = document.getElementById('rx');
+  const data = JSON.parse(document.getElementById('story-data').textContent), rotor = window.stillRotor(data);
+  const part = name => page.querySelector(`[data-part=${name}]`);
+  const state = {at: 0, stop: data.steps[0].start, guesses: {}}, last = data.steps.length - 1;
   let psi = 1.1, before = 0, shaped = 0, aimed = '', shown = null;
 
   const report = (what, value) => {
@@ -13,30 +15,30 @@
   };
   const story = window.makeStory(part('caption'), part('figures'), report);
   document.addEventListener('click', event => {
-    const button = event.target instanceof Element && event.target.closest('[data-do]');
+    const button = closest(event, '[data-do]');
     if (!button || button.disabled) return;
-    const {do: what, value} = button.dataset, last = data.steps.length - 1;
+    const {do: what, value} = button.dataset;
     if (what !== 'lecture') report(what, Number(value));
     else report('story', value === 'back' ? Math.max(state.at - 1, 0) : state.at < last ? state.at + 1 : 0);
   });
   document.addEventListener('keydown', event => {
-    const by = {PageDown: 1, PageUp: -1}[event.key];
-    if (!by) return;
+    const step = {PageDown: 1, PageUp: -1}[event.key];
+    if (!step) return;
     event.preventDefault();
-    report('story', Math.min(Math.max(state.at + by, 0), data.steps.length - 1));
+    report('story', clamp(state.at + step, 0, last));
   });
 
   const now = () => data.steps[state.at].stops[state.stop];
-  const roots = () => [['/rotor', now().b], ['/compared', now().a]].filter(([, point]) => point !== null).map(([name, point]) => [name, data.points[point]]);
+  const roots = () => [['/rotor', now().b], ['/compared', now().a]]
+    .filter(([, point]) => point !== null).map(([name, point]) => [name, data.points[point]]);
   const show = () => {
-    const step = data.steps[state.at], guess = state.guesses[state.at] ?? null;
-    story.show({
-      at: state.at, guess, answer: guess === null ? null : step, stop: state.stop, figures: guess === null ? now().figures.map(([title]) => [title, '?']) : now().figures,
-      busy: false, held: false, problem: '', finish: 'Start again',
-    });
-    part('field').textContent = step.scale.title;
-    part('unit').textContent = step.scale.unit;
-    part('scale').innerHTML = `<div class="rxf-grad"><i style="background:${step.scale.colours[0]}"></i><i style="background:linear-gradient(90deg,${step.scale.colours.join()})"></i><i style="background:${step.scale.colours.at(-1)}"></i></div>${Charts.bar(step.scale.ticks)}`;
+    const {at, stop} = state, step = data.steps[at], {title, unit, colours, ticks} = step.scale;
+    const guess = state.guesses[at] ?? null, open = guess === null;
+    const figures = now().figures.map(([name, value]) => [name, open ? '?' : value]), answer = open ? null : step;
+    story.show({at, guess, answer, stop, figures, busy: false, held: false, problem: '', finish: 'Start again'});
+    part('field').textContent = title;
+    part('unit').textContent = unit;
+    part('scale').innerHTML = Charts.bar(colours, ticks);
     rotorWipe.name(`A: ${step.a}`, `B: ${step.b}`);
     if (!page.hasAttribute('data-ready') || shown === now()) return;
     shown = now();
@@ -57,7 +59,8 @@
     }
   };
   const aim = () => {
-    const canvas = window.__viserMutable.canvas, aspect = canvas.clientWidth / canvas.clientHeight, {cameras} = data.steps[state.at];
+    const {clientWidth, clientHeight} = viewer().canvas, aspect = clientWidth / clientHeight;
+    const {cameras} = data.steps[state.at];
     const [, position, target] = cameras.findLast(([least]) => least <= aspect) ?? cameras[0];
     if (aimed === String(position)) return;
     aimed = String(position);
@@ -74,18 +77,11 @@
     for (const [, point] of roots()) rotorScene.pose(point.motion, psi);
     if (time - shaped > 66) { shaped = time; shape(); }
   };
-  let place = '';
-  const look = () => {
-    const box = window.__viserMutable.canvas.getBoundingClientRect(), at = [box.left, box.top, box.width, box.height].join();
-    if (at === place) return;
-    place = at;
-    for (const [name, value] of [['--rx-x', box.left], ['--rx-y', box.top], ['--rx-w', box.width], ['--rx-h', box.height]]) root.style.setProperty(name, `${value}px`);
-    for (let e = window.__viserMutable.canvas.parentElement; e && e.id !== 'root'; e = e.parentElement) if (/background-color/.test(e.getAttribute('style') ?? '')) e.classList.add('rxf-ground');
-    if (page.hasAttribute('data-ready')) aim();
-  };
+  const look = () => { if (follow(viewer().canvas) && page.hasAttribute('data-ready')) aim(); };
 
   const begin = () => {
-    if (!rotor.node('/compared/blade_0') || !rotor.node('/compared/disk/field') || !rotor.node('/airframe')) return setTimeout(begin, 100);
+    const needed = ['/compared/blade_0', '/compared/disk/field', '/airframe'];
+    if (!needed.every(rotor.node)) return setTimeout(begin, 100);
     page.dataset.ready = 'true';
     rotorScene.dress(data.surfaces);
     rotorWipe.keepAlone();
@@ -94,7 +90,7 @@
     show();
     requestAnimationFrame(turn);
   };
-  root.dataset.lecture = root.dataset.story = '';
+  for (const name of ['lecture', 'story']) document.documentElement.dataset[name] = '';
   part('caption').hidden = false;
   story.steps(data.steps);
   show();

@@ -1,3 +1,4 @@
+// @ts-check
 // What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py
 // or test_reconnect.py, and a proposal to its authors in docs/developers/upstream.
 (() => {
@@ -11,16 +12,22 @@
   const PATIENCE = 30000;  // [ms]
   const patient = `const Own = WebSocket;
     self.WebSocket = class extends Own {
-      constructor(...where) { super(...where); setTimeout(() => { if (this.readyState === Own.CONNECTING) super.close(); }, ${PATIENCE}); }
+      constructor(...where) {
+        super(...where);
+        setTimeout(() => { if (this.readyState === Own.CONNECTING) super.close(); }, ${PATIENCE});
+      }
       close(...why) { if (this.readyState !== Own.CONNECTING) super.close(...why); }
     };`;
   const first = URL.createObjectURL(new Blob([patient], {type: 'text/javascript'}));
   window.Worker = class extends Worker {
     constructor(script, options) {
       // Imports run in their order.
-      const both = new Blob([`import ${JSON.stringify(first)}; import ${JSON.stringify(String(script))};`], {type: 'text/javascript'});
+      const imports = [first, String(script)].map(name => `import ${JSON.stringify(name)};`);
+      const both = new Blob(imports, {type: 'text/javascript'});
       super(options?.type === 'module' ? URL.createObjectURL(both) : script, options);
-      this.addEventListener('message', ({data}) => { if (['connected', 'closed'].includes(data?.type)) this.trying = false; });
+      this.addEventListener('message', ({data}) => {
+        if (['connected', 'closed'].includes(data?.type)) this.trying = false;
+      });
     }
     postMessage(message, ...rest) {
       if (message?.type === 'retry' && this.trying) return;
@@ -29,17 +36,18 @@
     }
   };
 
-  // The client keeps an edit back that follows another within 50 ms, and has one place for what it keeps: of three widgets
-  // that change within that time, as under a hand that is ahead of a busy page, the second was lost. So the client does
-  // not wait, and an edit waits here, only for its own widget, and until the one before is answered at most: under a hand
-  // the page then answers as often as it can.
+  // The client keeps an edit back that follows another within 50 ms, and has one place for what it keeps: of three
+  // widgets that change within that time, as under a hand that is ahead of a busy page, the second was lost. So the
+  // client does not wait, and an edit waits here, only for its own widget, and until the one before is answered at
+  // most: under a hand the page then answers as often as it can.
   const INTERVAL = 50;  // [ms]
   const later = window.setTimeout;
   let kept = null, last = null, lastAt = 0, editing = false;
-  window.setTimeout = (call, delay, ...rest) => {
+  window.setTimeout = (/** @type {any} */ call, delay, ...rest) => {
     if (!editing || delay !== INTERVAL) return later.call(window, call, delay, ...rest);
     editing = false;
     call();
+    return 0;
   };
   function sendKept(send) {
     const edit = kept;
@@ -63,20 +71,25 @@
     queueMicrotask(() => { editing = false; });
   }
 
-  // The client draws once a second in case something has changed without a word. Where software draws, that alone keeps a
-  // processor busy, which the answers wait for: there it is every fifth time, unless a drawing was asked for just before.
+  // The client draws once a second in case something has changed without a word. Where software draws, that alone keeps
+  // a processor busy, which the answers wait for: there it is every fifth time, unless a drawing was asked for just
+  // before.
   const BEAT = 1000, LATELY = 3000;  // [ms]
   const every = window.setInterval;
   let drawAsked = 0;
-  window.setInterval = (call, delay, ...rest) => {
+  window.setInterval = (/** @type {any} */ call, delay, ...rest) => {
     if (delay !== BEAT) return every.call(window, call, delay, ...rest);
     let beats = 0;
-    return every.call(window, () => { if (beats++ % 5 === 0 || window.rotorScene?.sharp !== false || performance.now() - drawAsked < LATELY) call(...rest); }, delay);
+    return every.call(window, () => {
+      const asked = performance.now() - drawAsked < LATELY;
+      if (beats++ % 5 === 0 || window.rotorScene?.sharp !== false || asked) call(...rest);
+    }, delay);
   };
 
-  // The client handles messages for the scene in its next frame, and React draws what follows from them in the one after:
-  // here they are handled when they arrive. After each request the client also draws for 250 ms. Where software draws, the
-  // next answer would wait for those frames: there it draws once, and again when all has settled. React asks for its own.
+  // The client handles messages for the scene in its next frame, and React draws what follows from them in the one
+  // after: here they are handled when they arrive. After each request the client also draws for 250 ms. Where software
+  // draws, the next answer would wait for those frames: there it draws once, and again when all has settled. React asks
+  // for its own.
   const SETTLED = 250;  // [ms]
 
   let sender = null;
@@ -101,7 +114,9 @@
       clearTimeout(tail);
       tail = later.call(window, once, SETTLED);
     };
-    Object.defineProperty(next, 'requestRender', {configurable: true, get: () => request, set: other => { draw = other; }});
+    Object.defineProperty(next, 'requestRender', {
+      configurable: true, get: () => request, set: other => { draw = other; },
+    });
     next.sendAfterEdits = message => { sendKept(send); send(message); };
     Object.defineProperty(next, 'sendMessage', {get: () => send && paced, set: other => {
       send = other;

@@ -1,7 +1,7 @@
-"""Check the style sheets and the HTML of the page, as `make lint` does: `python -m tests.tools.lint_web`.
+"""Check the files of the page, as `make lint` does: `python -m tests.tools.lint_web`.
 
-A declaration that cannot be read, a custom property that nobody sets, a class that nothing has, and elements that are
-not closed. JavaScript has a linter of its own, oxlint.
+A declaration that cannot be read, a custom property that nobody sets, a class that nothing has, elements that are not
+closed, and a line of a script that is too long. The rest of JavaScript has a linter of its own, oxlint.
 """
 
 import re
@@ -14,6 +14,8 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "explorer" / "web"
 _FOREIGN = re.compile(r"mantine|uplot|multi-slider|ui-")
 """Classes of viser's client and of what it uses."""
+_LONGEST = 120
+"""Characters of a line of a script, as in Python."""
 _VOID = {"br", "hr", "img", "input", "link", "meta"}
 _DECLARATION = re.compile(r"-{0,2}[a-z][\w-]*\s*:\s*\S[^:{}]*|--[\w-]+\s*:[^{}]+|[a-z-]+\s*:\s*\S.*url\(.*")
 
@@ -37,6 +39,12 @@ def faults() -> list[str]:
             f"{name}: nothing has the class {one}"
             for one in sorted(classes)
             if not _FOREIGN.search(one) and not _is_named(one, others)
+        ]
+    for path in sorted(FOLDER.glob("*.js")):
+        found += [
+            f"{path.name}: line {number} has {len(line)} characters, more than {_LONGEST}"
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+            if len(line) > _LONGEST
         ]
     for path in sorted(FOLDER.glob("*.html")):
         found += [f"{path.name}: {fault}" for fault in html_faults(path.read_text(encoding="utf-8"))]

@@ -35,8 +35,9 @@ function visit(node, words) {
       if (!one.dotDotDotToken && ts.isIdentifier(name)) note(typeOf(node), name.text);
     }
   // A part as a whole is what these functions are given.
-  if (ts.isCallExpression(node) && ts.isPropertyAccessExpression(node.expression) && ['paint', 'also'].includes(node.expression.name.text))
-    for (const one of node.arguments) if (ts.isStringLiteralLike(one)) named.add(one.text);
+  if (ts.isCallExpression(node) && ts.isPropertyAccessExpression(node.expression) && node.expression.name.text === 'paint')
+    for (const one of ts.isArrayLiteralExpression(node.arguments[0]) ? node.arguments[0].elements : node.arguments)
+      if (ts.isStringLiteralLike(one)) named.add(one.text);
   ts.forEachChild(node, one => visit(one, words));
 }
 function wordsOf(file) {

@@ -1,0 +1,87 @@
+// @ts-check
+// What the scripts of the page, and those of the lecture's file, have in common.
+const Common = (() => {
+  const DEGREE = Math.PI / 180, page = document.documentElement;
+  const ENTITIES = {'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'};
+  const text = value => String(value ?? '').replace(/[&<>"]/g, sign => ENTITIES[sign]);  // Written into HTML.
+  const clamp = (value, low, high) => Math.max(low, Math.min(value, high));
+  const lerp = (from, to, share) => from + (to - from) * share;
+  const distance = (from, to) => Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const turned = degrees => (degrees % 360 + 360) % 360;
+  // With so many decimals and a true minus sign; what rounds to zero has no sign.
+  const fixed = (value, decimals = 0) =>
+    (value < 0 && Math.abs(value) >= .5 * 10 ** -decimals ? '−' : '') + Math.abs(value).toFixed(decimals);
+  const signed = (value, decimals = 1) => (value >= .5 * 10 ** -decimals ? '+' : '') + fixed(value, decimals);
+  // A polygon as a path of SVG.
+  const trace = points => `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
+  // HTML into an element that nobody else fills, unless it has it already: then its controls stay the same ones.
+  const write = (element, html) => { if (element.written !== html) element.innerHTML = element.written = html; };
+
+  const calm = matchMedia('(prefers-reduced-motion: reduce)');
+  /** @returns {any} */
+  const closest = ({target}, selector) => target instanceof Element ? target.closest(selector) : null;
+  // A function that calls this one in the next frame, however often it is called before.
+  const soon = call => {
+    let frame = 0;
+    return () => { frame ||= requestAnimationFrame(() => { frame = 0; call(); }); };
+  };
+  // Sends the newest value, so often at most [ms]; `flush` sends what waits at once, `drop` never.
+  function paced(send, interval = 50) {
+    let sent = -interval, waiting = null;
+    const flush = () => {
+      if (!waiting) return;
+      const [value] = waiting;
+      waiting = null;
+      sent = performance.now();
+      send(value);
+    };
+    return {
+      send(value) { waiting = [value]; setTimeout(flush, Math.max(0, interval - (performance.now() - sent))); },
+      flush, drop() { waiting = null; },
+    };
+  }
+  // A gesture, from a press on what `selector` names: `begin` returns its functions, or nothing if it is none. `move`
+  // hears of every move, `end` of the release, and `escape`, if there is one, of the key, which ends the gesture too.
+  function drag(place, selector, begin, capture = false) {
+    let held = null;
+    place.addEventListener('pointerdown', event => {
+      const pressed = event.isPrimary && !event.button && closest(event, selector);
+      if (pressed) held = begin(pressed, event) ?? null;
+    }, capture);
+    const finish = (name, event) => { const was = held; held = null; was[name]?.(event); };
+    addEventListener('pointermove', event => { if (held && event.isPrimary) held.move?.(event); }, capture);
+    for (const name of ['pointerup', 'pointercancel'])
+      addEventListener(name, event => { if (held && event.isPrimary) finish('end', event); }, capture);
+    addEventListener('keydown', event => {
+      if (held?.escape && event.key === 'Escape') finish('escape', event);
+    }, true);
+  }
+
+  const viewer = () => window.__viserMutable, node = name => viewer()?.nodeRefFromName?.[name];
+  const setPose = (name, wxyz, position) => {
+    viewer().nodePoseData[name] = {wxyz, position, poseUpdateState: 'needsUpdate'};
+  };
+  // Where a point of a node is on the canvas [px], and whether it is seen there.
+  function project(of, point) {
+    const {camera, canvas} = viewer(), {width, height} = canvas.getBoundingClientRect();
+    const {x, y, z} = of.position.clone().set(...point).applyMatrix4(of.matrixWorld).project(camera);
+    return {left: (x + 1) / 2 * width, top: (1 - y) / 2 * height, seen: z < 1 && Math.abs(x) < 1 && Math.abs(y) < 1};
+  }
+  // Cards stand where the canvas is, and see through what the viewer paints behind it; whether it has moved.
+  let stood = '';
+  function follow(canvas) {
+    const {left, top, width, height} = canvas.getBoundingClientRect(), stands = [left, top, width, height].join();
+    if (stands === stood) return false;
+    stood = stands;
+    const names = {x: left, y: top, w: width, h: height};
+    for (const [name, value] of Object.entries(names)) page.style.setProperty(`--rx-${name}`, `${value}px`);
+    for (let above = canvas.parentElement; above && above.id !== 'root'; above = above.parentElement)
+      if (/background-color/.test(above.getAttribute('style') ?? '')) above.classList.add('rxf-ground');
+    return true;
+  }
+
+  return {
+    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm, closest, soon, paced, drag,
+    viewer, node, setPose, project, follow,
+  };
+})();
