@@ -50,13 +50,13 @@ from explorer.views.inset import INSET
 from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
-from explorer.views.waterfall import WATERFALL
+from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-PANELS = (POWER, HAND, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL)
+PANELS = (POWER, HAND, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
