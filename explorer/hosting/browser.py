@@ -89,7 +89,7 @@ class Bridge:
             if not changed:
                 return
             self._sent.update(changed)
-            body = ",".join(f"{name}:{text.decode()}" for name, text in changed.items())
+            body = ",".join(f'"{name}":{text.decode()}' for name, text in changed.items())
             run_in_page(self._client, f"RX.set({{{body}}})")
 
     def stop(self) -> None:

@@ -19,22 +19,22 @@ class Pauses:
     """
 
     def __init__(self) -> None:
-        self._last, self._longest, self._held = -math.inf, 0.0, False
+        self._last, self._longest = -math.inf, 0.0
 
     def moved(self, now: float) -> None:
         """Something moved at this time [s]."""
         self._longest, self._last = max(self._longest, now - self._last), now
 
-    def hold(self, held: bool, now: float) -> None:
-        """A pointer went down or up at this time [s]. Rests in between are no pauses.
+    def begin(self, now: float) -> None:
+        """A pointer went down or up at this time [s]: what was before is no pause in what follows.
 
         The widget's last movements may arrive after the pointer went up: they still belong to the drag.
         """
-        self._held, self._last, self._longest = held, now, 0.0
+        self._last, self._longest = now, 0.0
 
     def longest(self) -> float:
         """[s]"""
-        longest, self._longest = 0.0 if self._held else self._longest, 0.0
+        longest, self._longest = self._longest, 0.0
         return longest
 
 

@@ -5,8 +5,9 @@ This package imports only words and numbers of `rotor`.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypedDict
+from typing import TypedDict
 
+from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
 from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
 from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
 from explorer.parts.stage import (
@@ -19,6 +20,7 @@ from explorer.parts.stage import (
     TwistPart,
     VibrationPart,
 )
+from rotor.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
@@ -27,18 +29,18 @@ class Parts(TypedDict, total=False):
     bar: BarPart
     big: bool
     coarse: int
-    dial: Any
-    dial_front: Any
-    dial_matrix: Any
-    earns: Any
+    dial: DialPart
+    dial_front: DrawnChart
+    dial_matrix: DialMatrix | None
+    earns: EarnsPart | None
     field: FieldPart
-    flight: Any
+    flight: FlightPart | None
     hand: HandPart | None
     hub_labels: Sequence[SceneLabel]
     idle: int
     inset: InsetPart
     lecture: LecturePart | None
-    lifted_labels: Any
+    lifted_labels: Sequence[LiftedLabel]
     notice: NoticePart | None
     plan: PlanPart | None
     power: PowerPart
@@ -48,7 +50,7 @@ class Parts(TypedDict, total=False):
     rubber: RubberPart | None
     steps: Sequence[StepPart]
     strip: Sequence[StripChart]
-    suppose: Any
+    suppose: SupposePart | None
     turn: TurnPart
     twist: TwistPart
     vibration: VibrationPart | None

@@ -108,7 +108,6 @@ class StripChart:
 
     name: str
     kind: Kind
-    pinned: bool
     faded: bool
     chart: DrawnChart
     speeds: Speeds | None = None

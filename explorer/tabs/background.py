@@ -109,7 +109,9 @@ class BackgroundWork:
 
 
 _KEPT = 64
-_STOPPED = "This was stopped: change any setting to try again."
+_LIMIT = 600.0
+"""[s] for each task, by the clock: it needs seconds of a processor, of which a busy machine gives a worker little."""
+_LATE = "There is no answer within 10 minutes, as on a busy machine: it is tried again."
 _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
 
@@ -121,11 +123,14 @@ def all_known() -> dict[Hashable, Any]:
 
 
 class PoolAnswers(BackgroundWork):
-    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes a second at most."""
+    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes some seconds at most.
 
-    def __init__(self, pool: Processes, urgency: int, answered: Callable[[], None], limit: float = 60.0) -> None:
-        """`answered` is called after every answer, on a thread of the pool; `limit`: for each task [s]."""
-        super().__init__(pool, answered, limit, urgency)
+    One that is ended after its time is begun again once the others are answered.
+    """
+
+    def __init__(self, pool: Processes, urgency: int, answered: Callable[[], None]) -> None:
+        """`answered` is called after every answer, on a thread of the pool."""
+        super().__init__(pool, answered, _LIMIT, urgency)
         self._tasks: tuple[Call, ...] = ()
         self._delay = 0.0
         self._failures: dict[Call, str] = {}
@@ -171,7 +176,7 @@ class PoolAnswers(BackgroundWork):
         self._timer = None
 
     def _next(self) -> Call | None:
-        return next((task for task in self._tasks if self.answer(task) is None), None)
+        return next((task for said in (None, _LATE) for task in self._tasks if self.answer(task) is said), None)
 
     def _next_one(self) -> None:
         with self._lock:
@@ -193,8 +198,10 @@ class PoolAnswers(BackgroundWork):
                         _known.popitem(last=False)
             case JobFailed(message):
                 self._failures[task] = message
-            case _:
-                self._failures[task] = _STOPPED
+            case JobEnded(late=True):
+                self._failures[task] = _LATE
+            case _:  # The server ends.
+                pass
         with self._lock:
             if self._timer is None:
                 self._next_one()

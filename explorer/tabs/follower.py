@@ -24,14 +24,15 @@ class Follower:
         pool: Processes,
         wake: Callable[[], None],
         now: Callable[[], Now],
+        pressed: Callable[[], Now],
         perform: Callable[[Effect], None],
     ) -> None:
-        """`texts`: what shows a value that is no part of the frame, by its name. `now`: what is known at a press.
+        """`texts`: what shows a value that is no part of the frame, by its name. `wake`: called when an answer came.
 
-        `wake`: called when an answer has come; `perform`: does one effect of a press.
+        `now`: what is known as of the last update; `pressed`: at a press. `perform`: does one effect of a press.
         """
         self._panels, self._bridge, self._texts = tuple(panels), bridge, texts
-        self._pool, self._wake, self._now, self._perform = pool, wake, now, perform
+        self._pool, self._wake, self._now, self._pressed, self._perform = pool, wake, now, pressed, perform
         self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
         """Of each panel, by urgency."""
         self.memory = Memory()
@@ -39,10 +40,11 @@ class Follower:
         self._begun: dict[Hashable, Work] = {}
         """The page's own work by its key: done, and wanted."""
         self._sent: dict[str, Any] = {}
-        self._place: tuple[Hashable, ...] = ()
+        self._places: list[tuple[Hashable, ...]] = [() for _ in self._panels]
+        """Of inputs and hand, when each was followed last."""
         for panel in self._panels:
             for name, press in panel.presses.items():
-                bridge.on(name, partial(self._press, press))
+                bridge.on(name, partial(self.press, press))
 
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not; and the page's own results."""
@@ -77,14 +79,17 @@ class Follower:
 
     def follow(self, now: Now, only: Callable[[Panel], bool] = lambda panel: True) -> None:
         """Ask and view what is seen, and send what is other than before; `only`: of these panels."""
-        moved, self._place = (now.inputs, now.hand) != self._place, (now.inputs, now.hand)
+        place = now.inputs, now.hand
         changed: dict[str, Any] = {}
-        for panel, queues in zip(self._panels, self._queues, strict=True):
+        effects: tuple[Effect, ...] = ()
+        for k, (panel, queues) in enumerate(zip(self._panels, self._queues, strict=True)):
             if not only(panel):
                 continue
             seen = panel.seen(now.ui)
-            self._ask(queues, panel.asks(now) if seen else (), moved)
+            self._ask(queues, panel.asks(now) if seen else (), place != self._places[k])
+            self._places[k] = place
             shown = panel.view(now) if seen else {}
+            effects += panel.reacts(now) if seen else ()
             self.memory = panel.remember(replace(now, memory=self.memory), shown)
             changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}
         self._sent |= changed
@@ -92,6 +97,8 @@ class Follower:
             self._texts[name](changed.pop(name))
         if changed:
             self._bridge.set(**changed)
+        for effect in effects:
+            self._perform(effect)
 
     def stop(self) -> None:
         """The browser has left."""
@@ -107,8 +114,9 @@ class Follower:
             one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
             queue.ask(one.calls, one.delay, moved)
 
-    def _press(self, press: Press, value: Any) -> None:
-        now = self._now()
+    def press(self, press: Press, value: Any) -> None:
+        """Do what it says; of a widget too."""
+        now = self._pressed()
         for effect in press(now, value):
             if not now.ui.held or effect == Grab(False):  # What is let go meanwhile must not stay in the hand.
                 self._perform(effect)

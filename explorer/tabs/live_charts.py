@@ -4,16 +4,16 @@ import msgspec
 import viser
 
 from explorer.charts.plots import Range
-from rotor.chart import Chart, drawn_chart
+from rotor.chart import Chart, DrawnChart, drawn_chart
 from rotor.markup import Markup, tag
 
 _HEIGHT = 94.0
 """Height of the axes [px]."""
 
 
-def chart_box(chart: Chart, height: float = _HEIGHT) -> Markup:
+def chart_box(chart: DrawnChart, height: float = _HEIGHT) -> Markup:
     """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
-    told = msgspec.json.encode(drawn_chart(chart)).decode()
+    told = msgspec.json.encode(chart).decode()
     return tag("div.rx-chart", data_chart=told, data_high=height)
 
 
@@ -27,7 +27,7 @@ class PanelChart:
     def show(self, chart: Chart | None) -> None:
         """None: no chart."""
         self._chart = chart
-        self._html.content = "" if chart is None else tag("div.rx", chart_box(chart))
+        self._html.content = "" if chart is None else tag("div.rx", chart_box(drawn_chart(chart)))
 
     @property
     def y_range(self) -> Range | None:

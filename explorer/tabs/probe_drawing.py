@@ -17,6 +17,7 @@ from explorer.text.glossary import tip
 from explorer.text.readout import dash
 from rotor import Solution
 from rotor.arrays import Array
+from rotor.chart import drawn_chart
 from rotor.markup import Attribute, Content, Markup, group, tag
 
 WIDTH, HEIGHT = 312.0, 166.0
@@ -232,7 +233,7 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
         _key(scales),
         _table(probe),
         measured,
-        chart_box(lift_chart(probe), CHART_HEIGHT),
+        chart_box(drawn_chart(lift_chart(probe)), CHART_HEIGHT),
         data_explorer="probe",
     )
 

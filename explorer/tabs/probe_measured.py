@@ -16,7 +16,7 @@ from explorer.text.readout import dash
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, points_near
 from rotor.arrays import Array
-from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series
+from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series, drawn_chart
 from rotor.markup import Markup, group, tag
 from rotor.validation import FlownCase, MeasuredCurve, our_curve
 from rotor.validation.airloads import REPORTS, harmonics
@@ -172,19 +172,17 @@ def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike:
     margin = 0.05 * (max(seen) - min(seen))
     closed = np.append(psi, psi[0] + 2.0 * math.pi), np.append(ours, ours[0])
     size = 1.0 if len(measured.psi) > 100 else 1.7
-    return chart_box(
-        Chart(
-            f"{title}{where}",
-            Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"),
-            Axis(range=(min(seen) - margin, max(seen) + margin)),
-            (
-                Points("", np.degrees(measured.psi), measured.values, "var(--rx-dim)", size=size),
-                Line("", np.degrees(closed[0]), closed[1], THIS, width=1.8),
-            ),
-            (Rule(math.degrees(here) % 360.0),),
-            value=f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else "",
-            note=f"{meaning[0].upper()}{meaning[1:]}, measured and ours. "
-            f"Correlation of harmonics 1 to {measured.highest}, without the mean.",
+    chart = Chart(
+        f"{title}{where}",
+        Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"),
+        Axis(range=(min(seen) - margin, max(seen) + margin)),
+        (
+            Points("", np.degrees(measured.psi), measured.values, "var(--rx-dim)", size=size),
+            Line("", np.degrees(closed[0]), closed[1], THIS, width=1.8),
         ),
-        HEIGHT,
+        (Rule(math.degrees(here) % 360.0),),
+        value=f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else "",
+        note=f"{meaning[0].upper()}{meaning[1:]}, measured and ours. "
+        f"Correlation of harmonics 1 to {measured.highest}, without the mean.",
     )
+    return chart_box(drawn_chart(chart), HEIGHT)

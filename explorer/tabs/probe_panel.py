@@ -4,13 +4,14 @@ import math
 import threading
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Literal
 
 import numpy as np
 import viser
 
 from explorer import colours
 from explorer.hosting.browser import Bridge
+from explorer.hosting.messages import RidePress
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.stage import SceneLabel
@@ -237,15 +238,15 @@ class ProbePanel(Tab):
         self._player.play()
         self._set_playing(True)
 
-    def _take_along(self, at: Any) -> None:
-        """A turn with the section at (r/R, ψ [°]), or at the probe; "off" ends it."""
+    def _take_along(self, at: RidePress | Literal["off"] | None) -> None:
+        """A turn with the section there, or at the probe; "off" ends it."""
         state = self._context.state()
         if at == "off" or state is None:
             self._ride.end()
             return
-        r, psi_deg = at or (self._r.value, self._psi.value)
+        at = at or RidePress(self._r.value, self._psi.value)
         self._pause()
-        self._ride.begin(state.solution, min(max(r, self._r.min), 1.0), psi_deg)
+        self._ride.begin(state.solution, min(max(at.r, self._r.min), 1.0), at.psi)
 
     def _pause(self) -> None:
         if self._player.playing:

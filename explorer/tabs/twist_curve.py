@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import LOOKS, Role, role_line
+from explorer.hosting.messages import KnotMove, KnotPress
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
@@ -114,8 +115,8 @@ class TwistCurveEditor:
         held = now is not None and abs(now - turn) < _AT
         return Best(round(before + turn * response, 2), power, held)
 
-    def _act(self, value: list[Any]) -> None:
-        name, change = value
+    def _act(self, press: KnotPress) -> None:
+        name, change = press.name, press.change
         if change == "start":
             start = grabbed_inputs(self._context.inputs())
             station = next((station for station in stations(start) if str(station.index) == name), None)
@@ -128,7 +129,7 @@ class TwistCurveEditor:
                 self._grab, self._place, self._shown = None, "", False
                 self._context.bridge.set(rubber=None)
                 self._changed(False)
-        elif not self._context.held:
+        elif isinstance(change, KnotMove) and not self._context.held:
             self._move(name, change)
 
     def _begin(self, grab: Grab) -> None:
@@ -137,18 +138,17 @@ class TwistCurveEditor:
         self._before = self._context.inputs(), None if state is None else state.solution
         self._changed(True)
 
-    def _move(self, name: str, place: list[float | None]) -> None:
-        """Move a station to r/R and to a twist [°] less that at 0.75 R, or to a twist alone."""
+    def _move(self, name: str, place: KnotMove) -> None:
         start = self._grab.inputs if self._grab is not None else self._context.inputs()
         station = next((station for station in stations(start) if str(station.index) == name), None)
         if station is None:
             return
-        grab, (r, theta) = Grab(start, station), place
+        grab, r = Grab(start, station), place.r
         if self._grab is not None and not self._shown:
             self._show_blade(self._grab, "curve")
         before, response = self._response(grab)
-        turn = 0.0 if theta is None else (theta - before) / response
-        moved = grab.turned(turn, self._best.turn if r is None and self._grab is not None else None)
+        near = self._best.turn if r is None and self._grab is not None else None
+        moved = grab.turned((place.theta - before) / response, near)
         if r is not None and station.division is not None:
             moved = slid(moved, station, r)
         if self._grab is not None:

@@ -12,10 +12,10 @@ from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
 from explorer.picture import disk_image
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
+from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.actuator.lifted_blade import fit_lifted
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe_panel import ProbePanel

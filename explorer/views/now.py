@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
@@ -10,12 +10,14 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import Analyses, SessionState
 from explorer.model.units import SI, UNITS, Units
+from explorer.parts.frame import NoticePart
 from explorer.parts.results import Best
 from explorer.workers.call import Call
 from rotor import Design, Solution
 from rotor.chart import Chart
 
 Mode = Literal["explore", "optimise", "actuate"]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,8 @@ class Now:
     """Power less that before the grab [W]; None while nothing was moved."""
     rival: Solution | None = None
     """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    searching: NoticePart | None = None
+    """What is said while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None
     """Power over µ; None before the first."""
     index: Chart | None = None
@@ -125,6 +129,13 @@ class Now:
     answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
     """What is known: of worker processes by `Call`, of the page's own work by the key of `Work`. For a question that
     failed, the sentence that says why."""
+    _derived: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False)
+
+    def of(self, derive: Callable[["Now"], T]) -> T:
+        """What `derive` makes of this, worked out once for all panels."""
+        if derive not in self._derived:
+            self._derived[derive] = derive(self)
+        return self._derived[derive]
 
     @property
     def units(self) -> Units:
@@ -154,9 +165,13 @@ Tell = Callable[[], None]
 class Work(Protocol):
     """What a panel wants computed by the page's own thread, once the page rests."""
 
-    name: str
-    soon: bool
-    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def soon(self) -> bool:
+        """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+        ...
 
     @property
     def key(self) -> Hashable:
@@ -230,5 +245,7 @@ class Panel:
     """Whether it follows the azimuth of the reference blade."""
     remember: Callable[[Now, Mapping[str, Any]], Memory] = lambda now, shown: now.memory
     """What is remembered of what it showed."""
+    reacts: Callable[[Now], tuple[Effect, ...]] = lambda now: ()
+    """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
     """By name in `messages.PRESSES`. While a presenter holds the page they do nothing, but let go."""

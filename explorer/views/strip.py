@@ -28,13 +28,13 @@ def strip(now: Now) -> dict[str, Any]:
     state = now.state
     if state is None:
         return {}
-    held, pinned = now.memory.ranges.get, state.pinned is not None
+    held = now.memory.ranges.get
     solution, reference, psi = state.solution, state.reference, state.view.azimuth_deg
-    compared: Role = "pinned" if pinned else "reference"
+    compared: Role = "reference" if state.pinned is None else "pinned"
     drawn = list[StripChart]()
 
     def add(name: str, chart: Chart, kind: Kind = "", speeds: Speeds | None = None) -> None:
-        drawn.append(StripChart(name, kind, pinned, bool(now.problem), drawn_chart(chart), speeds))
+        drawn.append(StripChart(name, kind, bool(now.problem), drawn_chart(chart), speeds))
 
     if (measured := now.measured.chart(solution, held("measured"))) is not None:
         add("measured", measured)

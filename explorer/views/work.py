@@ -24,7 +24,7 @@ class Doubted:
     solution: Solution
     reference: Solution | None
     analyses: Analyses
-    name = "doubt"
+    name: str = "doubt"
     soon = True
 
     @property

@@ -66,7 +66,7 @@ window.makeStory = (column, figures, report) => {
     if (guess !== null) {
       const right = answer && answer.right === guess;
       place.querySelector('p').innerHTML = answer ? `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'Not so.'}</b> ${marked(answer.answer)}` : text(now.problem || 'Computing …');
-      draw(place.querySelector('figure'), answer, stop);
+      plot(place.querySelector('figure'), answer, stop);
     }
     const out = part.querySelector('output'), slider = part.querySelector('[data-stop]');
     out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : now.problem || 'computing …';
@@ -94,7 +94,7 @@ window.makeStory = (column, figures, report) => {
   };
 
   // Lines over what is moved, with the present place on each.
-  const draw = (figure, answer, stop) => {
+  const plot = (figure, answer, stop) => {
     if (!answer) { figure.innerHTML = ''; return; }
     const dots = (answer.dots[stop] ?? []).map(([x, y, colour]) => ({kind: 'points', x: [x], y: [y], colour, size: 6}));
     const height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, width = Math.max(figure.clientWidth, 260);

@@ -94,6 +94,7 @@ def build_bending(
     rotor: Rotor,
     disk: Disk,
     density: float,
+    *,
     modes: tuple[int, int] = MODES,
     harmonics: int = HARMONICS,
     reference: float = REFERENCE_COLLECTIVE,

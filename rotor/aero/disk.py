@@ -73,12 +73,6 @@ class Disk(OnDisk):
         """(elements, azimuths)"""
         return len(self.r), len(self.psi)
 
-    @property
-    def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]:
-        """What the loads of the blade elements need beside velocities."""
-        blend, data = (self.section, self.weight, self.offset), (self.tables, self.held)
-        return self.half_solidity, *blend, *data, self.cos_sweep, self.sin_sweep
-
 
 def element_edges(widths: Array) -> Array:
     """Edges over R, (elements + 1,), of elements that reach to the tip, from their widths over R, (elements,)."""
@@ -108,6 +102,7 @@ def azimuths_of(count: int) -> Array:
 @lru_cache(maxsize=16)
 def build_disk(
     rotor: Rotor,
+    *,
     elements: int,
     azimuths: int,
     only_mach: float | None = None,
@@ -123,13 +118,23 @@ def build_disk(
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
-    return replace(_disk(replace(rotor, blade=blade), elements, azimuths, only_mach, swept, surface, fine_tip))
+    return replace(
+        _disk(
+            replace(rotor, blade=blade),
+            elements=elements,
+            azimuths=azimuths,
+            only_mach=only_mach,
+            swept=swept,
+            surface=surface,
+            fine_tip=fine_tip,
+        )
+    )
 
 
 @lru_cache(maxsize=16)
 @read_only
 def _disk(
-    rotor: Rotor, elements: int, azimuths: int, only_mach: float | None, swept: bool, surface: bool, fine_tip: bool
+    rotor: Rotor, *, elements: int, azimuths: int, only_mach: float | None, swept: bool, surface: bool, fine_tip: bool
 ) -> Disk:
     blade = rotor.blade
     edges, r = stations(blade.root_cutout, elements, fine_tip)

@@ -73,7 +73,7 @@ class BladeTorsion:
     """Offset of the swept quarter chord behind the pitch axis, over R, (elements,)."""
     tip_mass: Array
     """w, (elements,)."""
-    tables: Array
+    moment_tables: Array
     """C_m, (sections, α cells, Mach cells, 1, 4, 4)."""
     moment_unit: float
     """ρπR⁵Ω²/N_b [N m]."""
@@ -123,13 +123,13 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
 @lru_cache(maxsize=32)
 @read_only
 def build_torsion(
-    rotor: Rotor, disk: Disk, density: float, only_mach: float | None, swept: bool, highest: int, count: int = MODES
+    rotor: Rotor, disk: Disk, density: float, *, only_mach: float | None, swept: bool, highest: int, count: int = MODES
 ) -> BladeTorsion:
     """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³].
 
     highest: harmonic; count: modes.
     """
-    torsion = _at_unit_density(rotor, disk, only_mach, swept, highest, count)
+    torsion = _at_unit_density(rotor, disk, only_mach=only_mach, swept=swept, highest=highest, count=count)
     lighter = ("inertia", "coupling", "tension", "own_tension", "tip_mass")
     scaled = {name: getattr(torsion, name) / density for name in lighter}
     return replace(torsion, **scaled, gain=torsion.gain * density, moment_unit=torsion.moment_unit * density)
@@ -137,7 +137,7 @@ def build_torsion(
 
 @lru_cache(maxsize=32)
 def _at_unit_density(
-    rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int, count: int
+    rotor: Rotor, disk: Disk, *, only_mach: float | None, swept: bool, highest: int, count: int
 ) -> BladeTorsion:
     """Torsion of the blade in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
@@ -172,7 +172,7 @@ def _at_unit_density(
         damping=rotor.blades * chord**3 / 8.0,
         lag=behind,
         tip_mass=mass * behind * disk.r * radius**3 / unit,
-        tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names])[:, :, :, None],
+        moment_tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names])[:, :, :, None],
         moment_unit=unit * rotor.angular_speed**2,
     )
 

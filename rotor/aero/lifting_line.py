@@ -57,7 +57,7 @@ trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 0.5 to 
 theory."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class WakeCourse(DiskFlow):
     """What the course of a wake depends on."""
 
@@ -415,7 +415,9 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Arr
 
     harmonic: n, (harmonics,). The lines are those of `build_wake`, as if they ran on along the blade.
     """
-    wake = build_wake(line, WakeCourse(0.0, 0.0, 1.0, 0.0, 0.0, 0.0, course.core), np.zeros(1))
+    wake = build_wake(
+        line, WakeCourse(0.0, 0.0, 1.0, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=course.core), np.zeros(1)
+    )
     row, rows = wake.places[:, 0], wake.rows
     shed = np.flatnonzero((row == rows[1] + panel) | (row == rows[4] + _strip_of(line, panel)))
     age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.

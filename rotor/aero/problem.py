@@ -99,7 +99,7 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        losses = Losses(models.tip_loss, models.hub_loss, models.loss_on, self.tip_spacing)
+        losses = Losses(tip=models.tip_loss, hub=models.hub_loss, on=models.loss_on, spacing=self.tip_spacing)
         terms = self.inflow.on(self.disk, self.course, losses)
         return terms.unsteady(self.half_chord) if self.unsteady else terms
 
@@ -119,12 +119,15 @@ class Problem:
         plain, bending = self.section_data(step), self.bending
         data = plain if self.stall is None else StallingData(plain, self.stall)
         data = self.unsteady_data(plain, data) if self.unsteady else data
-        return data if bending is None else BentData(data, bending.coupling, bending.reference, bending.share)
+        if bending is None:
+            return data
+        return BentData(data, coupling=bending.coupling, reference=bending.reference, share=bending.share)
 
     def unsteady_data(self, section: SectionData, within: SectionData | StallingData) -> UnsteadyData:
         """What a section in unsteady flow needs beside the channels; within: data of the section in it."""
         arm = 0.5 * self.half_chord + (0.0 if self.torsion is None else self.torsion.lag)
-        return UnsteadyData(section, within, self.half_chord, arm, math.pi * section.half_solidity * self.half_chord)
+        mass = math.pi * section.half_solidity * self.half_chord
+        return UnsteadyData(section, within, half_chord=self.half_chord, arm=arm, mass=mass)
 
     @cached_property
     def half_chord(self) -> Array:
@@ -134,16 +137,23 @@ class Problem:
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
-        t, unloaded = self.torsion, self.unloaded
+        disk, torsion, unloaded = self.disk, self.torsion, self.unloaded
         return SectionData(
-            *self.disk.section_data,
-            self.tip_mach,
-            self.friction,
-            (LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
-            _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
-            NOTHING_ADDED,
-            self.scatter,
-            *(NO_MOMENT if t is None else (t.moment_gain, t.damping, t.lag, t.tables, t.inertia)),
+            half_solidity=disk.half_solidity,
+            section=disk.section,
+            weight=disk.weight,
+            offset=disk.offset,
+            tables=disk.tables,
+            held=disk.held,
+            cos_sweep=disk.cos_sweep,
+            sin_sweep=disk.sin_sweep,
+            tip_mach=self.tip_mach,
+            friction=self.friction,
+            lossy=(LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
+            unloaded=_ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
+            added=NOTHING_ADDED,
+            scatter=self.scatter,
+            **(NO_MOMENT if torsion is None else {name: getattr(torsion, name) for name in NO_MOMENT}),
         )
 
 
@@ -156,7 +166,16 @@ def build_problem(design: Design) -> Problem:
     if not models.tip_loss:
         inflow = inflow.without_tip_loss()
     only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
-    disk = build_disk(rotor, *grid_of(design), only_mach, swept, models.has("surface_drag"), inflow.fine_tip)
+    elements, azimuths = grid_of(design)
+    disk = build_disk(
+        rotor,
+        elements=elements,
+        azimuths=azimuths,
+        only_mach=only_mach,
+        swept=swept,
+        surface=models.has("surface_drag"),
+        fine_tip=inflow.fine_tip,
+    )
     flow = expected_flow(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
@@ -167,10 +186,14 @@ def build_problem(design: Design) -> Problem:
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
     if models.bending and models.flapping and not design.hovering and can_bend(rotor):
-        bending = build_bending(rotor, disk, condition.density, MODES, BENDING_HARMONICS, REFERENCE_COLLECTIVE)
+        bending = build_bending(
+            rotor, disk, condition.density, modes=MODES, harmonics=BENDING_HARMONICS, reference=REFERENCE_COLLECTIVE
+        )
     highest = TORSION_HARMONICS if bending is None else BENDING_HARMONICS
     if models.has("elastic_twist") and rotor.blade.structure is not None:
-        torsion = build_torsion(rotor, disk, condition.density, only_mach, swept, highest, TORSION_MODES)
+        torsion = build_torsion(
+            rotor, disk, condition.density, only_mach=only_mach, swept=swept, highest=highest, count=TORSION_MODES
+        )
     stall = _stall_data(design, disk, inflow)
     return Problem(
         design=design,
@@ -202,9 +225,15 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     rotor, models = design.rotor, design.models
     if not models.has("dynamic_stall") or design.hovering or not inflow.pointwise:
         return None
-    onset = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
-    chord = rotor.blade.chord(disk.r) / rotor.radius
-    return StallData(*onset, disk.section, disk.weight, 0.5 * chord, design.tip_mach)
+    numbers, tables = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
+    return StallData(
+        numbers=numbers,
+        tables=tables,
+        section=disk.section,
+        weight=disk.weight,
+        half_chord=0.5 * (rotor.blade.chord(disk.r) / rotor.radius),
+        tip_mach=design.tip_mach,
+    )
 
 
 def grid_of(design: Design) -> tuple[int, int]:
@@ -286,7 +315,8 @@ def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeC
     chord = float(rotor.blade.chord(0.9)) / rotor.radius
     reynolds = condition.density * rotor.tip_speed * rotor.radius / condition.viscosity
     core = tip_core(chord, thrust, rotor.blades, reynolds)
-    return WakeCourse(flow.mu_x, flow.mu_z, flow.lambda0, coning, condition.flap_1c, condition.flap_1s, core)
+    flapping = {"coning": coning, "flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
+    return WakeCourse(flow.mu_x, flow.mu_z, flow.lambda0, **flapping, core=core)
 
 
 def in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:

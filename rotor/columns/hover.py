@@ -229,11 +229,11 @@ def hover_system(problem: Problem) -> System:
             0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
         ]
     )
-    curve = lift_curve(problem) if closed else (none, none)
+    slope, zero = lift_curve(problem) if closed else (none, none)
     data = AnnulusData(
-        Annuli(disk.r, problem.climb, models.has("swirl"), ends, *curve),
-        problem.section_data(len(disk.psi)),
-        np.full_like(disk.r, axial_inflow(problem.scale, problem.climb)),
+        Annuli(r=disk.r, climb=problem.climb, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
+        section=problem.section_data(len(disk.psi)),
+        start=np.full_like(disk.r, axial_inflow(problem.scale, problem.climb)),
     )
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0

@@ -96,9 +96,14 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     lag = complex(theodorsen(np.array([k]))[0])
     seen = mean + amplitude * np.imag(lag * (1.0 + 1j * k) * np.exp(1j * phase))
     onset = stall_onset(table)
-    section, weight = np.zeros((1, 2), np.int64), np.zeros(1)
-    numbers, tables = onset.numbers[None].copy(), onset.tables[None].copy()
-    data = StallData(numbers, tables, section, weight, np.full(1, k), mach)
+    data = StallData(
+        numbers=onset.numbers[None].copy(),
+        tables=onset.tables[None].copy(),
+        section=np.zeros((1, 2), np.int64),
+        weight=np.zeros(1),
+        half_chord=np.full(1, k),
+        tip_mach=mach,
+    )
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     x = seen - float(table.zero_lift_alpha(mach))
     by = np.empty((3, _AZIMUTHS, 0))

@@ -9,6 +9,8 @@ from explorer.model.inputs import Inputs
 
 pytestmark = pytest.mark.browser
 START = Inputs()
+_ALPHA = "RX.state.strip.find(one => one.name === 'alpha').chart.series"
+_BESIDE_A = f"{_ALPHA}.some(line => line.colour === 'var(--rx-pinned)')"
 
 
 def ghost_seen(watched: Watched) -> bool:
@@ -62,7 +64,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched.says("against", "A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", "0.0"])
     watched.until(lambda: ghost_seen(watched))  # A and B are one blade: the ghost is its jig shape.
-    page.wait_for_function("() => RX.state.strip.every(chart => chart.pinned)")
+    page.wait_for_function(f"() => {_BESIDE_A}")
 
     disk = watched.node("/rotor/disk/field")
     watched.press("Inboard", "PageUp", 9)
@@ -101,5 +103,5 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched.says("against", "UH-60A as built")
     watched.until(lambda: "B − A" not in page.locator('[data-part="unit"]').inner_text())
     page.get_by_role("button", name="Show B − A").wait_for(state="detached")
-    page.wait_for_function("() => RX.state.strip.every(chart => !chart.pinned)")
+    page.wait_for_function(f"() => !({_BESIDE_A})")
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))

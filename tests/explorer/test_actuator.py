@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from explorer.tabs.actuator.actuator_words import section_svg
+from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from numpy.testing import assert_allclose
 
 from explorer.model.actuator_inputs import (
@@ -22,15 +24,16 @@ from explorer.model.actuator_inputs import (
     verdict_on,
     verdict_tasks,
 )
-from explorer.model.inputs import ViewState, baseline_of
+from explorer.model.inputs import Inputs, ViewState, baseline_of, with_rotor
 from explorer.model.units import number
+from explorer.picture import lifted_blade as lifted
+from explorer.picture.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
-from explorer.tabs.actuator import actuator_words
-from explorer.tabs.actuator import lifted_blade as lifted
-from explorer.tabs.actuator.actuator_controls import reach_chart, table_panel
-from explorer.tabs.actuator.actuator_words import section_svg
-from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.tabs.background import PoolAnswers
+from explorer.views import actuator_words
+from explorer.views.actuator import ACTUATOR, FormLook, other_baseline, pull, reach_chart, table_panel
+from explorer.views.actuator_words import section_svg
+from explorer.views.now import SetActuator, SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
@@ -39,6 +42,8 @@ from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
 from rotor.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
+from tests.actuate import actuate, told
+from tests.actuate import asked as asked_by
 from tests.curves import curves
 
 DESIGN = make_design(preset="flight", mu=0.2)
@@ -273,14 +278,29 @@ def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     until(lambda: pool.asked == [first, newest])
     pool.jobs[-1][1](JobFailed("The process ended."))
     until(lambda: pool.asked[-1] == second)
-    pool.end(None)
-    assert (answers.answer(newest), len(heard)) == ("The process ended.", 3)
-    assert "change any setting" in answers.answer(second)
+    pool.end("two")
+    assert (answers.answer(newest), answers.answer(second), len(heard)) == ("The process ended.", "two", 3)
     assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
     answers.ask((asked("never ends"),), 0.0)
     until(lambda: pool.asked[-1] == asked("never ends"))
     answers.stop()
     assert pool.stopped == [(asked("never ends"), True)]
+
+
+def test_a_task_ended_after_its_time_is_begun_again_by_itself():
+    """A busy machine took a minute for a flight: "This was stopped: change any setting" stood there for ever."""
+    pool: Any = FakePool()
+    answers = PoolAnswers(pool, 5, lambda: None)
+    late, other = asked("late"), asked("other")
+    answers.ask((late, other), 0.0)
+    until(lambda: pool.asked == [late])
+    pool.jobs[-1][1](JobEnded(None, stopped=True, late=True))
+    assert pool.asked == [late, other]
+    assert "within 10 minutes" in answers.answer(late)
+    pool.end("quick")
+    assert pool.asked == [late, other, late]
+    pool.end("found")
+    assert (answers.answer(late), pool.asked[3:]) == ("found", [])
 
 
 def test_nothing_is_begun_while_somebody_drags():
@@ -333,3 +353,79 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     charts = (reach_chart(ActuatorInputs(), one.installed, one, 0.13, None) for one in (verdict, small))
     for full, left in zip(*(chart.series for chart in charts), strict=True):
         assert_allclose(left.y, full.y)
+
+
+INPUTS = Inputs(advance_ratio=0.2)
+
+
+def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
+    """One installed actuator, one verdict; what is not known yet is said to be on its way."""
+    now = actuate(INPUTS)
+    rest = ACTUATOR.view(now)
+    assert rest == ACTUATOR.view(replace(now))
+    assert "at rest" in rest["actuator.now"]
+    assert rest["actuator.details"] == rest["actuator.verdict"] == rest["actuator.limits"] == ""
+    assert rest["actuator.table"].count("computing…") == len(ALL)
+    assert [one.label for one in rest["actuator.chart"].series] == ["attainable", "now"]
+    assert [(one.urgency, one.delay, len(one.calls)) for one in ACTUATOR.asks(now)] == [
+        (5, 0.4, 1), (6, 2.5, len(ALL) - 1), (7, 2.5, 0)
+    ]  # fmt: skip
+    judged = ACTUATOR.view(told(ACTUATOR, now, lean_verdict=verdict))
+    assert verdict_sentence(verdict) in judged["actuator.details"]
+    assert [one.label for one in judged["actuator.chart"].series] == ["attainable", "required", "used", "now"]
+    assert "computing…" in judged["actuator.modes"]
+    assert "actuator_stability" in asked_by(ACTUATOR, told(ACTUATOR, now, lean_verdict=verdict))
+    refused = ACTUATOR.view(told(ACTUATOR, now, lean_verdict="No such blade."))
+    assert "No such blade." in refused["actuator.verdict"]
+
+
+def test_the_axis_of_the_reach_is_held():
+    now = actuate(INPUTS, actuator=ActuatorInputs(drives=(-100.0,) * MOST_SEGMENTS))
+    shown = ACTUATOR.view(now)
+    later = replace(now, memory=ACTUATOR.remember(now, shown), hand=actuate(INPUTS).hand)
+    assert ACTUATOR.view(later)["actuator.chart"].y == shown["actuator.chart"].y
+    assert ACTUATOR.view(actuate(INPUTS))["actuator.chart"].y != shown["actuator.chart"].y
+
+
+def test_where_there_is_no_such_design_the_sentence_stands_alone():
+    """All else is as it was; another rotor has the widgets of the blade that carries actuators."""
+    now = replace(actuate(INPUTS), problem="No trim at this speed.")
+    assert list(ACTUATOR.view(now)) == ["actuator.verdict"]
+    assert "No trim at this speed." in ACTUATOR.view(now)["actuator.verdict"]
+    other = actuate(with_rotor(INPUTS, "s61"))
+    shown = ACTUATOR.view(other)
+    assert sorted(shown) == ["actuator.form", "actuator.verdict"]
+    assert "S-61" in shown["actuator.verdict"]
+    assert ACTUATOR.asks(other) == ()
+
+
+@pytest.mark.parametrize(
+    ("actuator", "label", "hidden"),
+    [
+        (ActuatorInputs(concept="three-segment", blade="new"), "Voltage 2 [%]", {"drive 3"}),
+        (ActuatorInputs(actuator="SMA_tube"), "Drive [%]", {"chord", "crossed", "stiffness"}),
+        (ActuatorInputs(actuator="extension_twist"), "Drive [%]", {"plies", "span", "chord", "stiffness"}),
+    ],
+)
+def test_the_form_has_what_the_actuator_has(actuator: ActuatorInputs, label: str, hidden: set[str]):
+    form: FormLook = ACTUATOR.view(actuate(INPUTS, actuator=actuator))["actuator.form"]
+    assert label in form.labels.values()
+    assert hidden <= {name for name, seen in form.seen.items() if not seen}
+    assert form.seen["stiffness"] == (actuator.blade == "new")
+
+
+def test_the_lifted_blade_is_pulled_from_where_it_was_taken():
+    """Trailing edge up is nose down: less voltage, but not beyond the range."""
+    now = actuate(INPUTS, actuator=ActuatorInputs(drives=(20.0,) * MOST_SEGMENTS), flown=1.5)
+    (taken,) = pull(now, None)
+    assert isinstance(taken, SetHand)
+    held = replace(now, hand=replace(now.hand, **taken.changes))
+    assert pull(held, 0.5) == (SetHand({"flown": None}), SetActuator({"drives": (-30.0,) * MOST_SEGMENTS}))
+    assert pull(held, 4.0)[1] == SetActuator({"drives": (-100.0,) * MOST_SEGMENTS})
+    assert pull(actuate(with_rotor(INPUTS, "s61")), None) == ()
+
+
+def test_savings_count_from_the_other_blade():
+    for one, other in (("best-fixed", "as-built"), ("as-built", "best-fixed")):
+        now = actuate(INPUTS, actuator=replace(ActuatorInputs(), against=one))
+        assert other_baseline(now, None) == (SetActuator({"against": other}),)

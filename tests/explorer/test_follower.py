@@ -38,7 +38,11 @@ class Page:
         self.now = NOW
         bridge: Any = SimpleNamespace(on=self.presses.__setitem__, set=lambda **parts: self.sent.append(parts))
         texts, pool = {"words": self.words.append}, Any
-        self.follower = Follower(panels, bridge, texts, pool, lambda: None, lambda: self.now, self.done.append)  # pyright: ignore[reportArgumentType]
+
+        def now() -> Now:
+            return self.now
+
+        self.follower = Follower(panels, bridge, texts, pool, lambda: None, now, now, self.done.append)  # pyright: ignore[reportArgumentType]
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """Twisting the blade by hand: geometry of the drag, what it does to the sliders, limits, and one step of undo."""
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -267,12 +268,12 @@ class TestTwistCurve:
         assert best.theta == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
         assert best.power == pytest.approx(1000.0)
         assert not best.held
-        bridge.actions["knot"](["2", [None, best.theta + 0.1]])
+        bridge.press("knot", ["2", [None, best.theta + 0.1]])
         assert now[0] == turned(TWO, stations(TWO)[2], 1.5)
         assert editor.held is not None
         assert editor.held.best is not None
         assert editor.held.best.held
-        bridge.actions["knot"](["2", "end"])
+        bridge.press("knot", ["2", "end"])
         assert bridge.state["rubber"] is None
         assert took == [True, False]
 
@@ -284,10 +285,10 @@ class TestTwistCurve:
         wanted = [(start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")]
         for (theta, title), (expected, name) in zip(bridge.state["rubber"].ends, wanted, strict=True):
             assert (theta, title) == (pytest.approx(expected, abs=0.02), name)
-        bridge.actions["knot"](["2", [None, 60.0]])
+        bridge.press("knot", ["2", [None, 60.0]])
         assert now[0].two_outer == limits("two_outer")[1]
         editor.grab(1.0)  # At its end, it turns back as far as it came.
-        bridge.actions["knot"](["2", [None, start]])
+        bridge.press("knot", ["2", [None, start]])
         assert now[0].two_outer == pytest.approx(TWO.two_outer, abs=0.1)
 
     def test_no_least_power_is_told_past_the_end_of_a_slider(self):
@@ -304,14 +305,14 @@ class TestTwistCurve:
         ideal = replace(TWO, law="ideal")
         editor, bridge, now, took = editor_of(ideal)
         editor.grab(1.0)
-        bridge.actions["knot"](["2", [None, 5.0]])
-        bridge.actions["knot"](["2", "undo"])
+        bridge.press("knot", ["2", [None, 5.0]])
+        bridge.press("knot", ["2", "undo"])
         assert now[0] == ideal
         assert took == [True, False]
 
     def test_a_held_handle_has_a_place_that_ends_with_the_drag(self):
         editor, bridge, now, took = editor_of(Inputs(law="two"))
-        drag = bridge.actions["knot"]
+        drag = partial(bridge.press, "knot")
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
         assert editor.held is None
         drag(["2", "start"])

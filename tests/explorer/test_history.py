@@ -81,13 +81,13 @@ class TestHistory:
 
     def test_a_rest_in_the_hand_is_no_pause_and_the_last_movement_may_come_after_the_release(self):
         pauses, history = Pauses(), History(START)
-        pauses.hold(True, 10.0)
+        pauses.begin(10.0)
         history.hold()
         for time in (10.1, 14.0):
             pauses.moved(time)
             history.note(replace(START, two_inner=0.5 - time), pauses.longest())
         pauses.moved(17.0)
-        pauses.hold(False, 17.1)
+        pauses.begin(17.1)
         history.release()
         pauses.moved(17.2)
         assert not history.note(replace(START, two_inner=-16.0), pauses.longest())

@@ -2,7 +2,6 @@
 
 import asyncio
 import gc
-import json
 import threading
 import time
 import weakref
@@ -15,18 +14,11 @@ from explorer.app import App
 from explorer.hosting.gate import ServerLimits
 from explorer.session import Session
 from explorer.sharing.presentation import PRESENT, follow_name
-from tests.tools.visitor import BRIDGE, Visitor, ran
+from tests.tools.visitor import Visitor, ran
 
 Act = Callable[[Visitor], Awaitable[None]]
 SECRET = "a-secret"
 PLACES = 16
-
-
-async def send(visitor: Visitor, name: str, value: Any = None) -> None:
-    """A press of the page's scripts."""
-    uuid = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("label") == BRIDGE)
-    value = json.dumps([time.monotonic(), name, value])
-    await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
 
 
 async def plain(visitor: Visitor) -> None:
@@ -34,26 +26,26 @@ async def plain(visitor: Visitor) -> None:
 
 
 async def dragging(visitor: Visitor) -> None:
-    await send(visitor, "hold", True)
+    await visitor.press("hold", True)
     for k in range(5):
         await visitor.move("Δ inboard [°/R]", -float(k))
 
 
 async def holding_the_blade(visitor: Visitor) -> None:
-    await send(visitor, "grab_at", 1.0)
+    await visitor.press("grab_at", 1.0)
     await visitor.until(lambda: visitor.frame.get("rubber") is not None)
-    await send(visitor, "knot", [visitor.frame["rubber"]["knot"], [None, -4.0]])
+    await visitor.press("knot", [visitor.frame["rubber"]["knot"], [None, -4.0]])
 
 
 async def comparing(visitor: Visitor) -> None:
-    await send(visitor, "pin")
+    await visitor.press("pin")
     await visitor.move("Δ inboard [°/R]", -4.0)
     await visitor.until(lambda: bool(visitor.frame["bar"]["pinned"]))
-    await send(visitor, "difference", "on")
+    await visitor.press("difference", "on")
 
 
 async def searching(visitor: Visitor, patience: float = 240.0) -> None:
-    await send(visitor, "mode", "optimise")
+    await visitor.press("mode", "optimise")
     await visitor.until(lambda: visitor.frame["bar"]["mode"] == "optimise", patience)
     await visitor.until(lambda: visitor.shows("Optimise"), patience)
     await visitor.move("Optimise", True)
@@ -62,41 +54,41 @@ async def searching(visitor: Visitor, patience: float = 240.0) -> None:
 
 async def asking_for_other_models(visitor: Visitor) -> None:
     """Leaves while workers look for the best linear twist and solve with other models."""
-    await send(visitor, "mode", "optimise")
-    await send(visitor, "drawer", "trust")
+    await visitor.press("mode", "optimise")
+    await visitor.press("drawer", "trust")
     await asyncio.sleep(0.8)
 
 
 async def mapping(visitor: Visitor) -> None:
-    await send(visitor, "mode", "optimise")
-    await send(visitor, "task", "Map")
+    await visitor.press("mode", "optimise")
+    await visitor.press("task", "Map")
     await visitor.idle()
     await visitor.move("Compute map", True)
 
 
 async def actuating(visitor: Visitor) -> None:
-    await send(visitor, "mode", "actuate")
+    await visitor.press("mode", "actuate")
     await visitor.until(lambda: visitor.frame.get("flight") is not None)
-    await send(visitor, "fly", 1.5)
+    await visitor.press("fly", 1.5)
 
 
 async def in_the_lecture(visitor: Visitor) -> None:
-    await send(visitor, "drawer", "lecture")
+    await visitor.press("drawer", "lecture")
     await visitor.idle()
     await visitor.move("Start the lecture", True)
     await visitor.until(lambda: visitor.frame.get("lecture") is not None)
 
 
 async def over_the_disk(visitor: Visitor) -> None:
-    await send(visitor, "view", "disk")
-    await send(visitor, "play")
-    await send(visitor, "drawer", "probe")
+    await visitor.press("view", "disk")
+    await visitor.press("play")
+    await visitor.press("drawer", "probe")
     await visitor.until(lambda: visitor.frame.get("plan") is not None)
 
 
 async def uploading(visitor: Visitor) -> None:
     """Half a file."""
-    await send(visitor, "drawer", "open")
+    await visitor.press("drawer", "open")
     await visitor.idle()
     button = next(uuid for uuid, widget in visitor.widgets.items() if "mime_type" in widget)
     await visitor.send(

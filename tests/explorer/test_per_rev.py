@@ -1,38 +1,25 @@
 """Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words; the dial."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
-import viser
 from numpy.testing import assert_allclose
 
 from explorer.export.provenance import provenance_lines
-from explorer.model.inputs import OPENING, Inputs, baseline_of, inputs_of, with_rotor
+from explorer.model.inputs import OPENING, baseline_of, inputs_of, with_rotor
 from explorer.model.session_state import Pinned
+from explorer.parts.actuate import DialMatrix
 from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
-from explorer.tabs.actuator.per_rev import (
-    DialAnswer,
-    Fitted,
-    FrontDot,
-    TwistDial,
-    compared,
-    dial_answer,
-    front_chart,
-    programme_words,
-    with_wave,
-)
-from explorer.tabs.controls import DesignControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import pinned_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
+from explorer.views.dial import front_chart, programme_words, with_wave
+from explorer.views.dial_answer import DialAnswer, Fitted, FrontDot, compared, dial_answer
 from rotor.actuator import (
     Host,
     default_placement,
@@ -53,6 +40,7 @@ from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
+from tests.actuate import foreseen
 
 PITCH, TWIST = read_harmonics("3:1.5:180,5:0.2:40", "test"), read_harmonics("2:1:30", "test")
 MOVED = replace(OPENING, pitch_per_rev=PITCH, twist_per_rev=TWIST)
@@ -137,42 +125,8 @@ def test_words():
     assert "collective and cyclic alone" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
 
 
-def test_the_dial_says_what_is_set(server: viser.ViserServer, controls_from: Callable[[Inputs], DesignControls]):
-    """By a file too, at harmonics that the dial does not have."""
-    controls = controls_from(OPENING)
-    bridge = SimpleNamespace(set=lambda **_: None, on=lambda *_: None)
-    context: Any = SimpleNamespace(gui=server.gui, inputs=controls.inputs, bridge=bridge, pool=None, wake=lambda: None)
-    dial = TwistDial(context, lambda _: None, 0.0)
-    assert "Active" not in dial._set.content
-    brought = replace(MOVED, twist_per_rev=read_harmonics("8:15:20", "test"), active_shape=((0.3, 1.0), (0.0, 1.0)))
-    controls.set_inputs(brought)
-    dial.refresh(controls.inputs())
-    assert controls.inputs() == brought
-    for words in ("Active twist of 15.00° at 8/rev", "root pitch of 1.50° at 3/rev", "shape of its design file"):
-        assert words in dial._set.content
-
-
 BENDING = make_design(twist="builtin", mu=0.3, bending=True)
 WAVES = (Harmonic(2, math.radians(0.8), 4.0), Harmonic(3, math.radians(0.5), 0.8))
-
-
-def vector(waves: tuple[Harmonic, ...]) -> np.ndarray:
-    """Cosine and sine part of each harmonic of the dial [°]."""
-    x = np.zeros((4, 2))
-    for one in waves:
-        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array([math.cos(one.phase), math.sin(one.phase)])
-    return x.ravel()
-
-
-def foreseen(answer: dict[str, object], waves: tuple[Harmonic, ...]) -> tuple[float, float]:
-    """Changes of power and index [%], by the formulas of `dial.js`, written again."""
-    x = vector(waves)
-    base, slopes, second, gains = (np.array(answer[name]) for name in ("base", "slopes", "second", "gains"))
-    values = base + slopes @ x + 0.5 * np.einsum("kij,i,j->k", second, x, x)
-    sizes = (gains * np.hypot(values[0:10:2], values[1:10:2])) ** 2
-    index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
-    power, at_rest = float(answer["power"]), float(answer["index"])  # pyright: ignore[reportArgumentType]
-    return 100.0 * (values[10] / power - 1.0), 100.0 * (index / at_rest - 1.0)
 
 
 STILL = replace(BENDING, active_twist=None)
@@ -192,7 +146,7 @@ def whole() -> DialAnswer:
 
 
 @pytest.fixture(scope="module")
-def answer(whole: DialAnswer) -> dict[str, Any]:
+def answer(whole: DialAnswer) -> DialMatrix:
     return whole.numbers
 
 
@@ -203,7 +157,7 @@ def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic,
     return 100.0 * (moved.power.total / rest.power.total - 1.0), 100.0 * (index - 1.0)
 
 
-def test_what_is_foreseen_is_what_a_trim_gives(answer: dict[str, object]):
+def test_what_is_foreseen_is_what_a_trim_gives(answer: DialMatrix):
     power, index = changes(BENDING, (), WAVES)
     seen = foreseen(answer, WAVES)
     assert_allclose(seen[0], power + lost(WAVES), atol=0.25)
@@ -213,7 +167,7 @@ def test_what_is_foreseen_is_what_a_trim_gives(answer: dict[str, object]):
         dial_answer(with_harmonics(make_design(mu=0.3), WAVES), STILL, LOSSES, 1.0)
 
 
-def test_the_front_is_near_its_trims(whole: DialAnswer, answer: dict[str, object]):
+def test_the_front_is_near_its_trims(whole: DialAnswer, answer: DialMatrix):
     dots = whole.front
     assert [one.power for one in dots] == sorted(one.power for one in dots)
     assert [one.index for one in dots] == sorted((one.index for one in dots), reverse=True)
@@ -294,7 +248,9 @@ def test_only_where_wakes_agree_in_sign_is_anything_best():
     assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
 
 
-def test_the_dial_knows_every_wake(answer: dict[str, Any]):
+def test_the_dial_knows_every_wake(answer: DialMatrix):
     """3/rev adds vibration with linear inflow where it takes vibration away with the lifting line."""
-    assert len(answer["inflows"]) == 3
-    assert all(one.keys() | {"inflows"} == answer.keys() for one in answer["inflows"])
+    own = foreseen(answer, (WAVES[1],))[1]
+    assert len(answer.inflows) == 3
+    others = [foreseen(DialMatrix(**vars(one), inflows=()), (WAVES[1],))[1] for one in answer.inflows]
+    assert min(own, *others) < 0.0 < max(own, *others)

@@ -10,8 +10,8 @@ from explorer.export.figures import actuator_section
 from explorer.export.report import report_html
 from explorer.model.inputs import ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
-from explorer.tabs.actuator.actuator_words import details_panel
-from explorer.tabs.actuator.flight_bar import earns_state
+from explorer.views.actuator_words import details_panel
+from explorer.views.flight import earns_state
 from rotor.actuator.verdict import Against, Verdict, kw, try_actuator
 from rotor.command import actuator as command
 from rotor.files.make_design import make_design
@@ -41,14 +41,14 @@ def test_report_rail_and_command_say_the_same(against: Against):
     assert f"± {kw(one.net_band)}" in sentence[0]
     assert f"<b>{sentence[0]}</b>" in details_panel(one)
     needed = str.maketrans("+−", "−+")  # The page counts the power needed, the report the power saved.
-    assert numbers(page) == [bar["text"].translate(needed) for bar in rail["bars"]]
-    assert f"<b>{rail['fuel']}</b>" in page
+    assert numbers(page) == [bar.text.translate(needed) for bar in rail.bars]
+    assert f"<b>{rail.fuel}</b>" in page
     of_command = re.findall(r"^  (?:gross|stiffness|mass|drive|net)[^-\d]*(-?[\d.]+) kW", printed, re.MULTILINE)
     assert [float(text.replace("−", "-")) for text in numbers(page)] == [float(text) for text in of_command]
     assert len(of_command) == len(one.savings) + 1
     assert float(of_command[-1]) == pytest.approx(1e-3 * one.net_saving, abs=0.051)
     (kilograms,) = re.findall(r"fuel: ([\d.]+) kg an hour", printed)
-    assert kilograms in rail["fuel"]
+    assert kilograms in rail.fuel
 
 
 def test_limits_and_caveats_stand_below():

@@ -10,10 +10,9 @@ import pytest
 from explorer.model.units import AVIATION, SI
 from explorer.sharing.share import code_of, design_from
 from explorer.tabs.optimise.optimise_panel import is_rival
-from explorer.tabs.optimise.search_words import comparison
+from explorer.views.notice import comparison
 from rotor import doubt, make_design, solve
 from rotor.optimisation import optimise
-from rotor.trim import Analysis
 
 START = make_design(mu=0.2, twist="linear:-4")
 
@@ -37,15 +36,15 @@ def test_an_optimum_that_came_by_a_link_is_still_the_rival_with_the_same_power()
 
 def test_the_words_are_the_difference_of_two_trims_and_its_band():
     own, other = solve(START).require(), solve(make_design(mu=0.2, twist="linear:-11")).require()
-    mine, best = Analysis(own), Analysis(other)
-    more, less = comparison(mine, best, SI), comparison(best, mine, SI)
+    band = doubt(own, other)
+    more, less = comparison(own, other, band, SI), comparison(other, own, band, SI)
     found = re.search(r"yours (\d+\.\d+) ± (\d+\.\d+) kW more: (\w+)", more)
     assert found, more
-    band = doubt(own, other)
     assert float(found[1]) == pytest.approx((own.power.total - other.power.total) / 1e3, abs=0.06)
     assert float(found[2]) == pytest.approx((band.change_band or np.nan) / 1e3, abs=0.06)
     assert found[3] == band.sureness
     assert f"{found[1]} ± {found[2]} kW less" in less
     near = solve(make_design(mu=0.2, twist="linear:-11.001")).require()
-    assert comparison(Analysis(near), best, SI).endswith("yours the same")
-    assert " hp more" in comparison(mine, best, AVIATION)
+    assert comparison(near, other, doubt(near, other), SI).endswith("yours the same")
+    assert " hp more" in comparison(own, other, band, AVIATION)
+    assert comparison(own, other, None, SI).endswith(f"yours {found[1]} kW more")

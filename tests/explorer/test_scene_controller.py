@@ -4,12 +4,14 @@ import math
 from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import replace
+from io import BytesIO
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 import viser
+from PIL import Image
 
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
@@ -242,6 +244,13 @@ class TestOverlays:
 
     def test_a_lost_trim_greys_the_disk(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
+
+        def colour() -> float:
+            pixels = np.asarray(Image.open(BytesIO(page["/rotor/disk/field"]._data)).convert("RGBA")).astype(int)
+            return float(np.ptp(pixels[pixels[..., 3] > 0, :3], axis=1).mean())
+
+        vivid = colour()
         page.controller.fade(fast, VIEW)
         assert page.shown.calls[-1][2]
+        assert colour() < 0.5 * vivid
         assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))

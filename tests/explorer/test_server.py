@@ -106,6 +106,20 @@ class TestControls:
         controls.set_inputs(wanted)
         assert controls.inputs() == wanted
 
+    def test_a_hand_on_a_slider_goes_on_from_the_search_that_it_shows(self, controls: DesignControls):
+        own, found = Inputs(law="linear"), Inputs(law="two", two_inner=-12.0, two_outer=-5.0)
+        controls.set_inputs(own)
+        controls.follow(found)
+        assert controls.inputs() == own  # Until it is applied.
+        controls.follow(None)
+        assert controls._form["law"] == "linear"
+        controls.follow(found)
+        controls._form.place("two_inner", -11.0)
+        controls._form._moved("two_inner", True)
+        assert controls.inputs() == replace(found, two_inner=-11.0)
+        controls.follow(None)  # There is no preview of another design.
+        assert controls.inputs() == replace(found, two_inner=-11.0)
+
     def test_an_optimum_that_no_law_holds_joins_the_menu(self, controls: DesignControls):
         design = CONCEPTS["free-form"].apply(make_design(), [0.2, 0.1, 0.05, 0.03, -0.03, -0.06])
         wanted = with_optimum(Inputs(mass_t=9.0), design)

@@ -2,18 +2,15 @@
 
 import math
 import re
-from collections.abc import Callable
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 
-from explorer.model.units import SI
-from explorer.sharing.share import Address
-from explorer.tabs.actuator.what_would_pay import WhatWouldPay, mass_chart, place_of
-from explorer.tabs.background import PoolAnswers
+from explorer.hosting.messages import SupposePress
+from explorer.model.inputs import Inputs, with_rotor
+from explorer.views.now import SetAddress, Ui
+from explorer.views.pay import PAY, mass_chart, place_it, place_of
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, Supposed, pay_sentence
@@ -22,9 +19,11 @@ from rotor.actuator.verdict import judge
 from rotor.chart import Points
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from tests.actuate import actuate, asked, done, told
 from tests.curves import curves
 
 DESIGN = make_design(inflow="drees")
+INPUTS = Inputs(inflow="drees")
 
 
 def even(gain: float = 3000.0) -> BreakEven:
@@ -63,78 +62,42 @@ def test_a_place_that_is_none_is_refused_with_the_remedy(text: str):
         place_of(text)
 
 
-Stage = dict[str, Any]
-Press = Callable[[Any], None]
-
-
-@pytest.fixture
-def opened():
-    """Opened with a query: it, what it sets on the stage, its press, and the queries it writes."""
-
-    def made(query: str = "") -> tuple[WhatWouldPay, Stage, Press, list[str], list[tuple[str, str]]]:
-        stage: Stage = {}
-        presses: dict[str, Press] = {}
-        written: list[str] = []
-        problems: list[tuple[str, str]] = []
-        bridge = SimpleNamespace(set=stage.update, on=presses.__setitem__)
-        context: Any = SimpleNamespace(pool=None, wake=lambda: None, bridge=bridge, held=False, units=SI)
-        pay = WhatWouldPay(context, Address(query, written.append, pause=0.0), problems)
-        return pay, stage, presses["suppose"], written, problems
-
-    return made
-
-
-def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(opened: Any, monkeypatch: pytest.MonkeyPatch):
+def test_a_supposed_actuator_is_dragged_and_stays_in_the_address():
     """Read off the line at once, and told with its band when it is trimmed; gone with a press."""
-    line, known = even(), dict[str, Any]()
-    pair = line.pair
-    monkeypatch.setattr(PoolAnswers, "ask", lambda self, tasks, delay: None)
-    monkeypatch.setattr(PoolAnswers, "answer", lambda self, task: known.get(task.function.__name__))
-    pay, stage, press, written, _ = opened("d=1")
-    pay.refresh(pair)
-    assert stage["suppose"] is None
-    press("on")
-    pay.refresh(pair)
-    assert "Trimming" in stage["suppose"]["words"]
-    known["break_even"] = line
-    press([2.0, 4.3])
-    pay.refresh(pair)
+    now, line = actuate(INPUTS), even()
+    assert PAY.view(now) == {"suppose": None, "actuator.pays": False}
+    assert asked(PAY, now) == {}
+    now = done(now, place_it(now, "on"))
+    assert "Trimming" in PAY.view(now)["suppose"].words
+    now = told(PAY, now, break_even=line)
+    assert PAY.view(now) == PAY.view(replace(now))
+    pressed = place_it(now, SupposePress(2.004, 4.3))
+    assert pressed[-1] == SetAddress("i", "2,4.3")
+    now = done(now, pressed)
+    shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass.
-    assert stage["suppose"]["words"] == "2.0° for 4.3 kg saves 1.4 kW …"
-    assert stage["suppose"]["at"] == [2.0, 4.3]
-    assert stage["suppose"]["note"].endswith(f" kg, less what its drive takes. {pay_sentence(line)}")
-    assert pay.pays
-    assert written[-1].endswith("i=2,4.3")
-    known["suppose"] = Supposed(1100.0, 0.0001, 300.0)
-    pay.refresh(pair)
-    assert stage["suppose"]["words"] == "2.0° for 4.3 kg saves 1.1 kW (± 0.3 kW: sure), −0.4 kg of fuel an hour"
-    assert stage["suppose"]["kind"] == "gain"
-    known["suppose"] = Supposed(1100.0, 0.0001, 1500.0)
-    pay.refresh(pair)
-    assert "cannot be told" in stage["suppose"]["words"]
-    pay.rest()  # Another mode may show another design: the shared picture does not speak of this one.
-    assert not pay.pays
-    pay.refresh(pair)
-    assert "cannot be told" in stage["suppose"]["words"]
-    assert (stage["suppose"]["kind"], pay.pays) == ("", False)
-    known["suppose"] = "No trim there."
-    pay.refresh(pair)
-    assert stage["suppose"]["note"] == "No trim there."
-    del known["suppose"]
-    press([2.0, 50.0])
-    pay.refresh(pair)
-    assert stage["suppose"]["kind"] == "loss"
-    assert not pay.pays
-    press("off")
-    pay.refresh(pair)
-    assert stage["suppose"] is None
-    assert "i=" not in written[-1]
+    assert (shown.words, shown.at, shown.kind) == ("2.0° for 4.3 kg saves 1.4 kW …", (2.0, 4.3), "gain")
+    assert shown.note.endswith(f" kg, less what its drive takes. {pay_sentence(line)}")
+    assert PAY.view(now)["actuator.pays"]
+    assert list(asked(PAY, now)) == ["suppose", "break_even"]
+    for saving, words, kind in (
+        (Supposed(1100.0, 0.0001, 300.0), "saves 1.1 kW (± 0.3 kW: sure), −0.4 kg of fuel an hour", "gain"),
+        (Supposed(1100.0, 0.0001, 1500.0), "cannot be told", ""),
+    ):
+        trimmed = PAY.view(told(PAY, now, suppose=saving))
+        assert words in trimmed["suppose"].words
+        assert (trimmed["suppose"].kind, trimmed["actuator.pays"]) == (kind, kind == "gain")
+    assert PAY.view(told(PAY, now, suppose="No trim there."))["suppose"].note == "No trim there."
+    heavy = done(now, place_it(now, SupposePress(2.0, 50.0)))
+    assert (PAY.view(heavy)["suppose"].kind, PAY.view(heavy)["actuator.pays"]) == ("loss", False)
+    assert place_it(now, "off")[-1] == SetAddress("i", None)
+    assert PAY.view(done(now, place_it(now, "off")))["suppose"] is None
 
 
-def test_a_link_holds_the_supposed_actuator(opened: Any):
-    pay, *_, problems = opened("d=1&i=3.2,9")
-    assert pay.on_stage
-    assert not problems
-    pay, *_, problems = opened("d=1&i=3.2;9")
-    assert not pay.on_stage
-    assert "write 4,12" in problems[0][1]
+def test_it_stands_at_the_chosen_actuator_at_first_and_nowhere_on_another_rotor():
+    now = told(PAY, actuate(INPUTS, on_stage=True), break_even=even())
+    assert PAY.view(now)["suppose"].at == (2.0, 2.0 * even().masses[-1])
+    other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
+    assert PAY.view(other)["suppose"] is None
+    assert PAY.view(replace(other, problem="No trim.")) == {}
+    assert not PAY.seen(Ui("explore"))

@@ -31,6 +31,7 @@ _CAMERA = {
 }
 _SHOWN = r'data-explorer="{}"([^>]*)>([^<]*)'
 _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
+_TOLD = re.compile(r"RX\.(keep|address)\((.*)\)", re.DOTALL)
 _CARD_KINDS = {"care": "converged"}
 """Kinds of the power card that the page marks otherwise."""
 _KIND = re.compile(r'data-kind="(\w+)"')
@@ -48,7 +49,7 @@ class Visitor:
     ) -> None:
         self._seen = seen
         """Called with the reference blade's vertices whenever a frame brings them."""
-        self._facts = {"dark": False, "query": query, "kept": kept or {}, "page": page}
+        self._facts: dict[str, Any] = {"dark": False, "query": query, "kept": kept or {}, "page": page}
         """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
@@ -61,6 +62,7 @@ class Visitor:
         self.blade = b""
         self.frames = 0
         self.bytes = 0
+        self._pressed = 0
         self.gone: str | None = None
         """Why the connection ended, once it has."""
 
@@ -97,9 +99,16 @@ class Visitor:
 
     async def idle(self, patience: float = 240.0, wholly: bool = True) -> None:
         """Wait until all edits are answered and, wholly, nothing more is computed for this page, as `RX.idle` does."""
+        asked = self._pressed + 1
+        await self.press("idle", [asked, wholly])
+        await self.until(lambda: self.frame.get("idle") == asked, patience)
+
+    async def press(self, name: str, value: Any = None) -> None:
+        """What the page's own scripts send, as `RX.send` does."""
+        self._pressed += 1
         uuid = next(uuid for uuid, widget in self.widgets.items() if widget.get("label") == BRIDGE)
-        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": json.dumps([1, "idle", [1, wholly]])})
-        await self.until(lambda: self.frame.get("idle") == 1, patience)
+        value = json.dumps([self._pressed, name, value])
+        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
 
     def find(self, label: str) -> str:
         """Identity of the visible widget of a label; LookupError where none is shown."""
@@ -146,6 +155,16 @@ class Visitor:
             self._lost(closed)
         self._news.set()
 
+    def _keep(self, what: str, *texts: str) -> None:
+        if what == "keep":
+            self._facts["kept"][texts[0]] = texts[1]
+        else:
+            self._facts["query"] = texts[0]
+
+    def again(self) -> "Visitor":
+        """The page as it is loaded again: with its address, and with what it was given to keep."""
+        return Visitor(query=self._facts["query"], kept=self._facts["kept"])
+
     def _lost(self, closed: ConnectionClosed) -> None:
         self.gone = str(closed.rcvd or closed)
 
@@ -172,6 +191,8 @@ class Visitor:
             case "RunJavascriptMessage":
                 if state := _FRAME.fullmatch(message["source"]):
                     self.frame.update(json.loads(state[1]))
+                elif told := _TOLD.fullmatch(message["source"]):
+                    self._keep(told[1], *json.loads(f"[{told[2]}]"))
             case _ if "props" in message and "uuid" in message:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
 

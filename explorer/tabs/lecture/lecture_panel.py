@@ -48,7 +48,7 @@ CASES = {**DOCUMENT, **EXAMPLES}
 """The menu."""
 _NO_CASE = "–"
 _PATIENCE = 600.0
-"""[s] for the numbers of a step: seconds, but for a server that many use."""
+"""[s] for the lecture as a file: seconds, but for a server that many use."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class LecturePanel(Tab):
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
-        self._told = PoolAnswers(context.pool, 4, self._facts_came, _PATIENCE)
+        self._told = PoolAnswers(context.pool, 4, self._facts_came)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))

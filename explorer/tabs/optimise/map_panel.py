@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer.hosting.messages import MapPress
 from explorer.model.inputs import with_optimum
 from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
@@ -87,11 +88,11 @@ class MapPanel(BackgroundWork):
                 tag("div.rx-dim", _KEY),
             )
 
-    def _take(self, place: list[float]) -> None:
-        """The map was clicked at (x, y), 0…1: its design goes onto the sliders."""
+    def _take(self, place: MapPress) -> None:
+        """The map was clicked: its design there goes onto the sliders."""
         if self.map is not None and not self._context.held:
-            x, y = place
-            self._context.set_inputs(with_optimum(self._context.inputs(), self.map.task.at(x, y)))
+            design = self.map.task.at(place.x, place.y)
+            self._context.set_inputs(with_optimum(self._context.inputs(), design))
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:

@@ -8,7 +8,6 @@ from dataclasses import replace
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.session_state import SessionState
-from explorer.model.units import UNITS
 from explorer.parts.frame import NoticePart
 from explorer.sharing.share import Address, code_of, design_from
 from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
@@ -263,14 +262,14 @@ class Rival:
         """`problems` get a title and a sentence where the address cannot be read."""
         self._context, self._address, self._solved = context, address, BaselineCache()
         self._design = address.read(RIVAL, design_from, None, "Not the optimiser's design of the link", problems)
-        self._now: tuple[SessionState, Solution] | None = None
-        """What is shown, and the optimiser's trim beside it; None without one."""
+        self.solution: Solution | None = None
+        """The optimiser's trim in the present flight; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())
         context.bridge.on("rival_end", lambda _: self.begin(None))
 
     def begin(self, design: Design | None) -> None:
         """Measure what follows against this optimum; None: against none."""
-        self._design, self._now = design, None
+        self._design, self.solution = design, None
         try:
             self._address[RIVAL] = None if design is None else code_of(design)
         except ValueError:
@@ -279,25 +278,11 @@ class Rival:
 
     def show(self, state: SessionState) -> None:
         """Follow a converged state: in another flight, with another model or rotor there is nothing to compare."""
-        self._now, rival = None, self._design
+        self.solution, rival = None, self._design
         if rival is not None and is_rival(rival, state.solution.design):
             other = self._solved.solve(rival)
             if other.converged:
-                self._now = state, other
-
-    @property
-    def solution(self) -> Solution | None:
-        """The optimiser's trim in the present flight; None without one."""
-        return None if self._now is None else self._now[1]
-
-    def notice(self) -> NoticePart | None:
-        """The bar over the scene."""
-        if self._now is None:
-            return None
-        state, other = self._now
-        own, best = self._context.analyses.of(state.solution), self._context.analyses.of(other)
-        words = text.comparison(own, best, UNITS[state.view.units])
-        return NoticePart(words, [("rival_take", "Take its twist"), ("rival_end", "End")])
+                self.solution = other
 
     def _take(self) -> None:
         if self._design is not None and not self._context.held:

@@ -9,13 +9,11 @@ from explorer.charts import svg
 from explorer.colours import NOW, THIS
 from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun
-from rotor import Optimum, doubt
+from rotor import Optimum
 from rotor.design import PiecewiseLinearTwist
 from rotor.markup import Content, Markup, tag
 from rotor.optimisation import Concept
 from rotor.optimisation.concepts import Handle
-from rotor.trim import Analysis
-from rotor.trim.doubt import decimals
 
 _WIDTH, _HEIGHT, _EDGE = 272, 62, 8
 _MIDDLE, _AMPLITUDE = 28, 15
@@ -251,17 +249,3 @@ def moved_on() -> Markup:
     """The sliders no longer hold the starting design of the search."""
     words = "The sliders have changed. Apply takes the optimum."
     return tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
-
-
-def comparison(here: Analysis, there: Analysis, units: Units) -> str:
-    """One's own power against the optimiser's, with the band of the difference."""
-    unit, own, other = units.power[0], here.solution, there.solution
-    said = f"Optimiser {units.watts(other.power.total, 1)}"
-    change = own.power.total - other.power.total
-    if abs(change) < _EQUAL:
-        return f"{said}, yours the same"
-    band = doubt(here, there)
-    within = unit.of(band.change_band or 0.0)
-    digits = max(decimals(within), 1)
-    amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)} {unit.symbol}"
-    return f"{said}, yours {amount} {'more' if change > 0.0 else 'less'}: {band.sureness}"

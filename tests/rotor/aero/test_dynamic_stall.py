@@ -26,10 +26,10 @@ ONSET = stall_onset(TABLE)
 
 
 def data(half_chord: float, tip_mach: float) -> StallData:
-    section, weight = np.zeros((1, 2), np.int64), np.zeros(1)
     return StallData(
-        ONSET.numbers[None].copy(), ONSET.tables[None].copy(), section, weight, np.array([half_chord]), tip_mach
-    )
+        numbers=ONSET.numbers[None].copy(), tables=ONSET.tables[None].copy(), section=np.zeros((1, 2), np.int64),
+        weight=np.zeros(1), half_chord=np.array([half_chord]), tip_mach=tip_mach,
+    )  # fmt: skip
 
 
 def followed(x: Any, mach: Any, own: StallData, *, slopes: bool = False) -> tuple[Array, Array, Array]:

@@ -21,7 +21,7 @@ R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
 LINEAR = {model.name: model for model in LINEAR_MODELS}
 WAKES = [DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.3, 0.04, 0.011), DiskFlow(0.4, -0.01, 0.02)]
-DISK = build_disk(make_design().rotor, 12, 24)
+DISK = build_disk(make_design().rotor, elements=12, azimuths=24)
 
 
 @pytest.mark.parametrize("mu_x", [0.0, 0.05, 0.2, 0.45])

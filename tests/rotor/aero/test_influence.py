@@ -27,7 +27,7 @@ from rotor.aero.lifting_line import (
 from rotor.arrays import Array
 
 LINE = LiftingLine(blades=2, root=0.2, panels=6, azimuths=8)
-COURSE = WakeCourse(0.2, 0.01, 0.02, 0.05, 0.01, -0.02, (1e-4, 1e-5))
+COURSE = WakeCourse(0.2, 0.01, 0.02, coning=0.05, flap_1c=0.01, flap_1s=-0.02, core=(1e-4, 1e-5))
 HOVER = replace(COURSE, mu_x=0.0, mu_z=0.0, flap_1c=0.0, flap_1s=0.0)
 STEP = 2.0 * math.pi / LINE.azimuths
 STRIPS = ((0, 3), (3, 6))
@@ -243,7 +243,7 @@ def test_in_hover_every_azimuth_sees_the_same():
 
 
 FINE = LiftingLine(4, 0.15, 24, 24)
-FAST = WakeCourse(0.3, 0.02, 0.01, 0.0, 0.0, 0.0, (1e-4, 0.0))
+FAST = WakeCourse(0.3, 0.02, 0.01, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=(1e-4, 0.0))
 SLOW = replace(FAST, mu_x=0.05, lambda0=0.05)
 HALF_CHORD = 0.0322
 """Half chord of a UH-60A, over R."""

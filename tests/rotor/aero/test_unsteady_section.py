@@ -41,11 +41,13 @@ def flat(half_chord: Array) -> UnsteadyData:
     chord, tables, none = 2.0 * half_chord, plate(), np.zeros(len(half_chord))
     half_solidity, damping = BLADES * half_chord / math.pi, BLADES * half_chord**3
     own = SectionData(
-        half_solidity, np.zeros((len(none), 2), np.int64), none, np.zeros((len(none), 2)), tables, tables[:0],
-        none + 1.0, none, 1e-9, 0.0, False, np.zeros((0, 0), np.bool_), NOTHING_ADDED, NO_SCATTER,
-        half_solidity * chord, damping, none, np.zeros_like(tables[:, :, :, :1]), none,
+        half_solidity=half_solidity, section=np.zeros((len(none), 2), np.int64), weight=none,
+        offset=np.zeros((len(none), 2)), tables=tables, held=tables[:0], cos_sweep=none + 1.0, sin_sweep=none,
+        tip_mach=1e-9, friction=0.0, lossy=False, unloaded=np.zeros((0, 0), np.bool_), added=NOTHING_ADDED,
+        scatter=NO_SCATTER, moment_gain=half_solidity * chord, damping=damping, lag=none,
+        moment_tables=np.zeros_like(tables[:, :, :, :1]), inertia=none,
     )  # fmt: skip
-    return UnsteadyData(own, own, half_chord, 0.5 * half_chord, BLADES * half_chord**2)
+    return UnsteadyData(own, own, half_chord=half_chord, arm=0.5 * half_chord, mass=BLADES * half_chord**2)
 
 
 def moving(pitch: Any, plunge: Any, mean: float = 0.0) -> Array:

@@ -50,7 +50,7 @@ def test_measured_motion_and_vortices_are_those_of_the_source():
 
 def test_height_of_a_vortex_that_no_inflow_moves():
     """Then it rises along a straight line: β0 above the hub at the edge, −µ_z t above that."""
-    course = WakeCourse(0.15, -0.0113, 0.0, 0.04, 0.0, 0.0, (1e-4, 1e-6))
+    course = WakeCourse(0.15, -0.0113, 0.0, coning=0.04, flap_1c=0.0, flap_1s=0.0, core=(1e-4, 1e-6))
     x, y = np.array([-0.8, 0.0, 0.6]), np.array([0.6, 0.0, -0.7])
     age = (x + np.sqrt(1.0 - y * y)) / 0.15
     assert_allclose(height(course, x, y), 0.04 + 0.0113 * age, atol=1e-12)

@@ -8,7 +8,7 @@ from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import number
-from explorer.tabs.actuator.lifted_picture import drive_colour, drive_text
+from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
 from rotor import Solution
 from rotor.actuator import (

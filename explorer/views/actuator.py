@@ -1,0 +1,235 @@
+"""The rail of Actuate: what stands between its widgets, what they are called, and how the blade in the hand moves them.
+
+Above the widgets stands why there is no verdict; below them twist now, reach, limits, modes and all actuators.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from explorer.charts.plots import Range, held_range
+from explorer.colours import BASELINE, NOW, THIS
+from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, Outcome, Question
+from explorer.model.units import number
+from explorer.views import actuator_words as words
+from explorer.views.actuated import built, in_actuate, problem
+from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetActuator, SetHand
+from rotor.actuator import (
+    Actuator,
+    ExtensionTwist,
+    InstalledActuator,
+    PiezoPly,
+    TorqueTube,
+    Verdict,
+    actuators,
+    find_actuator,
+    verdict_sentence,
+)
+from rotor.actuator.pictures import twist_comparison
+from rotor.chart import Axis, Chart, Line, drawn_chart
+from rotor.dynamics.structure import KNOWN_BLADE
+from rotor.files.make_design import uh60a_rotor
+from rotor.markup import Content, Markup, tag
+
+_STILL = 0.4
+"""How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
+_IDLE = 2.5
+"""How long the page must have been still before work is begun that nobody asked for [s]."""
+_FULL = 100.0
+"""The whole voltage on its slider [%]."""
+DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
+"""Names of the sliders of voltage."""
+
+
+def asks(now: Now) -> tuple[Asked, ...]:
+    """Verdicts come behind searches, maps and schedules: the chosen actuator's first; modes behind all else."""
+    if (one := built(now)) is None:
+        return ()
+    first, *others = one.tasks.values()
+    modes = () if one.modes_task is None else (one.modes_task,)
+    return Asked(5, (first,), _STILL), Asked(6, tuple(others), _IDLE), Asked(7, modes, _IDLE)
+
+
+def view(now: Now) -> dict[str, Any]:
+    """Texts of the rail; where there is no such design, why, all else as it was."""
+    one, state, inputs = built(now), now.state, now.hand.actuator
+    if one is None or state is None or now.problem:
+        return {"actuator.verdict": words.problem_panel(problem(now))} | _form_elsewhere(now)
+    installed, verdict, root = one.installed, one.verdict, one.design.rotor.blade.root_cutout
+    return {
+        "actuator.form": form_look(inputs, installed),
+        "actuator.verdict": words.problem_panel(one.outcome),
+        "actuator.bar": words.voltage_bar(installed.actuator),
+        "actuator.now": words.now_panel(inputs, installed, state.solution),
+        "actuator.details": words.details_panel(verdict),
+        "actuator.numbers": words.fit_panel(installed, verdict),
+        _CHART: drawn_chart(reach_chart(inputs, installed, verdict, root, now.memory.ranges.get(_CHART))),
+        "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
+        "actuator.limits": words.limits_panel(verdict),
+        "actuator.modes": words.modes_panel(one.modes),
+        "actuator.table": table_panel(one.outcomes, one.question),
+    }
+
+
+_CHART = "actuator.chart"
+
+
+def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
+    """The axis of the reach is held as long as it serves."""
+    if _CHART not in shown:
+        return now.memory
+    return replace(now.memory, ranges={**now.memory.ranges, _CHART: shown[_CHART].y.range})
+
+
+@dataclass(frozen=True)
+class FormLook:
+    """Which widgets of the actuator there are, and what they are called."""
+
+    seen: Mapping[str, bool]
+    labels: Mapping[str, str]
+
+
+def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
+    actuator, count = installed.actuator, len(installed.shapes)
+    ply, passive = isinstance(actuator, PiezoPly), isinstance(actuator, ExtensionTwist)
+    word = "Voltage" if ply else "Drive"
+    return FormLook(
+        {
+            **{name: k < count for k, name in enumerate(DRIVES)},
+            "plies": not passive,
+            "span": not passive,
+            "chord": ply,
+            "crossed": ply,
+            "stiffness": inputs.blade == "new",
+        },
+        {
+            **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
+            "plies": "Tubes" if isinstance(actuator, TorqueTube) else "Plies per side",
+            "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
+            "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
+            "advance_ratios": "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios),
+        },
+    )
+
+
+def _form_elsewhere(now: Now) -> dict[str, FormLook]:
+    """The widgets as on the blade that carries actuators, where another rotor is on the sliders."""
+    design, inputs = now.sliders, now.hand.actuator
+    if design is None or design.aircraft.key == KNOWN_BLADE:
+        return {}
+    try:
+        return {"actuator.form": form_look(inputs, inputs.installed(uh60a_rotor(design.preset)))}
+    except ValueError:
+        return {}
+
+
+def other_baseline(now: Now, value: object) -> tuple[Effect, ...]:
+    """Count savings from the other blade."""
+    return (SetActuator({"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
+
+
+def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
+    """The lifted blade was taken (None), or its trailing edge is pulled up by this share of the full drive."""
+    one, inputs = built(now), now.hand.actuator
+    if one is None:
+        return ()
+    if share is None:
+        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed, one.design)
+        return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
+    start, whole = now.hand.pulled
+    drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
+    return SetHand({"flown": None}), SetActuator({"drives": drives})
+
+
+def table_panel(outcomes: Mapping[str, Outcome | None], question: Question) -> Markup:
+    """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
+    rows = [_row(id, outcomes.get(id), id == question.actuator) for id in actuators()]
+    titles = ("Actuator", ("range", tag("br"), "°"), ("kg in", tag("br"), "all"), ("needs", tag("br"), "kW"), "verdict")
+    head = tag("tr", [tag("th", title) for title in titles])
+    first, second = question.pair.advance_ratios
+    note = (
+        f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. Range: twist from end to end. "
+        "▲: some data not verified. Hover over a verdict for the full text."
+    )
+    table = tag("table.rxa-table", head, rows)
+    return tag("div.rx", table, tag("div.rx-dim.rx-small", note), data_explorer="actuator-table")
+
+
+def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
+    actuator = find_actuator(id)
+    care = " ", tag("span.rxa-bad", "▲", title="some data not verified")
+    cells: Content = tag("td.rx-num.rx-dim", "computing…", colspan=4)
+    if isinstance(outcome, str):
+        cells = tag("td.rx-num.rxa-bad", "cannot be built", colspan=4, title=outcome)
+    elif outcome is not None:
+        words, kind = short_verdict(outcome)
+        numbers = (
+            number(math.degrees(outcome.attainable), 1),
+            number(outcome.installed.masses.aircraft),
+            number(-1e-3 * outcome.net_saving, 1, sign=True),
+        )
+        verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
+        cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
+    name = tag("td", short_name(id), care if actuator.provenance.recalled else None, title=actuator.name)
+    return tag("tr", name, cells, class_="rxa-chosen" if chosen else None)
+
+
+def short_verdict(verdict: Verdict) -> tuple[str, str]:
+    """A few words, and the class that colours them."""
+    if verdict.pays:
+        return "pays", "rx-less"
+    if not verdict.feasible:
+        return "too weak", "rxa-bad"
+    if verdict.net_saving <= 0.0:
+        return "costs more", "rxa-bad"
+    return "cannot be built", "rxa-bad"
+
+
+def short_name(id: str) -> str:
+    return id.replace("_", " ")
+
+
+def actuator_titles() -> dict[str, str]:
+    """Titles of the menu of actuators, by id."""
+    return {id: f"{short_name(id)}: {_kind(actuator)}" for id, actuator in actuators().items()}
+
+
+def _kind(actuator: Actuator) -> str:
+    if isinstance(actuator, PiezoPly):
+        return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
+    return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
+
+
+_STATIONS = 61
+
+
+def reach_chart(
+    inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
+) -> Chart:
+    """Twist that can be attained, that is required, that the best twist within reach uses, and now [°].
+
+    Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
+    """
+    r = np.linspace(root, 1.0, _STATIONS)
+    limit = installed.limit(r) - installed.limit(root)
+    now = inputs.change(installed, r) - inputs.change(installed, root)
+    lines = list[Line]()
+    if verdict is not None:
+        required, used = twist_comparison(verdict, _STATIONS)
+        if required[np.argmax(np.abs(required))] < 0.0:
+            limit = -limit
+        lines = [Line("required", r, np.degrees(required), NOW), Line("used", r, np.degrees(used), _USED, width=1.5)]
+    attainable = Line("attainable", r, np.degrees(limit), BASELINE, width=1.5)
+    lines = [attainable, *lines, Line("now", r, np.degrees(now), THIS)]
+    seen = [value for line in lines for value in line.y if math.isfinite(value)]
+    y_axis = Axis("°", held_range(previous, min(0.0, *seen), max(0.2, *seen)))
+    return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
+
+
+_USED = "#2f9e44"
+
+
+ACTUATOR = Panel(view, in_actuate, asks, remember=remember, presses={"against": other_baseline, "pull": pull})

@@ -1,0 +1,303 @@
+"""Pitch and twist at n/rev in the Actuate mode: the dial of twist with the front of power and vibration.
+
+The page foresees while a hand drags the dial (`explorer/web/dial.js`, from the numbers of `dial_matrix`); the design
+follows, so that the same drag is trimmed. The front stands beside it with what was published.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from explorer.hosting.messages import WavePress
+from explorer.model.units import Units, number
+from explorer.parts.actuate import DialPart, Settled
+from explorer.text.design_words import harmonic_words
+from explorer.views.actuated import built, in_actuate
+from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
+from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put
+from explorer.workers.call import Call
+from rotor import Design
+from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
+from rotor.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
+from rotor.design import Harmonic
+from rotor.markup import tag
+from rotor.optimisation.vibration import with_harmonics
+from rotor.trim import why_no_hub_loads
+
+_REACH = 1.5
+"""Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
+_SHAKE = 5e4
+"""By how much the shaking of the cabin is exaggerated; a rigid helicopter would move by F/(m (N_b Ω)²)."""
+_FRONT_REACH = 1.0
+"""Largest amplitude of the front where no actuator says one [°]."""
+_LEAST = 0.02
+"""An amplitude below this [°] is none."""
+_BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
+_FAINT = "var(--rx-faint)"
+_VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
+UNMEASURED = "Not validated: we found no measured power benefit of active twist. Published savings are computed."
+_URGENCY, _STILL = 3, 0.4
+"""How long the design must stand before it is worked on [s]."""
+
+
+def _fitted(now: Now) -> Fitted | None:
+    one = built(now)
+    return None if one is None else one.fitted
+
+
+def _asked(now: Now) -> tuple[Call, Call | None] | None:
+    """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
+    state, fitted = now.state, _fitted(now)
+    if state is None or now.sliders is None or now.problem:
+        return None
+    pair = compared(state.solution.design, now.sliders, fitted)
+    if pair is None:
+        return None
+    trimmed = Call(effect, pair)
+    if why_no_hub_loads(state.solution.design) is not None:
+        return trimmed, None
+    losses = (0.0,) * len(HARMONICS) if fitted is None else tuple(fitted.losses)
+    reach = 0.0 if fitted is None else round(fitted.whole, 2)
+    shaped = with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),))
+    return trimmed, Call(dial_answer, (shaped, pair[1], losses, reach or _FRONT_REACH))
+
+
+def asks(now: Now) -> tuple[Asked, ...]:
+    trimmed, foreseen = now.of(_asked) or (None, None)
+    return (Asked(_URGENCY, tuple(call for call in (trimmed, foreseen) if call is not None), _STILL),)
+
+
+def _answer(now: Now) -> DialAnswer | str | None:
+    """What foresees, or why nothing does; None on its way."""
+    foreseen = (now.of(_asked) or (None, None))[1]
+    return None if foreseen is None else now.answers.get(foreseen)
+
+
+def _dots(now: Now) -> tuple[FrontDot, ...]:
+    answer = _answer(now)
+    return answer.front if isinstance(answer, DialAnswer) else ()
+
+
+def view(now: Now) -> dict[str, Any]:
+    """The dial, its numbers and its front; and in words what is set that the dial does not show."""
+    words = {"actuator.per_rev": _set_words(now)}
+    if now.state is None or now.problem:
+        return words
+    answer, dots = _answer(now), _dots(now)
+    return {
+        **words,
+        "dial": _dial(now, now.state.solution.design, answer),
+        "dial_matrix": answer.numbers if isinstance(answer, DialAnswer) else None,
+        "dial_front": drawn_chart(front_chart(dots)),
+    }
+
+
+def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
+    fitted, waves, unit = _fitted(now), now.inputs.twist_per_rev, now.units.power[0]
+    whole = 0.0 if fitted is None else fitted.whole
+    drive = 0.0
+    if fitted is not None and whole:
+        sizes = [(HARMONICS.index(n.per_rev), _polar(n)[0]) for n in waves if n.per_rev in HARMONICS]
+        drive = sum(fitted.losses[k] * size**2 for k, size in sizes)
+    moved, settled = now.answers.get((now.of(_asked) or (None,))[0]), None
+    if isinstance(moved, EffectInFlight):
+        settled = Settled(
+            tuple(unit.of(change + drive) for change in moved.power), tuple(round(change, 2) for change in moved.index)
+        )
+    reason = why_no_hub_loads(design)
+    words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
+    reach = max(_REACH, *(math.ceil(_polar(wave)[0]) for wave in waves), 0.0)
+    return DialPart(
+        harmonics=HARMONICS,
+        now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
+        reach=reach,
+        whole=round(whole, 4),
+        room=0.0 if fitted is None else round(steady_room(fitted.installed, fitted.volts), 4),
+        rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
+        words=words,
+        computing=not words and not isinstance(answer, DialAnswer),
+        settled=settled,
+        problem=moved if isinstance(moved, str) else "",
+        against="the same blade at rest" if fitted is None else fitted.against,
+        where=_where(design, now.units),
+        unit=unit.symbol,
+        per_watt=unit.of(1.0),
+        front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in _dots(now)),
+        exaggerated=number(_SHAKE),
+        shake=_SHAKE / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
+        held=now.ui.held,
+    )
+
+
+def _set_words(now: Now) -> str:
+    """What these inputs have that the dial does not show: by file, link or measured condition too."""
+    inputs = now.inputs
+    hidden = [wave for wave in inputs.twist_per_rev if wave.per_rev not in HARMONICS or inputs.active_shape]
+    words = harmonic_words(tuple(hidden), inputs.pitch_per_rev)
+    shaped = " The twist has the shape of its design file." if inputs.active_shape else ""
+    sentence = f"{words[:1].upper()}{words[1:]}.{shaped}" if words else ""
+    return tag("div.rx.rx-dim.rx-small", sentence, data_explorer="per-rev")
+
+
+def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
+    """The dot: `"start"`, `"end"`, or each harmonic moved."""
+    if isinstance(value, str):
+        return (Grab(value == "start"),)
+    moved = now.inputs.twist_per_rev
+    for wave in value:
+        if wave.per_rev in HARMONICS:
+            moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
+    return (Drag(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
+
+
+def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
+    """Apply the twist of a dot of the front."""
+    dots = _dots(now)
+    if not 0 <= number_of < len(dots):
+        return ()
+    return (Put(replace(now.inputs, twist_per_rev=tuple(map(_on_sliders, dots[number_of].twist)))),)
+
+
+DIAL = Panel(view, in_actuate, asks, presses={"dial": act, "dial_front": take_dot})
+
+
+def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:
+    """The harmonics with this one at another amplitude and phase [°]; none below `_LEAST`."""
+    size = 0.0 if amplitude < _LEAST else min(amplitude, 20.0)
+    return _replaced(waves, Harmonic(per_rev, math.radians(size), math.radians(phase % 360.0)))
+
+
+def _replaced(waves: tuple[Harmonic, ...], harmonic: Harmonic) -> tuple[Harmonic, ...]:
+    """The harmonics with `own` in place of that of its order; none there where its amplitude is zero."""
+    others = [wave for wave in waves if wave.per_rev != harmonic.per_rev]
+    return tuple(sorted([*others, harmonic] if harmonic.amplitude else others, key=lambda wave: wave.per_rev))
+
+
+def _on_sliders(wave: Harmonic) -> Harmonic:
+    """With the digits that the page shows."""
+    size, phase = _polar(wave)
+    return Harmonic(wave.per_rev, math.radians(size), math.radians(phase))
+
+
+def _polar(wave: Harmonic) -> tuple[float, float]:
+    """Amplitude and phase [°]."""
+    return round(math.degrees(wave.amplitude), 2), round(math.degrees(wave.phase), 1) % 360.0
+
+
+def _parts(waves: Sequence[Harmonic]) -> tuple[float, ...]:
+    """Cosine and sine of each harmonic of the dial [°]."""
+    sizes = {wave.per_rev: np.degrees(wave.amplitude) * np.exp(1j * wave.phase) for wave in waves}
+    return tuple(
+        round(float(part), 4) for n in HARMONICS for part in (np.real(sizes.get(n, 0.0)), np.imag(sizes.get(n, 0.0)))
+    )
+
+
+def _where(design: Design, units: Units) -> str:
+    """The flight condition, in words."""
+    return (
+        "in hover"
+        if design.hovering
+        else f"at {units.speed[0].text(design.condition.advance_ratio * design.rotor.tip_speed)}"
+    )
+
+
+def _dot_words(dot: FrontDot) -> str:
+    low, high = (number(end, 0, sign=True) for end in dot.over_inflows)
+    words = f"power {number(dot.power, 1, sign=True)} %, vibration {number(dot.index, 0, sign=True)} %"
+    words += f" ({low} to {high} over inflow models{')' if dot.agreed else ', which disagree in sign)'}"
+    return (
+        f"{words}: {harmonic_words(tuple(map(_on_sliders, dot.twist)), ())}. Press to take it, or drag along the front."
+    )
+
+
+def front_chart(dots: Sequence[FrontDot]) -> Chart:
+    """The front beside what other programmes reached: with power where both belong to one input, else at the side."""
+    shown = [result for result in programmes() if result.vibration_percent is not None]
+    paired = [result for result in shown if result.together and result.power_change_percent is not None]
+    powers = [0.0, *(dot.power for dot in dots), *(result.power_change_percent or 0.0 for result in paired)]
+    low, high = math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6)
+    alone = [result for result in shown if result not in paired]
+    most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
+    column = 0.09 * (high - low)
+    end = high + column * (len(alone) + 0.5)
+    ticks = tuple(at for at in round_ticks(low, high, 4) if at < high)
+    spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
+    line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
+    best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
+    return Chart(
+        "Vibration by power",
+        Axis("power [%]", (low, end), (*ticks, 0.5 * (high + end)), (*map(tick_text, ticks), "vibration alone")),
+        Axis("changes [%]", (-100.0, most), tuple(at for at in _VIBRATIONS if at < most)),
+        (
+            *spreads,
+            _published(
+                "published, measured", [result for result in shown if result.kind != "computed"], high, column, alone
+            ),
+            _published("computed", [result for result in shown if result.kind == "computed"], high, column, alone),
+            *(best if dots else ()),
+        ),
+        (Rule(high, colour=_FAINT, dashes=""), Rule(0.0, colour=_FAINT, dashes="")),
+    )
+
+
+def _pressed(dots: Sequence[FrontDot], agreed: bool) -> Points:
+    """The dots on whose sign all inflow models agree, which alone are called best, or the others."""
+    chosen = [(k, dot) for k, dot in enumerate(dots) if dot.agreed == agreed]
+    return Points(
+        "front" if agreed else "models disagree",
+        [dot.power for _, dot in chosen],
+        [dot.index for _, dot in chosen],
+        _BEST,
+        "dot" if agreed else "ring",
+        words=[_dot_words(dot) for _, dot in chosen],
+        action="dial_front",
+        press=[str(k) for k, _ in chosen],
+        size=5.0,
+    )
+
+
+def _published(
+    label: str, shown: Sequence[Programme], high: float, column: float, alone: Sequence[Programme]
+) -> Points:
+    """Programmes at their power, or where they are one of those `alone` in a column of its own beyond `high`."""
+    ends = [result.vibration_percent or (0.0, 0.0) for result in shown]
+    return Points(
+        label,
+        [
+            high + column * (alone.index(result) + 0.75) if result in alone else result.power_change_percent or 0.0
+            for result in shown
+        ],
+        [0.5 * (low + high) for low, high in ends],
+        "var(--rx-dim)",
+        "ring" if label == "computed" else "dot",
+        scatter=[0.5 * abs(high - low) for low, high in ends],
+        words=[programme_words(result) for result in shown],
+        names=[f"{result.short}{_orders(result)}" for result in shown],
+        beside="upward" if shown and shown[0] in alone else "below",
+        size=4.5,
+    )
+
+
+def _orders(result: Programme) -> str:
+    """The harmonics, where the short name alone does not tell two results apart."""
+    twins = [other for other in programmes() if other.short == result.short]
+    return f" {'+'.join(map(str, result.per_rev))}/rev" if len(twins) > 1 and result.per_rev else ""
+
+
+def programme_words(result: Programme) -> str:
+    """A published result in a sentence or two, with its source."""
+    said = [f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"]
+    if result.vibration_percent is not None:
+        said.append(f"{result.vibration} {_range(result.vibration_percent)}")
+    if result.power_change_percent is not None:
+        said.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
+    apart = "" if result.together or result.power_change_percent is None else " Each is the largest of its kind."
+    return f"{', '.join(said)}.{apart} {result.note} {result.source}."
+
+
+def _range(ends: tuple[float, float]) -> str:
+    low, high = (number(end, 0, sign=True) for end in ends)
+    return f"{low} %" if low == high else f"{low} to {high} %"

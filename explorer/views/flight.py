@@ -1,0 +1,241 @@
+"""The flight bar of Actuate: tip twist from hover to fast flight, and the one balance of power, as the page draws them.
+
+`explorer/web/flight.js` draws both; the bar sets the flight condition by the inputs of the sliders, and the voltages.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
+from explorer.model.units import Units, number
+from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
+from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
+from explorer.views.actuated import Built, built, in_actuate
+from explorer.views.now import Asked, Drag, Effect, Memory, Now, Panel, SetActuator, SetHand
+from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
+from rotor.actuator.verdict import reference
+from rotor.arrays import Array
+from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
+
+HALVES = 2
+"""Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
+_LEAST = 1.5
+"""Least height of the chart either way [°]: with little twist the curves do not fill it."""
+_SHORT = 0.15
+"""What is wanted beyond reach [°] and not worth a word."""
+_COMPUTING = "Computing what the actuator saves and what it costs…"
+_GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
+
+
+def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
+    """µ and rate of climb [m/s] at a place of the bar, which counts named legs from 0; between legs straight."""
+    at = np.arange(len(legs)) / HALVES
+    mu = float(np.interp(x, at, [leg.advance_ratio for leg in legs]))
+    climb = float(np.interp(x, at, [leg.climb_speed for leg in legs]))
+    return round(mu, 3), round(climb, 2)
+
+
+def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
+    """Where on the bar an advance ratio is: it grows from leg to leg."""
+    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
+
+
+def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
+    """Both while the blade is out of the rotor; those of the question before stay, marked, while one is worked on."""
+    if not (now.hand.lifted and in_actuate(now.ui)):
+        return {"flight": None, "earns": None}
+    if (one := _on_stage(now)) is None:
+        return {}
+    wrong = one.outcome if isinstance(one.outcome, str) else ""
+    verdict = None if wrong else one.verdict or now.memory.latest.get(_VERDICT)
+    return {
+        "flight": _flight(now, one, wrong),
+        "earns": earns_state(verdict, one.verdict is not None, now.units, wrong),
+    }
+
+
+_FLIGHT, _VERDICT = "flight", "verdict"
+
+
+def _on_stage(now: Now) -> Built | None:
+    """None also where the present inputs have no solution: all stays as it was."""
+    there = now.hand.lifted and in_actuate(now.ui) and not now.problem
+    return built(now) if there else None
+
+
+def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
+    """The last flight and the last verdict."""
+    if (one := _on_stage(now)) is None:
+        return now.memory
+    known = {_VERDICT: one.verdict} if one.verdict is not None else {}
+    known |= {_FLIGHT: one.flight} if isinstance(one.flight, ActuatorFlight) else {}
+    return replace(now.memory, latest={**now.memory.latest, **known})
+
+
+def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
+    """`wrong`: why there is no verdict."""
+    hand, legs, rotor = now.hand, one.legs, one.design.rotor
+    known = one.flight if isinstance(one.flight, ActuatorFlight) else None
+    problem = one.flight if isinstance(one.flight, str) else wrong
+    shown = None if problem else known or _last(now)
+    tip = math.degrees(hand.actuator.tip(one.installed, one.design))
+    frozen = tip if hand.stopped else None
+    return FlightPart(
+        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
+        at=round(place_of(legs, now.inputs.advance_ratio), 3),
+        kind="ready" if known else "problem" if problem else "computing",
+        words=problem or ("" if known else "computing…"),
+        flown=hand.flown is not None and not hand.stopped,
+        frozen=frozen,
+        tip=f"{number(tip, 2, sign=True)}°",
+        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / HALVES, frozen)),
+    )
+
+
+def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
+    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach; green where flown at a gain.
+
+    `frozen`: twist of an actuator that has stopped [°], the same wherever it flies.
+    """
+    series: list[Series] = []
+    low, high = -_LEAST, _LEAST
+    if flight is not None:
+        wanted, reached, reach = (np.degrees(angles) for angles in (flight.wanted, flight.reached, flight.reach))
+        curves = np.concatenate((wanted, reached, reach))
+        low, high = min(low, float(curves.min())), max(high, float(curves.max()))
+        at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
+        for a, b, gains in _stretches(at, flight.net_saving):
+            series.append(Band("", (a, b), (reach[0],) * 2, (reach[1],) * 2, _GAIN if gains else "var(--rx-dim)"))
+        above = bool(wanted[-1] > reached[-1])
+        series += [
+            Band("", at, held, wanted, _LOSS),
+            Line("reached", at, reached, "var(--rx-accent)", width=4.0),
+            Line("wanted", at, wanted, "var(--rx-ink)"),
+            _named("wanted", last, wanted[-1], "var(--rx-ink)", above),
+            _named("reached", last, reached[-1], "var(--rx-accent)", not above),
+            _named("within reach", 0.0, reach[1], "var(--rx-dim)", above=False),
+        ]
+        worst = int(np.argmax(np.abs(wanted - held)))
+        if (short := abs(float(wanted[worst] - held[worst]))) > _SHORT:
+            words = f"short by {number(short, 1)}°"
+            series.append(_named(words, at[worst], 0.5 * (wanted[worst] + held[worst]), "var(--rxa-loss)", above=False))
+    if frozen is not None:
+        low, high = min(low, frozen), max(high, frozen)
+        series.append(Line("stopped", (0.0, last), (frozen, frozen), "var(--rxa-loss)", "6 4", width=2.4))
+        series.append(_named("stopped", 0.5 * last, frozen, "var(--rxa-loss)", above=True))
+    margin = 0.06 * (high - low)
+    return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
+
+
+def _stretches(at: Array, net: Array) -> list[tuple[float, float, bool]]:
+    """Where the flight gains and where it does not, from place to place."""
+    changes = [k for k in range(len(at) - 1) if (net[k] > 0.0) != (net[k + 1] > 0.0)]
+    ends = [at[0], *(at[k] + (at[k + 1] - at[k]) * net[k] / (net[k] - net[k + 1]) for k in changes), at[-1]]
+    return [(a, b, bool(np.interp(0.5 * (a + b), at, net) > 0.0)) for a, b in pairwise(ends)]
+
+
+def _named(name: str, x: float, y: float, colour: str, above: bool) -> Points:
+    """A name alone, at a place of the chart."""
+    return Points("", (x,), (y,), colour, size=0.0, names=(name,), beside="above" if above else "below")
+
+
+def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
+    if leg.advance_ratio == 0.0 and leg.climb_speed == 0.0:
+        return "0 kt" if units.speed[0].symbol == "kt" else "µ 0"
+    speed = units.speed[0].text(leg.advance_ratio * tip_speed)
+    return f"{speed}, {units.climb.text(leg.climb_speed, 1, sign=True)}" if leg.climb_speed else speed
+
+
+def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> EarnsPart:
+    """What the page draws the balance from, as power that the actuator needs.
+
+    `known`: the verdict is that of the present question, else one before.
+    """
+    unit = units.power[0]
+    kind: Kind = "ready" if known and verdict else "problem" if problem else "computing"
+    state = EarnsPart(kind, unit.symbol, problem, "" if problem else _COMPUTING)
+    if verdict is None:
+        return state
+    used, masses = fuel_used(verdict), verdict.installed.masses
+    parts = [("its twist" if name == "gross" else name, -power) for name, power in verdict.savings]
+    where = pair_words(verdict)
+    return replace(
+        state,
+        where=where,
+        bars=(*(_bar(*part, units) for part in parts), _bar("in all", -verdict.net_saving, units, total=True)),
+        against=reference(verdict).removeprefix("the "),
+        fuel=fuel_words(verdict.fuel_saving),
+        fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
+        fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
+        mass=f"{number(masses.aircraft)} kg on board",
+        mass_note=mass_words(masses),
+        mission=f"{where[:1].upper()}{where[1:]}: {needs(verdict, units)}.",
+    )
+
+
+def _bar(name: str, power: float, units: Units, total: bool = False) -> Bar:
+    text = signed(power, units)
+    kind = _SIGNS.get(text[0], "")
+    return Bar(name, round(units.power[0].of(power), 3), text, kind, total)
+
+
+_SIGNS: dict[str, Sign] = {"+": "loss", "−": "gain"}
+
+
+def asks(now: Now) -> tuple[Asked, ...]:
+    one = built(now) if in_actuate(now.ui) else None
+    return () if one is None or one.flight_task is None else (Asked(4, (one.flight_task,), 0.0),)
+
+
+def fly(now: Now, x: float) -> tuple[Effect, ...]:
+    """The bar was moved: fly there, the voltages with it."""
+    if (one := built(now)) is None:
+        return ()
+    flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
+    mu, climb = condition_at(one.legs, flown)
+    drives = () if now.hand.stopped else _driven(now, flown)
+    return SetHand({"flown": flown}), *drives, Drag(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+
+
+def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
+    """The actuator stops, or works again where the flight is now."""
+    return SetHand({"stopped": stopped}), *(() if stopped else _driven(now, now.hand.flown))
+
+
+def follow_flight(now: Now) -> tuple[Effect, ...]:
+    """Voltages of a flight that has come meanwhile."""
+    one = None if now.hand.stopped else _on_stage(now)
+    come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
+    return _driven(now, now.hand.flown) if come else ()
+
+
+def _last(now: Now) -> ActuatorFlight | None:
+    return now.memory.latest.get(_FLIGHT)
+
+
+def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
+    """Voltages as the last flight has them there; nothing where none is known.
+
+    Fibres are laid the other way where the voltages of the flight oppose its twists.
+    """
+    if (one := built(now)) is None or x is None:
+        return ()
+    flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
+    if flight is None or not flight.swings:
+        return ()
+    actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
+    changes: dict[str, Any] = {}
+    if isinstance(actuator, PiezoPly):
+        wanted, shares = shares, np.asarray(flight.voltages, dtype=float) / actuator.voltage_swing
+        changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
+    legs = np.arange(len(shares))
+    drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
+    return (SetActuator({**changes, "drives": (*drives, *(0.0,) * (MOST_SEGMENTS - len(drives)))}),)
+
+
+FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly})

@@ -1,0 +1,46 @@
+"""The bar over the scene: a search in place of the sliders, or the optimiser's blade beside the one in the hand."""
+
+from typing import Any
+
+from explorer.model.units import Units, number
+from explorer.parts.frame import NoticePart
+from explorer.views.now import Now, Panel
+from explorer.views.work import Doubted
+from rotor import Solution
+from rotor.trim.doubt import Doubt, decimals
+
+_EQUAL = 50.0
+"""Changes of power below this [W] are none."""
+
+
+def against_rival(now: Now) -> tuple[Doubted, ...]:
+    """How sure the difference from the optimiser's blade is."""
+    state, rival = now.state, now.rival
+    return () if state is None or rival is None else (Doubted(state.solution, rival, now.analyses, "rival"),)
+
+
+def notice(now: Now) -> dict[str, Any]:
+    """While the blade moves, the difference of the two powers stands without its band."""
+    words, state, rival = now.searching, now.state, now.rival
+    if words is None and state is not None and rival is not None:
+        band = now.answers.get(against_rival(now)[0].key)
+        actions = [("rival_take", "Take its twist"), ("rival_end", "End")]
+        words = NoticePart(comparison(state.solution, rival, band, now.units), actions)
+    return {"notice": words}
+
+
+def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
+    """One's own power against the optimiser's, with the band of the difference where it is known."""
+    unit, change = units.power[0], own.power.total - other.power.total
+    said, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
+    if abs(change) < _EQUAL:
+        return f"{said}, yours the same"
+    if band is None:
+        return f"{said}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
+    within = unit.of(band.change_band or 0.0)
+    digits = max(decimals(within), 1)
+    amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)}"
+    return f"{said}, yours {amount} {unit.symbol} {way}: {band.sureness}"
+
+
+NOTICE = Panel(notice, works=against_rival)

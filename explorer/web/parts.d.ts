@@ -1,0 +1,563 @@
+// Made by `python -m tests.tools.page_types` from explorer/parts and messages.PRESSES: change those.
+
+interface RxState {
+  bar: RxBarPart;
+  big: boolean;
+  coarse: number;
+  dial: RxDialPart;
+  dial_front: RxDrawnChart;
+  dial_matrix: RxDialMatrix | null;
+  earns: RxEarnsPart | null;
+  field: RxFieldPart;
+  flight: RxFlightPart | null;
+  hand: RxHandPart | null;
+  hub_labels: RxSceneLabel[];
+  idle: number;
+  inset: RxInsetPart;
+  lecture: RxLecturePart | null;
+  lifted_labels: RxLiftedLabel[];
+  notice: RxNoticePart | null;
+  plan: RxPlanPart | null;
+  power: RxPowerPart;
+  probe_label: RxSceneLabel[];
+  prompt: RxSceneLabel | null;
+  ride: RxRidePart | null;
+  rubber: RxRubberPart | null;
+  steps: RxStepPart[];
+  strip: RxStripChart[];
+  suppose: RxSupposePart | null;
+  turn: RxTurnPart;
+  twist: RxTwistPart;
+  vibration: RxVibrationPart | null;
+  views: RxViewsPart;
+  wipe: boolean;
+  wiped: number;
+  worth: Record<string, RxWorth>;
+}
+
+interface RxPresses {
+  pin: any;
+  swap: any;
+  back: any;
+  undo: any;
+  redo: any;
+  times: any;
+  pace: any;
+  play: any;
+  against: any;
+  apply: any;
+  discard: any;
+  halt: any;
+  nearest: any;
+  aim: any;
+  beat: any;
+  rival_take: any;
+  rival_end: any;
+  along: boolean;
+  hold: boolean;
+  field: string;
+  region: string;
+  mode: string;
+  drawer: string;
+  task: string;
+  opened: string;
+  rotor: string;
+  flown: string;
+  default: string;
+  story: number;
+  guess: number;
+  stop: number;
+  dial_front: number;
+  grab_at: number;
+  twist_by_hand: number;
+  speed: number;
+  difference: 'on' | 'off';
+  more: 'on' | 'off';
+  ride: 'off' | RxRidePress | null;
+  azimuth: number;
+  fly: number;
+  suppose: 'on' | 'off' | RxSupposePress;
+  map_at: RxMapPress;
+  pull: number | null;
+  wiped: number;
+  covered: RxCoveredPress;
+  view: 'actuator' | '3d' | 'disk' | 'blade' | 'top' | 'side';
+  colours: 'Rescale' | 'Default';
+  lecture: 'back' | 'next' | 'end';
+  idle: RxIdlePress;
+  knot: RxKnotPress;
+  dial: 'start' | 'end' | RxWavePress[];
+}
+
+interface RxBarPart {
+  rotors: [string, string][];
+  rotor: string;
+  mode: string;
+  drawer: string;
+  undo: boolean;
+  redo: boolean;
+  pinned: RxPinnedRow | null;
+  held: boolean;
+}
+
+interface RxPinnedRow {
+  title: string;
+  power: string;
+  along: boolean;
+}
+
+interface RxDialPart {
+  harmonics: number[];
+  now: [number, number, number][];
+  reach: number;
+  whole: number;
+  room: number;
+  rings: [number, string][];
+  words: string;
+  computing: boolean;
+  settled: RxSettled | null;
+  problem: string;
+  against: string;
+  where: string;
+  unit: string;
+  per_watt: number;
+  front: [number, number, number[]][];
+  exaggerated: string;
+  shake: number;
+  held: boolean;
+}
+
+interface RxSettled {
+  power: number[];
+  index: number[];
+}
+
+interface RxDrawnChart {
+  title: string;
+  x: RxDrawnAxis;
+  y: RxDrawnAxis;
+  series: (RxDrawnLine | RxDrawnPoints | RxDrawnBand)[];
+  value: string;
+  note: string;
+  rules?: RxRule[];
+}
+
+interface RxDrawnAxis {
+  label: string;
+  range: [number, number];
+  ticks: [number, string][];
+  log?: boolean;
+  ends?: boolean;
+}
+
+interface RxDrawnLine {
+  kind: 'line';
+  label: string;
+  colour: string;
+  x: (number | null)[];
+  y: (number | null)[];
+  width: number;
+  dashes?: string | null;
+  dots?: boolean;
+  filled?: boolean;
+}
+
+interface RxDrawnPoints {
+  kind: 'points';
+  label: string;
+  colour: string;
+  x: (number | null)[];
+  y: (number | null)[];
+  mark: 'dot' | 'cross' | 'ring';
+  size: number;
+  words?: string[];
+  action?: string;
+  press?: string[];
+  names?: string[];
+  faint?: boolean[];
+  beside?: 'above' | 'below' | 'upward' | null;
+  scatter?: (number | null)[];
+}
+
+interface RxDrawnBand {
+  kind: 'band';
+  label: string;
+  colour: string;
+  x: (number | null)[];
+  low: (number | null)[];
+  high: (number | null)[];
+}
+
+interface RxRule {
+  at: number;
+  to: number | null;
+  label: string;
+  along: 'x' | 'y';
+  colour: string;
+  dashes: string;
+}
+
+interface RxDialMatrix {
+  base: number[];
+  slopes: number[][];
+  second: number[][][];
+  gains: number[];
+  power: number;
+  index: number;
+  inflows: RxDialNumbers[];
+}
+
+interface RxDialNumbers {
+  base: number[];
+  slopes: number[][];
+  second: number[][][];
+  gains: number[];
+  power: number;
+  index: number;
+}
+
+interface RxEarnsPart {
+  kind: 'ready' | 'computing' | 'problem';
+  unit: string;
+  problem: string;
+  mission: string;
+  where: string;
+  bars: RxBar[];
+  against: string;
+  fuel: string;
+  fuel_kind: '' | 'gain' | 'loss';
+  fuel_note: string;
+  mass: string;
+  mass_note: string;
+}
+
+interface RxBar {
+  name: string;
+  value: number;
+  text: string;
+  kind: '' | 'gain' | 'loss';
+  total: boolean;
+}
+
+interface RxFieldPart {
+  fields: string[];
+  field: string;
+  unit: string;
+  colours: string[];
+  ticks: [number, string][];
+  faded: boolean;
+  fitted: boolean;
+  regions: Record<string, boolean>;
+  stalled: string;
+  difference: boolean | null;
+  wipe: boolean;
+  beyond: [boolean, boolean];
+  held: boolean;
+}
+
+interface RxFlightPart {
+  legs: [string, string][];
+  at: number;
+  kind: 'ready' | 'computing' | 'problem';
+  words: string;
+  flown: boolean;
+  frozen: number | null;
+  tip: string;
+  chart: RxDrawnChart;
+}
+
+interface RxHandPart {
+  power: string;
+  change: string;
+  kind: '' | 'good' | 'bad';
+  now: number;
+  before: number;
+  digits: number;
+  place: string;
+  best: RxBest | null;
+  rival: number | null;
+}
+
+interface RxBest {
+  theta: number;
+  power: number;
+  held: boolean;
+}
+
+interface RxSceneLabel {
+  text: string;
+  node: string;
+  at: number[];
+  title: string;
+  kind: string;
+}
+
+interface RxInsetPart {
+  times: number;
+  r: number[];
+  datum: number;
+  ghost_datum: number;
+  theta: number[];
+  ghost: number[] | null;
+  cuts: RxCut[];
+  name: string;
+  name_hint: string;
+  ghost_name: string;
+  ghost_hint: string;
+}
+
+interface RxCut {
+  r: number;
+  outline: number[][];
+  theta: number;
+  ghost: number | null;
+}
+
+interface RxLecturePart {
+  at: number;
+  guess: number | null;
+  answer: RxStepAnswer | null;
+  stop: number;
+  figures: [string, string][];
+  busy: boolean;
+  problem: string;
+  held: boolean;
+  finish: string;
+}
+
+interface RxStepAnswer {
+  right: number;
+  answer: string;
+  chart: RxDrawnChart;
+  dots: [number, number, string][][];
+}
+
+interface RxLiftedLabel {
+  text: string;
+  node: string;
+  at: number[];
+  kind: string;
+}
+
+interface RxNoticePart {
+  text: string;
+  actions: [string, string][];
+}
+
+interface RxPlanPart {
+  picture: string;
+  reach: number;
+  root: number;
+  blades: number;
+  field: string;
+  unit: string;
+  regions: RxPlanRegion[];
+  flight: string;
+  around: RxDrawnChart;
+  mu: number;
+  values: Record<string, RxPackedTable> | null;
+  alpha_a: RxPackedTable | null;
+  held: string | null;
+}
+
+interface RxPlanRegion {
+  name: string;
+  title: string;
+  words: string;
+  lines: number[][][];
+  before: number[][][];
+}
+
+interface RxPackedTable {
+  low: number;
+  step: number;
+  data: string;
+}
+
+interface RxPowerPart {
+  within: string;
+  change_within: string;
+  sure: string;
+  doubt: string;
+  status: RxStatus;
+  total: string;
+  unit: string;
+  change: string;
+  kind: '' | 'good' | 'bad';
+  against: string;
+  parts: RxShare[];
+  ideal: number | null;
+  ideal_title: string;
+  since: RxSince | null;
+  rest: string;
+  why: string;
+  problem: string;
+}
+
+interface RxStatus {
+  kind: 'converged' | 'care' | 'problem';
+  words: string;
+  title: string;
+  measured: string;
+}
+
+interface RxShare {
+  part: string;
+  name: string;
+  value: string;
+  share: number;
+  title: string;
+}
+
+interface RxSince {
+  value: string;
+  words: string;
+  kind: '' | 'good' | 'bad';
+}
+
+interface RxRidePart {
+  r: number;
+  psi: number;
+  out: number;
+  radius: number;
+  section: string;
+  outline: number[][];
+  u: number[];
+  theta: number[];
+  phi: number[];
+  alpha: number[];
+  cl: number[];
+  mach: number[];
+  lift: number[];
+  where: string[];
+  region: string[];
+  margin: (string | null)[];
+  angles: number[];
+  curves: number[][];
+  chart: RxDrawnChart;
+}
+
+interface RxRubberPart {
+  press: number;
+  knot: string;
+  by: string;
+  stations: number[];
+  titles: string[];
+  ends: [number, string][];
+}
+
+interface RxStepPart {
+  name: string;
+  title: string;
+  watch: string;
+  a: string;
+  b: string;
+  question: string;
+  options: string[];
+  todo: string;
+  control: RxStepControl;
+  last: boolean;
+}
+
+interface RxStepControl {
+  label: string;
+  kind: string;
+  words: string[];
+}
+
+interface RxStripChart {
+  name: string;
+  kind: '' | 'good' | 'bad';
+  faded: boolean;
+  chart: RxDrawnChart;
+  speeds: RxSpeeds | null;
+}
+
+interface RxSpeeds {
+  mu: number;
+  fastest: number;
+}
+
+interface RxSupposePart {
+  words: string;
+  kind: '' | 'gain' | 'loss';
+  note: string;
+  chart: RxDrawnChart | null;
+  at: [number, number] | null;
+}
+
+interface RxTurnPart {
+  psi: number;
+  playing: boolean;
+  pace: string;
+  held: boolean;
+}
+
+interface RxTwistPart {
+  chart: RxDrawnChart;
+  knots: RxKnot[];
+  places: RxRoleLines;
+}
+
+interface RxKnot {
+  name: string;
+  title: string;
+  r: number;
+  theta: number;
+}
+
+interface RxRoleLines {
+  this: number;
+  reference: number;
+}
+
+interface RxVibrationPart {
+  title: string;
+  index: string;
+  unit: string;
+  at: string;
+  sentence: string;
+  band: string;
+  change: string;
+  kind: string;
+}
+
+interface RxViewsPart {
+  all: [string, string][];
+  now: string;
+}
+
+interface RxWorth {
+  way: 'up' | 'down' | '';
+  value: string;
+  unit: string;
+  size: number;
+  sentence: string;
+  stale: boolean;
+}
+
+type RxRidePress = [r: number, psi: number];
+
+type RxSupposePress = [tip: number, mass: number];
+
+type RxMapPress = [x: number, y: number];
+
+type RxCoveredPress = [above: number, below: number];
+
+type RxIdlePress = [serial: number, wholly: boolean];
+
+type RxKnotPress = [name: string, change: 'start' | 'end' | 'undo' | RxKnotMove];
+
+type RxKnotMove = [r: number | null, theta: number];
+
+type RxWavePress = [per_rev: number, amplitude: number, phase: number];
+
+declare const RX: {
+  state: RxState;
+  paint<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
+  also<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
+  again(...names: (keyof RxState)[]): void;
+  set(parts: Partial<RxState>): void;
+  send<N extends keyof RxPresses>(name: N, value?: RxPresses[N]): void;
+  [name: string]: any;
+};

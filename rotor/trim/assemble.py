@@ -1,0 +1,136 @@
+"""From where Newton's method ended to a `Solution`: power by parts, areas, fields over the disk, caveats, message."""
+
+import math
+import time
+from functools import partial
+
+from rotor.aero.display import areas, as_asked, stalled_parts
+from rotor.aero.elements import BladeElements
+from rotor.aero.problem import Problem
+from rotor.aero.section import stall_margins
+from rotor.aero.unsteady_section import apparent
+from rotor.columns.flight import disk_sums
+from rotor.engine.waves import wave_grid
+from rotor.trim.forward import course_of
+from rotor.trim.low_speed import vortex_ring
+from rotor.trim.newton import TrimResult
+from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
+from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
+from rotor.trim.validity import Trimmed, caveats, failure_sentence, implausible
+
+_ENERGY = 1e-6
+"""Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
+
+
+def assemble(result: TrimResult, begin: float) -> Solution:
+    """The solution of a trim that began at a time of `time.perf_counter`.
+
+    ValueError where the equations and `power` of further freedoms contradict their columns.
+    """
+    problem, design, elements = result.problem, result.problem.design, result.linear.elements
+    x, states = result.point.x, result.point.system.structure.states
+    total = disk_sums(result.linear.point)
+    shown = as_asked(problem, elements)
+    fields = _fields(*shown)
+    power = power_budget(problem, elements, total)
+    work, said = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
+    if result.converged and problem.freedoms and 1e3 * abs(work - said) > _ENERGY * abs(power.main_rotor):
+        raise ValueError(
+            f"The air gives the motion of the blades {work:.4g} kW, and the freedoms' power says {said:.4g} kW: make "
+            "their columns, equations and power agree."
+        )
+    moment = hub_moment(problem, elements)
+    lift, drag = wind_forces(elements, total)
+    newtons = design.thrust_unit
+    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
+    converged = result.converged
+    message = "Trimmed."
+    if not converged:
+        message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
+    if converged and (refused := implausible(problem, elements, total)):
+        converged, message = False, refused
+    trimmed = Trimmed(
+        problem, total, fields, stalled, moment, power, _elastic(problem, elements, shown), elements.state
+    )
+    climb = design.condition.climb_speed
+    least = 0.0 if climb >= 0.0 else -math.inf
+    if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
+        converged = False
+        message = (
+            f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in "
+            f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
+        )
+    return Solution(
+        design=design,
+        status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
+        message=message,
+        caveats=tuple(caveats(trimmed)) if converged else (),
+        controls=elements.state,
+        disk=fields,
+        last_power=power,
+        hub_moment=moment,
+        ct=total.thrust,
+        lift_and_drag=(lift * newtons, drag * newtons),
+        cp=power.main_rotor / (newtons * design.rotor.tip_speed),
+        reverse_flow_area=reverse,
+        stalled_area=stalled,
+        stalled_thrust=stalled_thrust,
+        residual=result.residual,
+        passes=result.passes,
+        elapsed=time.perf_counter() - begin,
+        elastic=trimmed.elastic,
+        start=result.guess,
+        wake_course=course_of(problem),
+        linear=result.linear,
+        freedoms=problem.freedoms,
+        freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
+    )
+
+
+def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
+    """shown: both on the azimuths of the solution."""
+    structure = problem.design.rotor.blade.structure
+    if problem.torsion is None or elements.torsion is None or structure is None:
+        return None
+    coordinates, torsion = elements.torsion.coordinates, problem.torsion
+    moment, power = control_loads(*shown)
+    if shown[0] is not problem:
+        _, power = control_loads(problem, elements)
+    return ElasticTwist(
+        coordinates=coordinates,
+        shapes=torsion.radial,
+        frequencies=torsion.frequency,
+        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(shown[0].disk.psi)).at,
+        along_blade=elements.torsion.twist.mean(axis=1),
+        control_moment=moment,
+        pitch_link_load=moment / structure.pitch_horn,
+        control_power=power * problem.design.power_unit,
+    )
+
+
+_SHOWN = ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+"""Fields of `DiskFields` that are those of the blade elements."""
+
+
+def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
+    disk, e = problem.disk, elements
+    return DiskFields(
+        r=disk.r,
+        dr=disk.dr,
+        psi=disk.psi,
+        **{name: getattr(e, name) for name in _SHOWN},
+        inflow=e.induced + e.flow.mu_z,
+        stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
+        dct=e.fz,
+        dcq=e.fx,
+        elastic_twist=e.torsion.twist if e.torsion is not None else None,
+        unsteady=e.unsteady,
+        find_apparent=partial(apparent, e, problem.half_chord) if problem.unsteady else None,
+    )
+
+
+def _stalled(result: TrimResult, last: float) -> float:
+    """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
+    if result.nearest is None:
+        return last
+    return stalled_parts(result.nearest.problem, result.nearest.linear.elements)[0]

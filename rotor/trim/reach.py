@@ -1,0 +1,76 @@
+"""How far a rotor trims: what is too much stall, and the mass and speed up to which there is less of it."""
+
+import math
+from dataclasses import replace
+
+from scipy.optimize import brentq
+
+from rotor.aero.display import stalled_parts
+from rotor.aero.problem import Problem
+from rotor.design.quantities import CONDITION
+from rotor.trim.forward import FOLLOWING_PASSES, easier_condition, trim_on_course
+from rotor.trim.low_speed import trim_problem
+from rotor.trim.newton import SolverOptions, TrimResult, newton
+from rotor.trim.solution import Solution
+from rotor.trim.validity import MOST_STALLED
+
+_WITHIN = 0.02
+"""How near the largest mass and speed are found, as a part of the way to them."""
+_NO_TRIM = 2.0 * MOST_STALLED
+"""Stalled part of the thrust that stands for no trim there."""
+_SLOW = 0.15
+"""Advance ratio from which the largest speed is looked for: the least power is near it."""
+
+
+def stall_limit(problem: Problem) -> float:
+    """Stalled part of the thrust beyond which trims do not count."""
+    by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
+    return math.inf if by_document else MOST_STALLED
+
+
+def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:
+    """Mass and advance ratio to which the trim can be followed with no more of the thrust stalled; None where not."""
+    condition = solution.design.condition
+    if condition.stand is not None:
+        return None, None
+    easy = easier_condition(solution.design, 0.0)
+    slow = min(easy.advance_ratio, _SLOW)
+    wanted = {"mass_kg": (easy.mass, condition.mass), "mu": (slow, condition.advance_ratio)}
+    mass, mu = (_reach(solution, name, *ends, options) for name, ends in wanted.items())
+    return mass, mu
+
+
+def _stalled_thrust(result: TrimResult) -> float:
+    """Stalled part of the thrust of a trim; of none, too much."""
+    return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _NO_TRIM
+
+
+def _reach(solution: Solution, name: str, easy: float, wanted: float, options: SolverOptions) -> float | None:
+    """How far from an easy value of a quantity towards the one wanted it trims; None where not even there."""
+    freedoms, few = solution.freedoms, replace(options, max_passes=FOLLOWING_PASSES)
+
+    def problem_at(value: float) -> Problem:
+        return trim_problem(CONDITION[name].put(solution.design, value), freedoms)
+
+    if easy >= wanted:
+        return None
+    result = trim_on_course(problem_at(easy), None, options)
+    if _stalled_thrust(result) > MOST_STALLED:
+        return None
+    trims = {easy: result}
+
+    def too_much(value: float) -> float:
+        """Stalled part of the thrust over what counts; what is wanted has too much, and so has what does not trim."""
+        near = trims[max(trims)]
+        if value == easy:
+            return _stalled_thrust(near) - MOST_STALLED
+        if value == wanted or options.asked_to_stop:
+            return _NO_TRIM - MOST_STALLED
+        ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
+        share = _stalled_thrust(ahead)
+        if share <= MOST_STALLED:
+            trims[value] = ahead
+        return share - MOST_STALLED
+
+    brentq(too_much, easy, wanted, xtol=_WITHIN * abs(wanted - easy), rtol=_WITHIN)
+    return max(trims)

@@ -1,0 +1,73 @@
+"""Actuate without a page: what its panels are functions of, and what a press does to it."""
+
+import math
+from collections.abc import Hashable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import SessionState
+from explorer.parts.actuate import DialNumbers
+from explorer.views.now import Drag, Effect, Hand, Now, Panel, Put, SetActuator, SetHand, Ui
+from explorer.workers.call import Call
+from rotor.design import Harmonic
+from rotor.trim.solve import solve
+
+
+def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> Now:
+    """The page in Actuate with this design, the blade lifted out; `hand`: fields of `Hand`."""
+    own = Hand(**{"lifted": True, **hand})
+    design = inputs.design()
+    solution = solve(own.actuator.apply(design)).require()
+    state = SessionState(inputs, ViewState(), solution, solution, None)
+    return Now(inputs, design, state, ui=Ui("actuate"), hand=own, answers=answers or {})
+
+
+def asked(panel: Panel, now: Now) -> dict[str, Call]:
+    """What is asked, by the names of the functions; the first of each."""
+    calls = [call for one in panel.asks(now) for call in one.calls]
+    return {call.function.__name__: call for call in reversed(calls)}
+
+
+def told(panel: Panel, now: Now, **answers: Any) -> Now:
+    """With answers to what it asks, by the names of the functions."""
+    calls = asked(panel, now)
+    return replace(now, answers={**now.answers, **{calls[name]: answer for name, answer in answers.items()}})
+
+
+def done(now: Now, effects: tuple[Effect, ...]) -> Now:
+    """What effects leave behind: sliders, the hand, widgets of the actuator in whole per cent."""
+    for effect in effects:
+        match effect:
+            case Drag(inputs) | Put(inputs):
+                now = replace(now, inputs=inputs)
+            case SetHand(changes):
+                now = replace(now, hand=replace(now.hand, **changes))
+            case SetActuator(changes):
+                whole = {"drives": tuple(map(round, changes["drives"]))} if "drives" in changes else {}
+                actuator: ActuatorInputs = replace(now.hand.actuator, **{**changes, **whole})
+                now = replace(now, hand=replace(now.hand, actuator=actuator))
+            case _:
+                pass
+    return now
+
+
+def vector(waves: tuple[Harmonic, ...]) -> np.ndarray:
+    """Cosine and sine part of each harmonic of the dial [°]."""
+    x = np.zeros((4, 2))
+    for one in waves:
+        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array([math.cos(one.phase), math.sin(one.phase)])
+    return x.ravel()
+
+
+def foreseen(answer: DialNumbers, waves: tuple[Harmonic, ...]) -> tuple[float, float]:
+    """Changes of power and index [%], by the formulas of `dial.js`, written again."""
+    x = vector(waves)
+    base, slopes, second, gains = (np.array(one) for one in (answer.base, answer.slopes, answer.second, answer.gains))
+    values = base + slopes @ x + 0.5 * np.einsum("kij,i,j->k", second, x, x)
+    sizes = (gains * np.hypot(values[0:10:2], values[1:10:2])) ** 2
+    index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
+    return 100.0 * (values[10] / answer.power - 1.0), 100.0 * (index / answer.index - 1.0)

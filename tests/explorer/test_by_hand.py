@@ -1,0 +1,196 @@
+"""What a hand does to a page, sent as a browser sends it: one undo for a drag, nothing on a page that is held."""
+
+import asyncio
+from collections.abc import Callable, Coroutine, Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from explorer.app import App
+from explorer.hosting.messages import PRESSES
+from explorer.model import undo
+from explorer.model.inputs import OPENING
+from explorer.page import Page
+from explorer.sharing.presentation import follow_name
+from explorer.sharing.share import code_of
+from tests.tools.visitor import Visitor, ran
+
+SENT: dict[str, Any] = {
+    "along": False,
+    "hold": True,
+    "field": "Lift",
+    "region": "stall",
+    "mode": "actuate",
+    "drawer": "open",
+    "task": "Map",
+    "opened": "History",
+    "rotor": "r22",
+    "flown": "dnw",
+    "default": "Δ inboard [°/R]",
+    "story": 2,
+    "guess": 0,
+    "stop": 1,
+    "dial_front": 2,
+    "grab_at": 1.0,
+    "twist_by_hand": 1.0,
+    "speed": 0.3,
+    "difference": "on",
+    "more": "on",
+    "ride": [0.8, 90.0],
+    "azimuth": 30.0,
+    "fly": 1.5,
+    "suppose": "on",
+    "map_at": [0.2, 0.8],
+    "pull": 0.5,
+    "wiped": 0.4,
+    "covered": [0.1, 0.2],
+    "view": "disk",
+    "colours": "Rescale",
+    "lecture": "next",
+    "knot": ["2", [None, -5.0]],
+    "dial": [[3, 1.0, 60.0]],
+}
+"""A value for each press that has one."""
+BEGUN = "Δ inboard [°/R]"
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def visited(app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]], query: str = "") -> None:
+    """Do this on a page of the server."""
+
+    async def visit() -> None:
+        visitor = Visitor(query=query)
+        await visitor.open(app.address)
+        await visitor.until(lambda: visitor.text("status") == "converged")
+        await visitor.idle(wholly=False)
+        try:
+            await act(visitor, app.sessions[-1].page)
+        finally:
+            await visitor.close()
+        while app.sessions:
+            await asyncio.sleep(0.02)
+
+    ran(visit)
+
+
+def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(undo, "PAUSE", 0.1)
+
+    async def drag(visitor: Visitor, page: Page) -> None:
+        await visitor.press("hold", True)
+        for value in (-1.0, -2.0, -1.5):
+            await visitor.move(BEGUN, value)
+            await visitor.idle(wholly=False)
+            await asyncio.sleep(0.3)
+        await visitor.press("hold", False)
+        await asyncio.sleep(0.3)
+        await visitor.move(BEGUN, -3.0)  # Another drag, by key.
+        await visitor.idle(wholly=False)
+        for left in (-1.5, 0.0):
+            assert visitor.frame["bar"]["undo"]
+            await visitor.press("undo")
+            await visitor.idle(wholly=False)
+            assert page.controls.inputs().built_inner == left
+        assert not visitor.frame["bar"]["undo"]
+
+    visited(app, drag)
+
+
+def flown(page: Page) -> tuple[object, ...]:
+    """All that a presenter leads."""
+    view, actuator = page.display.view(), page.actuator
+    place, drives = actuator.pay.on_stage, actuator.inputs().drives
+    return (page.controls.inputs(), page.pin, page.optimise.run, page.rival.solution, place, drives, view.field,
+            view.difference, page.lecture.place)  # fmt: skip
+
+
+def test_no_press_changes_a_page_that_a_presenter_holds(app: App):
+    assert {name for name, kind in PRESSES.items() if kind is not None} == {*SENT, "idle"}
+
+    async def press(visitor: Visitor, page: Page) -> None:
+        before = flown(page)
+        for name in PRESSES.keys() - {"idle"}:
+            await visitor.press(name, SENT.get(name))
+            await visitor.idle(wholly=False)
+            assert (name, flown(page)) == (name, before)
+
+    visited(app, press, f"?follow={follow_name('nobody')}")
+
+
+def test_presses_change_a_page_that_is_free(app: App):
+    """Else the test above could not fail."""
+
+    async def press(visitor: Visitor, page: Page) -> None:
+        for name in ("pin", "speed", "rotor", "undo", "suppose"):
+            before = flown(page)
+            await visitor.press(name, SENT.get(name))
+            await visitor.idle(wholly=False)
+            assert (name, flown(page)) != (name, before)
+
+    visited(app, press)
+
+
+@pytest.mark.slow
+def test_without_a_trim_the_last_numbers_stay_and_one_press_leads_back(app: App):
+    async def lose(visitor: Visitor, page: Page) -> None:
+        last = visitor.frame["power"]["total"]
+        await visitor.move("Adv. ratio µ", 0.44)
+        await visitor.idle(wholly=False)
+        lost = page.controls.inputs()
+        assert visitor.text("status") == "problem"
+        assert visitor.frame["power"]["total"] == last
+        assert all(one["faded"] for one in visitor.frame["strip"] if one)
+        await visitor.press("nearest")
+        await visitor.idle(wholly=False)
+        assert visitor.text("status") == "converged"
+        await visitor.press("undo")
+        await visitor.idle(wholly=False)
+        assert visitor.text("status") == "problem"
+        assert page.controls.inputs() == lost
+
+    visited(app, lose, f"?d={code_of(replace(OPENING, mass_t=11.0, altitude_m=2000.0).design())}")
+
+
+def test_a_swap_by_one_press_is_one_swap(app: App):
+    async def swap(visitor: Visitor, page: Page) -> None:
+        await visitor.press("pin")
+        await visitor.idle(wholly=False)
+        await visitor.move(BEGUN, -3.0)
+        await visitor.idle(wholly=False)
+        for a, b in ((-3.0, 0.0), (0.0, -3.0)):
+            await visitor.press("swap")
+            await visitor.idle()
+            assert page.pin is not None
+            assert (page.pin.inputs.built_inner, page.controls.inputs().built_inner) == (a, b)
+
+    visited(app, swap)
+
+
+def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
+    async def load(visitor: Visitor, page: Page) -> None:
+        await visitor.press("pin")
+        await visitor.move(BEGUN, -3.0)
+        await visitor.idle(wholly=False)
+        shown = visitor.frame["power"]["total"]
+        again = visitor.again()
+        await again.open(app.address)
+        await again.until(lambda: again.text("status") == "converged")
+        await again.idle(wholly=False)
+        loaded = app.sessions[-1].page
+        assert loaded is not page
+        assert loaded.controls.inputs() == page.controls.inputs()
+        assert again.frame["power"]["total"] == shown
+        assert again.frame["bar"]["pinned"]
+        await again.press("undo")
+        await again.idle(wholly=False)
+        assert loaded.controls.inputs() == OPENING
+        await again.close()
+
+    visited(app, load)

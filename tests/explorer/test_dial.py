@@ -1,0 +1,120 @@
+"""The dial of twist at n/rev without a page: every stage of it, what it asks, and what its presses do."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from explorer.hosting.messages import WavePress
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs, with_rotor
+from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, Settled
+from explorer.views.dial import DIAL, act, take_dot
+from explorer.views.dial_answer import DialAnswer, FrontDot
+from explorer.views.now import Drag, Grab, Now, Put, Ui
+from rotor import Design
+from rotor.actuator import EffectInFlight
+from rotor.design.active_twist import Harmonic, read_harmonics
+from tests.actuate import actuate, asked, told
+
+BENDING = Inputs(law="builtin", advance_ratio=0.3, bending=True)
+AS_BUILT = ActuatorInputs(against="as-built")
+NUMBERS = DialNumbers([0.0], [[0.0]], [[[0.0]]], [0.0], 1e6, 5.0)
+WAVES = (Harmonic(2, math.radians(0.804), 4.0), Harmonic(3, math.radians(0.5), 0.8))
+DOTS = (FrontDot((), -0.5, 3.0, (1.0, 4.0)), FrontDot(WAVES, 0.4, -60.0, (-70.0, 20.0)))
+ANSWER = DialAnswer(DialMatrix(**vars(NUMBERS), inflows=(NUMBERS, NUMBERS)), DOTS)
+MOVED = EffectInFlight((1500.0, 900.0), (-20.004, 3.0))
+
+
+def dial(now: Now) -> DialPart:
+    return DIAL.view(now)["dial"]
+
+
+@pytest.fixture(scope="module")
+def asking() -> Now:
+    """Against the blade as built, which needs no verdict."""
+    return actuate(BENDING, actuator=AS_BUILT)
+
+
+@pytest.fixture(scope="module")
+def answered(asking: Now) -> Now:
+    return told(DIAL, asking, dial_answer=ANSWER, effect=MOVED)
+
+
+def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
+    """The best fixed blade is found by the verdict."""
+    unknown = replace(asking, hand=replace(asking.hand, actuator=ActuatorInputs()))
+    assert asked(DIAL, unknown) == {}
+    assert (dial(unknown).computing, dial(unknown).against) == (True, "the best fixed blade")
+    assert (dial(asking).computing, dial(asking).settled, dial(asking).against) == (True, None, "the blade as built")
+    assert [(one.urgency, one.delay) for one in DIAL.asks(asking)] == [(3, 0.4)]
+    designs = [one.twist for one in asked(DIAL, asking)["effect"].arguments if isinstance(one, Design)]
+    assert designs == [BENDING.design().twist] * 2
+    assert list(asked(DIAL, asking)) == ["dial_answer", "effect"]  # The trim is asked first.
+
+
+def test_what_is_answered_is_shown(answered: Now):
+    shown = DIAL.view(answered)
+    assert shown == DIAL.view(replace(answered))
+    assert shown["dial_matrix"] is ANSWER.numbers
+    one = dial(answered)
+    assert one.settled == Settled((1.5, 0.9), (-20.0, 3.0))
+    assert (one.computing, one.words, one.problem, one.held) == (False, "", "", False)
+    assert [dot[:2] for dot in one.front] == [(-0.5, 3.0), (0.4, -60.0)]
+    assert one.front[0][2] == (0.0,) * 8
+    assert one.whole > 0.5
+    assert (one.room, one.steady) == (1.0, False)
+    assert dial(replace(answered, ui=Ui("actuate", held=True))).held
+
+
+def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered: Now):
+    driven = replace(answered, hand=replace(answered.hand, actuator=replace(AS_BUILT, drives=(50.0,) * 4)))
+    assert dial(driven).steady
+    assert dial(driven).room < 1.0
+    wide = replace(answered, inputs=replace(BENDING, twist_per_rev=read_harmonics("3:2.2:60", "test")))
+    assert dial(wide).reach == 3.0
+    assert dial(wide).now == ((3, 2.2, 60.0),)
+
+
+def test_what_fails_is_a_sentence(answered: Now):
+    calls = asked(DIAL, answered)
+    failed = replace(answered, answers={calls["effect"]: "No trim.", calls["dial_answer"]: "No response."})
+    assert (dial(failed).problem, dial(failed).words, dial(failed).computing) == ("No trim.", "No response.", False)
+    slow = actuate(replace(BENDING, advance_ratio=0.02), actuator=AS_BUILT)
+    assert "No hub loads below" in dial(slow).words
+    assert list(asked(DIAL, slow)) == ["effect"]
+    untrimmed = replace(answered, problem="No trim there.")
+    assert list(DIAL.view(untrimmed)) == ["actuator.per_rev"]  # The last answer stays.
+    assert asked(DIAL, untrimmed) == {}
+
+
+def test_a_blade_that_carries_no_actuator_is_compared_with_itself():
+    other = actuate(with_rotor(BENDING, "s61"))
+    assert (dial(other).against, dial(other).whole, dial(other).room) == ("the same blade at rest", 0.0, 0.0)
+    assert "effect" in asked(DIAL, other)
+
+
+def test_it_says_what_is_set_that_it_does_not_show(asking: Now):
+    """By a file too, at harmonics that the dial does not have."""
+    assert "Active" not in DIAL.view(asking)["actuator.per_rev"]
+    waves, pitch = read_harmonics("8:15:20", "test"), read_harmonics("3:1.5:180", "test")
+    shaped = replace(BENDING, twist_per_rev=waves, pitch_per_rev=pitch, active_shape=((0.3, 1.0), (0.0, 1.0)))
+    words = DIAL.view(replace(asking, inputs=shaped))["actuator.per_rev"]
+    for part in ("Active twist of 15.00° at 8/rev", "root pitch of 1.50° at 3/rev", "shape of its design file"):
+        assert part in words
+
+
+def test_the_dot_is_taken_dragged_and_let_go(asking: Now):
+    assert act(asking, "start") == (Grab(True),)
+    (drag,) = act(asking, [WavePress(3, 0.75, 60.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
+    assert isinstance(drag, Drag)
+    assert drag.inputs == replace(BENDING, twist_per_rev=(Harmonic(3, math.radians(0.75), math.radians(60.0)),))
+    assert act(replace(asking, inputs=drag.inputs), [WavePress(3, 0.75, 60.0)]) == ()
+    assert act(asking, "end") == (Grab(False),)
+
+
+def test_a_dot_of_the_front_is_put_with_the_digits_shown(answered: Now, asking: Now):
+    (put,) = take_dot(answered, 1)
+    assert isinstance(put, Put)
+    assert [round(math.degrees(wave.amplitude), 6) for wave in put.inputs.twist_per_rev] == [0.8, 0.5]
+    assert take_dot(answered, 2) == take_dot(asking, 0) == ()
