@@ -54,13 +54,13 @@ from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
-from explorer.views.waterfall import WATERFALL
+from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, ACTUATOR, FLIGHT, PAY, DIAL)
+PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, ACTUATOR, FLIGHT, PAY, DIAL)
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 

@@ -57,18 +57,20 @@ class Follower:
         A result is kept while it is wanted, and work that is interrupted goes on the next time.
         """
         now = self._now()
-        wanted = [(panel, work) for panel in self._panels if panel.seen(now.ui) for work in panel.works(now)]
-        works = {work.key: work for _, work in reversed(wanted)}
-        self._begun = {key: self._begun.get(key, work) for key, work in works.items()}
-        self._done = {key: result for key, result in self._done.items() if key in works}
-        for panel, work in wanted:
-            if work.soon != soon or work.key in self._done:
+        wanted: dict[Hashable, tuple[Work, list[Panel]]] = {}
+        for panel in self._panels:
+            for work in panel.works(now) if panel.seen(now.ui) else ():
+                wanted.setdefault(work.key, (self._begun.get(work.key, work), []))[1].append(panel)
+        self._begun = {key: work for key, (work, _) in wanted.items()}
+        self._done = {key: result for key, result in self._done.items() if key in wanted}
+        for key, (work, panels) in wanted.items():
+            if work.soon != soon or key in self._done:
                 continue
-            show = partial(self._show, lambda one, own=panel: one is own)
-            result = self._begun[work.key].run(superseded, show)
+            show = partial(self._show, panels.__contains__)
+            result = work.run(superseded, show)
             if result is None:
                 return
-            self._done = {**self._done, work.key: result}
+            self._done = {**self._done, key: result}
             self.memory = replace(self.memory, latest={**self.memory.latest, work.name: result})
             show()
 

@@ -160,18 +160,28 @@ def steps_asked(now: Now) -> tuple[Steps, ...]:
 
 
 def waterfall(now: Now) -> dict[str, Any]:
-    """The drawing in its drawer, and what each switch costs beside it. The last ones stay, greyed, until those of the
-    design on the page are known."""
+    """The drawing. The last one stays, greyed, until that of the design on the page is known."""
+    steps, current = _known(now)
+    drawn = waterfall_chart(steps[:_CLIMB], now.units)
+    return {"details.waterfall": drawn if not steps or (current and not now.problem) else readout.faded(drawn)}
+
+
+def costs(now: Now) -> dict[str, Any]:
+    """What each switch costs, beside it; the last known stays."""
+    alone = _known(now)[0][_CLIMB:]
+    words = {step.switch.name: cost_words(step, now.units) for step in alone if step.switch is not None}
+    return {"switch.costs": words} if words else {}
+
+
+def _known(now: Now) -> tuple[tuple[WaterfallStep, ...], bool]:
+    """The last steps known, and whether they are of the design on the page."""
     asked = steps_asked(now)
     steps, current = now.latest(asked[0]) if asked else (None, False)
-    if steps is None:
-        return {"details.waterfall": waterfall_chart(())}
-    drawn = waterfall_chart(steps[:_CLIMB], now.units)
-    costs = {step.switch.name: cost_words(step, now.units) for step in steps[_CLIMB:] if step.switch is not None}
-    return {"details.waterfall": drawn if current and not now.problem else readout.faded(drawn), "switch.costs": costs}
+    return steps or (), current
 
 
-WATERFALL = Panel(waterfall, works=steps_asked)
+WATERFALL = Panel(waterfall, lambda ui: ui.drawer == "details", works=steps_asked)
+COSTS = Panel(costs, works=steps_asked)
 
 
 def cost_words(step: WaterfallStep, units: Units) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -153,6 +154,15 @@ class TestWork:
         mu = OPENING.advance_ratio
         told = [(None, False, 1), (None, False, 2), (None, False, 3), (mu, True, 3)]
         assert page.sent == [{name: value} for name in ("power", "strip") for value in told]
+
+    def test_every_panel_that_wants_it_shows_what_was_done_once(self, steps: list[str]):
+        work = Counting("power", 1.0, True, steps)
+        views = [partial(lambda name, now: {name: work.key in now.answers}, name) for name in ("power", "strip")]
+        page = Page(*(Panel(view, works=lambda now: (work,)) for view in views))
+        page.follower._now = lambda: replace(NOW, answers=page.follower.answers())
+        page.follower.work(lambda: False, soon=True)
+        assert steps == ["power"] * 3
+        assert page.sent[-1] == {"power": True, "strip": True}
 
     def test_of_a_panel_that_is_not_seen_nothing_is_done(self, page: Page, steps: list[str]):
         page.now = NOW

@@ -21,6 +21,7 @@ from explorer.views.inset import blade_inset
 from explorer.views.now import Counted, HeldStation, Now, Panel, Ui, Work
 from explorer.views.power import hand, power_card, sureness
 from explorer.views.strip import remember_ranges, strip
+from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -102,9 +103,9 @@ def test_a_panel_shows_the_same_of_what_is_the_same(name: str):
 
 def test_drawers_that_are_closed_are_not_viewed():
     def opened(drawer: str) -> list[Panel]:
-        return [panel for panel in (DETAILS, TRUST) if panel.seen(Ui(drawer=drawer))]
+        return [panel for panel in (DETAILS, TRUST, WATERFALL) if panel.seen(Ui(drawer=drawer))]
 
-    assert (opened(""), opened("details"), opened("trust")) == ([], [DETAILS], [TRUST])
+    assert (opened(""), opened("details"), opened("trust")) == ([], [DETAILS, WATERFALL], [TRUST])
 
 
 class TestWhileADragGoesOn:
