@@ -47,13 +47,6 @@ SECTIONS = {"optimise": ("Search", "Map", "Schedule"), "open": ("Files", "Histor
 SIZE = (1280, 720)
 
 
-def unfold(watched: Watched) -> None:
-    folders = watched.page.locator("[data-dock-group] svg.tabler-icon-chevron-down:visible")
-    while closed := folders.count():
-        folders.first.click()
-        watched.until(lambda closed=closed: folders.count() != closed)
-
-
 def faults(watched: Watched) -> dict[str, list[str]]:
     """What is wrong, by place, with every folder open."""
     found: dict[str, list[str]] = {}
@@ -62,7 +55,7 @@ def faults(watched: Watched) -> dict[str, list[str]]:
         for section in SECTIONS.get(place, ("",)):
             if section:
                 watched.section(section)
-            unfold(watched)
+            watched.open_folders()
             watched.answered()
             wrong = watched.page.evaluate(_FAULTS)
             if wrong:  # What is wrong only while the page lays itself out does not count.

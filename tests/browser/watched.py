@@ -72,6 +72,13 @@ class Watched:
             self.page.evaluate("() => RX.send('more', 'on')")
             self.row(label).wait_for()
 
+    def open_folders(self) -> None:
+        """All of the rail and of the drawer that is open."""
+        folders = self.page.locator("[data-dock-group] svg.tabler-icon-chevron-down:visible")
+        while closed := folders.count():
+            folders.first.click()
+            self.until(lambda closed=closed: folders.count() != closed)
+
     def press(self, label: str, key: str, times: int = 1) -> None:
         self.unfold(label)
         self.row(label).get_by_role("slider").focus()
