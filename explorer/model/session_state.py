@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from explorer.model.inputs import FLIGHT, Inputs, ViewState
-from explorer.workers.solver import BaselineCache
+from explorer.workers.solver import BaselineCache, Solve
 from rotor import Design, Solution, solve
 from rotor.design import SumTwist
 from rotor.design.quantities import BESIDE
@@ -85,13 +85,13 @@ def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution 
 class Pinboard:
     """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
 
-    def __init__(self) -> None:
+    def __init__(self, by: Solve = solve) -> None:
         self.pinned: Pinned | None = None
         self.answer: Solution | None = None
         """A's, as last compared; it may not have converged."""
         self._asked: deque[Order] = deque()
         self._put: deque[Inputs | None] = deque()
-        self._known = BaselineCache()
+        self._by, self._known = by, BaselineCache(by=by)
 
     def ask(self, order: Order) -> None:
         """A button was pressed; takes effect in the next update."""
@@ -109,7 +109,7 @@ class Pinboard:
         outcome = None
         while self._put:
             given = self._put.popleft()
-            answer = None if given is None else solve(given.design())
+            answer = None if given is None else self._by(given.design(), None)
             self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
         while self._asked and (outcome is None or outcome.inputs is None):
             outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
@@ -121,7 +121,8 @@ class Pinboard:
         if pinned is not self.pinned:
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
-            self._known = BaselineCache() if pinned is None else BaselineCache(pinned.solution.design, pinned.solution)
+            design, solution = (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
+            self._known = BaselineCache(design, solution, self._by)
 
     def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.

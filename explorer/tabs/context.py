@@ -17,9 +17,9 @@ from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
-from rotor import Solution
+from rotor import Design, Solution
 from rotor.processes import Processes
-from rotor.trim import Analysis
+from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 from rotor.user_input import brief
 
 _log = logging.getLogger(__name__)
@@ -59,10 +59,18 @@ class Analyses:
     def __init__(self) -> None:
         self._kept: tuple[Analysis, ...] = ()
 
+    def solve(
+        self, design: Design, start: Solution | None = None, options: SolverOptions = DEFAULT_OPTIONS
+    ) -> Solution:
+        """As `rotor.solve`; the equations are kept for slopes."""
+        return self._keep(analyse(design, start, options)).solution
+
     def of(self, solution: Solution) -> Analysis:
-        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
-        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
-        return found
+        return self._keep(next((one for one in self._kept if one.solution is solution), None) or Analysis(solution))
+
+    def _keep(self, analysis: Analysis) -> Analysis:
+        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_SHOWN]
+        return analysis
 
 
 class TabContext:
@@ -77,7 +85,7 @@ class TabContext:
         self.analyses = Analyses()
         self.bridge = Bridge(client)
         self.keyboard = Keyboard(client)
-        self.pinboard = Pinboard()
+        self.pinboard = Pinboard(self.analyses.solve)
         self.tracker = PowerTracker()
         self.wake, self.state = callbacks.wake, callbacks.state
         self.held = False

@@ -28,11 +28,12 @@ from explorer.picture.picture import (
 )
 from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel
+from explorer.tabs.context import Analyses
 from explorer.tabs.vibration_panel import VibrationPanel
 from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import HubLoads, Solution
 from rotor.trim.solve import solve
@@ -54,7 +55,7 @@ def straight() -> Solution:
 
 @pytest.fixture(scope="module")
 def loads(bent: Solution) -> HubLoads:
-    found = hub_loads(bent, solve, band=False)
+    found = hub_loads(bent, band=False)
     assert found is not None
     return found
 
@@ -72,7 +73,7 @@ class TestDrawnBlade:
     @pytest.mark.parametrize("psi", [0.4, 2.0, 5.1])
     def test_it_is_moved_by_ten_times_what_the_trim_says(self, bent: Solution, psi: float):
         """Against displacements by which hub loads are tested, less flapping; a flapped blade is 4° steep: 1 %."""
-        adjoint = Adjoint(bent)
+        adjoint = Analysis(bent).adjoint
         b = adjoint.problem.bending
         assert b is not None
         q, _ = coordinates_of(b, adjoint.point.system.structure, adjoint.point.z)
@@ -120,7 +121,7 @@ class TestIndexOverSpeed:
         assert told[0] == len(SPEEDS) - 4
         assert told[-1] == 0
         at = make_design(case=bent.design, mu=SPEEDS[6])
-        alone = hub_loads(solve(at).require(), solve, band=False)
+        alone = hub_loads(solve(at).require(), band=False)
         assert alone is not None
         assert known[6] == pytest.approx(alone.index, rel=1e-3)
         chart = index_chart(curves, bent, bent, known[4])
@@ -141,6 +142,7 @@ class Page:
         self.switch = ""
         strip: Any = SimpleNamespace(show_vibration=self.charts.append, vibration_range=lambda: (None, "reference"))
         context: Any = SimpleNamespace(
+            analyses=Analyses(),
             bridge=SimpleNamespace(set=self.shown.update),
             controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
         )
@@ -179,7 +181,7 @@ class TestPanel:
         page.show(twisted, pinned=straight)
         assert page.shown["vibration"]["change"] == ""
         page.panel.solve_deferred(lambda: False)
-        row, of_a = page.shown["vibration"], hub_loads(bent, solve, band=False)
+        row, of_a = page.shown["vibration"], hub_loads(bent, band=False)
         assert of_a is not None
         assert row["change"].endswith(f"% vs. A ({of_a.index:.1f})")
         percent = float(row["change"].split()[0].replace("−", "-"))
@@ -207,7 +209,7 @@ class TestPanel:
         def never(*_: Any, **__: Any) -> None:
             raise AssertionError("computed without bending")
 
-        for module, names in ((vibration_panel, ("hub_loads", "solve", "deflections")), (vibration, ("solve",))):
+        for module, names in ((vibration_panel, ("hub_loads", "solve")), (vibration, ("analyse",))):
             for name in names:
                 monkeypatch.setattr(module, name, never)
         page.show(straight)
