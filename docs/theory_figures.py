@@ -19,7 +19,7 @@ from rotor.airfoil.sections import load_section
 from rotor.assets import asset_path
 from rotor.chart import AZIMUTH, COLOURS, Axis, Chart, Line, Points
 from rotor.study.series import waterfall
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 
 SPEEDS = np.arange(0.08, 0.361, 0.04)
 MU = "advance ratio µ"

@@ -15,7 +15,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import Bridge, set_query
 from explorer.hosting.messages import IdlePress, PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import FailedTrim, Pinned, Reading, SessionState
+from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
 from explorer.parts.stage import SceneLabel
@@ -94,8 +94,20 @@ class Page:
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
         with layout.in_mode("explore"):
             self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
+        analyses = Analyses()
+        pinboard, controls = Pinboard(analyses.solve), self.controls
         context = self.context = TabContext(
-            client, bridge, keyboard, layout, self.display, self.controls, tracker, shared.pool, callbacks
+            client,
+            bridge,
+            keyboard,
+            layout,
+            self.display,
+            controls,
+            tracker,
+            analyses,
+            pinboard,
+            shared.pool,
+            callbacks,
         )
         with banner:
             secret = facts.kept.get(PRESENT, "")

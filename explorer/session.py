@@ -6,7 +6,7 @@ A slider step takes these steps; `_update` is the path:
 2. `NewestWins` runs `_update` on one of a few threads; wakes in between need only one more run.
 3. read: `page.read` turns the widgets into `Inputs` and `ViewState`.
 4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
-5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution.
+5. solve: `rotor.trim.analyse` trims the design, starting from the last converged solution.
 6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
 7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
@@ -39,7 +39,7 @@ from explorer.tabs.context import SharedServices
 from explorer.tabs.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
-from rotor import Solution, solve
+from rotor import Solution
 from rotor.blas_threads import one_blas_thread
 from rotor.trim import DEFAULT_OPTIONS
 
@@ -63,7 +63,6 @@ class Session:
         """Set once the page has its first solution, or the sentence why there is none."""
         self._all_changed = True
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
-        self._baseline = solver.BaselineCache()
         self._curves = PowerCurves()
         self._begun = -math.inf
         """When the last update began."""
@@ -72,6 +71,7 @@ class Session:
         self._client = client
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
         self.page = Page(client, start, facts, shared, callbacks)
+        self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
         self.page.answer_when_idle(self._until_idle)
@@ -139,7 +139,9 @@ class Session:
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
-            answer = solve(design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken))
+            answer = self.page.context.analyses.solve(
+                design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken)
+            )
             if not answer.converged and self._overtaken():
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
             self._latest = answer
@@ -224,6 +226,6 @@ class Session:
         self._shown.set()
         self._latest = self._good = None
         self._all_changed = True
-        self._baseline, self._curves = solver.BaselineCache(), PowerCurves()
+        self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()
         _log.error("an update failed", exc_info=error)
         self.page.show_error(f"This update failed ({error}): move any slider to go on.")

@@ -47,6 +47,7 @@ from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.doubt import doubt
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
@@ -77,6 +78,7 @@ __all__ = (
     "doubt",
     "envelope",
     "failure",
+    "hub_loads",
     "load_design",
     "load_rotor",
     "make_design",

@@ -27,7 +27,7 @@ import rotor
 rates = [0, -4, -8, -12, -16, -20]
 for mu in (0.2, 0.3, 0.35):
     designs = [rotor.make_design(mu=mu, twist=f"linear:{rate}", bending=True) for rate in rates]
-    found = [rotor.solve(design).hub_loads for design in designs]
+    found = [rotor.hub_loads(rotor.solve(design)) for design in designs]
     plt.plot(rates, [loads.index for loads in found], "o-", label=f"µ {mu:g}")
     plt.fill_between(rates, *zip(*(loads.band for loads in found), strict=True), alpha=0.15)
     print(f"µ {mu:g}: " + ", ".join(f"{rate}° {one.index:.2f} %" for rate, one in zip(rates, found, strict=True)))
@@ -39,7 +39,7 @@ plt.legend()
 # What the hub feels of the blade as built.
 
 design = rotor.make_design(mu=0.3, bending=True)
-loads = rotor.solve(design).hub_loads
+loads = rotor.hub_loads(rotor.solve(design))
 print(f"µ 0.3: index {loads.index:.1f} %, over inflow models {loads.band[0]:.1f} to {loads.band[1]:.1f} %")
 for name, size in loads.amplitudes.items():
     print(f"  {name} {size:.0f} {'N' if name[0] == 'f' else 'N m'}")

@@ -12,10 +12,10 @@ import numpy as np
 from explorer.charts.plots import SWEEP, Range, held_range
 from explorer.charts.strip import Role, now_dot, role_line
 from explorer.model.units import number
-from rotor import Design, Solution, solve
+from rotor import Design, Solution, hub_loads
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Rule
-from rotor.trim import DEFAULT_OPTIONS, Guess, hub_loads, why_no_hub_loads
+from rotor.trim import DEFAULT_OPTIONS, Analysis, Guess, analyse, why_no_hub_loads
 from rotor.trim.hub_loads import SLOWEST
 
 SPEEDS = tuple(mu for mu in SWEEP if mu >= SLOWEST)
@@ -26,10 +26,10 @@ _KEPT = 50
 Superseded = Callable[[], bool]
 
 
-def stopping(superseded: Superseded) -> Callable[[Design, Solution | Guess | None], Solution]:
-    """`rotor.trim.solve.solve` that ends without a trim once newer input waits."""
+def stopping(superseded: Superseded) -> Callable[[Design, Solution | Guess | None], Analysis]:
+    """`rotor.trim.analyse` that ends without a trim once newer input waits."""
     options = replace(DEFAULT_OPTIONS, stop=superseded)
-    return lambda design, start: solve(design, start, options)
+    return lambda design, start: analyse(design, start, options)
 
 
 class IndexCurves:
@@ -62,12 +62,13 @@ class IndexCurves:
             point = stopping(superseded)(family.at(mu=mu), start)
             if superseded():
                 return
-            loads = hub_loads(point, stopping(superseded), band=False) if point.converged else None
+            stop = stopping(superseded)
+            loads = hub_loads(point, solve=stop, band=False) if point.solution.converged else None
             known[mu] = math.nan if loads is None else loads.index
             if loads is None:  # Faster flight does not trim either, and each failed trim takes long.
                 known.update(dict.fromkeys([later for later in SPEEDS if later > mu], math.nan))
                 break
-            start = replace(point.start, factors=None)
+            start = replace(point.solution.start, factors=None)
             shown()
         shown()
 

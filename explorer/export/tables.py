@@ -14,7 +14,7 @@ from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units,
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
-from rotor import Design, Solution, doubt
+from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of
 from rotor.design.quantities import BESIDE
 from rotor.markup import Content, Markup, group, tag
@@ -178,7 +178,7 @@ def vibration(solution: Solution) -> Markup:
             rows.append((f"Blade in {name}", f"{', '.join(number(value, 2) for value in values[:3])} per rev"))
     if (reason := why_no_hub_loads(solution.design)) is not None:
         rows.append(("Hub loads", reason.sentence))
-    elif (loads := solution.hub_loads) is not None:
+    elif (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         force, moment = (
             ", ".join(number(size) for name, size in loads.amplitudes.items() if name[0] == kind) for kind in "fm"

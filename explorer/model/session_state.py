@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from explorer.model.inputs import FLIGHT, Inputs, ViewState
-from explorer.workers.solver import BaselineCache
+from explorer.workers.solver import BaselineCache, Solve
 from rotor import Design, Solution, solve
 from rotor.design import SumTwist
 from rotor.design.quantities import BESIDE
-from rotor.trim import Analysis
+from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 
 Order = Literal["pin", "unpin", "swap", "back"]
 CONDITION = (*FLIGHT, "stand")
@@ -86,13 +86,13 @@ def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution 
 class Pinboard:
     """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
 
-    def __init__(self) -> None:
+    def __init__(self, by: Solve = solve) -> None:
         self.pinned: Pinned | None = None
         self.answer: Solution | None = None
         """A's, as last compared; it may not have converged."""
         self._asked: deque[Order] = deque()
         self._put: deque[Inputs | None] = deque()
-        self._known = BaselineCache()
+        self._by, self._known = by, BaselineCache(by=by)
 
     def ask(self, order: Order) -> None:
         """A button was pressed; takes effect in the next update."""
@@ -110,7 +110,7 @@ class Pinboard:
         outcome = None
         while self._put:
             given = self._put.popleft()
-            answer = None if given is None else solve(given.design())
+            answer = None if given is None else self._by(given.design(), None)
             self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
         while self._asked and (outcome is None or outcome.inputs is None):
             outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
@@ -122,7 +122,8 @@ class Pinboard:
         if pinned is not self.pinned:
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
-            self._known = BaselineCache() if pinned is None else BaselineCache(pinned.solution.design, pinned.solution)
+            design, solution = (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
+            self._known = BaselineCache(design, solution, self._by)
 
     def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.
@@ -147,10 +148,18 @@ class Analyses:
     def __init__(self) -> None:
         self._kept: tuple[Analysis, ...] = ()
 
+    def solve(
+        self, design: Design, start: Solution | None = None, options: SolverOptions = DEFAULT_OPTIONS
+    ) -> Solution:
+        """As `rotor.solve`; the equations are kept for slopes."""
+        return self._keep(analyse(design, start, options)).solution
+
     def of(self, solution: Solution) -> Analysis:
-        found = next((one for one in self._kept if one.solution is solution), None) or Analysis(solution)
-        self._kept = (found, *(one for one in self._kept if one is not found))[:_SHOWN]
-        return found
+        return self._keep(next((one for one in self._kept if one.solution is solution), None) or Analysis(solution))
+
+    def _keep(self, analysis: Analysis) -> Analysis:
+        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_SHOWN]
+        return analysis
 
 
 @dataclass(frozen=True, eq=False)

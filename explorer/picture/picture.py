@@ -20,7 +20,6 @@ from explorer.picture.polar import NO_MARKS, Drawn, Marks, polar_grid, region_co
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw
-from rotor.trim import deflections
 
 BENDING_SHOWN = 10.0
 """Times its bending that a blade is drawn with."""
@@ -182,14 +181,14 @@ def ghost_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | N
 def follows_azimuth(solution: Solution) -> bool:
     """Whether the shape of a blade in flight changes on its way around the disk."""
     design, disk = solution.design, solution.disk
-    changes = design.active_twist is not None or disk.elastic_twist is not None or deflections(solution) is not None
+    changes = design.active_twist is not None or disk.elastic_twist is not None or solution.deflections is not None
     return not design.hovering and changes
 
 
 def drawn_bending(solution: Solution, r: ArrayLike, psi: float) -> Array | None:
     """How far the axis of a blade at ψ [rad] is drawn off the straight one at r/R, `BENDING_SHOWN` times as far as it
     bends, in the blade's own axes [m], (stations, 3); None where blades do not bend."""
-    bent = deflections(solution)
+    bent = solution.deflections
     if bent is None:
         return None
     up, forward = (BENDING_SHOWN * deflection for deflection in bent.at(np.asarray(r, dtype=float), psi))

@@ -14,7 +14,7 @@ from explorer.model.undo import differing
 from explorer.model.units import Units, degrees, number
 from explorer.picture.camera_views import Shot
 from explorer.text.readout import PART_TITLES
-from rotor import Solution
+from rotor import Solution, hub_loads
 
 _TEXT = Path(__file__).parent / "text"
 _HEADINGS = ("Compare", "Guess", "Answer", "Try")
@@ -154,9 +154,10 @@ def quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
         "reverse_area": percent(b.reverse_flow_area, 1),
         "tilt": degrees(b.controls.shaft_tilt, 1),
     }
-    if a.hub_loads is not None and b.hub_loads is not None:
-        words["index_b"] = percent(0.01 * b.hub_loads.index, 1)
-        words["index_change"] = percent(b.hub_loads.index / a.hub_loads.index - 1.0, 0, sign=True)
+    loads_a, loads_b = hub_loads(a, band=False), hub_loads(b, band=False)
+    if loads_a is not None and loads_b is not None:
+        words["index_b"] = percent(0.01 * loads_b.index, 1)
+        words["index_change"] = percent(loads_b.index / loads_a.index - 1.0, 0, sign=True)
     return words
 
 

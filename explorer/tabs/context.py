@@ -4,7 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import viser
 
@@ -58,10 +58,10 @@ class TabContext:
     display: Display
     controls: DesignControls
     tracker: PowerTracker
+    analyses: Analyses
+    pinboard: Pinboard
     pool: Processes
     callbacks: SessionCallbacks
-    pinboard: Pinboard = field(default_factory=Pinboard)
-    analyses: Analyses = field(default_factory=Analyses)
     held: bool = False
     """Whether a presenter moves the page."""
 

@@ -15,11 +15,11 @@ from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
-from rotor import Solution, solve
+from rotor import Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.chart import Chart
-from rotor.trim import HubLoads, deflections, hub_loads, why_no_hub_loads
+from rotor.trim import HubLoads, why_no_hub_loads
 from rotor.trim.hub_loads import BAND
 
 _NOTICEABLE = 0.5
@@ -49,7 +49,7 @@ class VibrationPanel:
         self._loads = {solution: known[solution] for solution in (state.solution, state.reference) if solution in known}
         for solution in (state.solution, state.reference):
             if solution not in self._loads and solution.converged and solution.design.models.bending:
-                self._loads[solution] = hub_loads(solution, solve, band=False)
+                self._loads[solution] = hub_loads(self._context.analyses.of(solution), band=False)
         self._draw()
 
     def solve_deferred(self, superseded: Callable[[], bool]) -> None:
@@ -84,7 +84,7 @@ class VibrationPanel:
         known = self._loads.get(solution)
         if not solution.converged or (known is not None and (known.band is not None or not band)):
             return
-        loads = hub_loads(solution, stopping(superseded), band=band)
+        loads = hub_loads(self._context.analyses.of(solution), solve=stopping(superseded), band=band)
         if not superseded():
             self._loads[solution] = loads
             self._draw()
@@ -132,7 +132,7 @@ class VibrationPanel:
     def _say_how_bent(self) -> None:
         """The words in the scene: bending is drawn larger."""
         state, labels = self._state, list[SceneLabel]()
-        if state is not None and deflections(state.solution) is not None:
+        if state is not None and state.solution.deflections is not None:
             rotor = state.solution.design.rotor
             tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
             title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."

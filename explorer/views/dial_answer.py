@@ -14,9 +14,8 @@ from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
 from rotor.design import Harmonic, TwistLaw
 from rotor.optimisation.vibration import TMatrix, front_twists
-from rotor.trim.adjoint import Adjoint
+from rotor.trim import analyse
 from rotor.trim.hub_loads import BAND, hub_index, index_gains
-from rotor.trim.solve import solve
 
 HARMONICS = (2, 3, 4, 5)
 """Harmonics of the dial: those at which four blades pass vibration on to the hub, and 2/rev, which saves power."""
@@ -104,7 +103,8 @@ def dial_answer(design: Design, reference: Design, losses: Sequence[float], reac
     for inflow in dict.fromkeys((design.models.inflow, *BAND)):
         flown, still = (replace(one, models=replace(design.models, inflow=inflow)) for one in (design, reference))
         try:
-            matrix, other = t_matrix(flown, HARMONICS), solve(still).require()
+            matrix, other = t_matrix(flown, HARMONICS), analyse(still)
+            power, index = other.solution.require().power.total, hub_index(other.adjoint)
         except RuntimeError:
             if inflow == design.models.inflow:
                 raise
@@ -112,7 +112,7 @@ def dial_answer(design: Design, reference: Design, losses: Sequence[float], reac
         second = matrix.second.copy()
         for k, loss in enumerate(np.repeat(losses, 2)):
             second[-1, k, k] += 2.0 * loss / math.radians(1.0) ** 2
-        found.append((replace(matrix, second=second), other.power.total, hub_index(Adjoint(other))))
+        found.append((replace(matrix, second=second), power, index))
     own, *others = (_numbers_of(design, *each) for each in found)
     few = 2 * len(_FRONT_HARMONICS)
     matrix = found[0][0]

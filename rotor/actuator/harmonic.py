@@ -13,10 +13,9 @@ from dataclasses import dataclass, replace
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
-from rotor.trim.adjoint import Adjoint
 from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 
 
 def tip_amplitude(installed: InstalledActuator) -> float:
@@ -62,14 +61,16 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     shaken = design.models.bending and why_no_hub_loads(design) is None
     for inflow in dict.fromkeys((design.models.inflow, *BAND)):
         flown = replace(design, models=replace(design.models, inflow=inflow))
-        one, other = solve(flown), solve(replace(reference, models=flown.models))
+        trims = analyse(flown), analyse(replace(reference, models=flown.models))
+        one, other = (trim.solution for trim in trims)
         if inflow == design.models.inflow:
             one.require()
             other.require()
         if one.converged and other.converged:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:
-                index.append(100.0 * (hub_index(Adjoint(one)) / hub_index(Adjoint(other)) - 1.0))
+                here, there = (hub_index(trim.adjoint) for trim in trims)
+                index.append(100.0 * (here / there - 1.0))
     return EffectInFlight(tuple(power), tuple(index))
 
 

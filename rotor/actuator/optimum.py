@@ -25,9 +25,8 @@ from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest, restrict
 from rotor.optimisation.descent import slsqp
-from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
@@ -210,11 +209,12 @@ class _Task:
             flown = self.concept.apply(design, jig) if self.concept else design
             if np.any(swings[k]):
                 flown = replace(flown, twist=twisted(flown.twist, swings[k] @ self.shapes))
-            solution = solve(flown, self.trims[k])
+            trim = analyse(flown, self.trims[k])
+            solution = trim.solution
             if not solution.converged:
                 return None
             self.trims[k] = solution
-            by_pitch = power_along(Adjoint(solution))
+            by_pitch = trim.gradient
             power += share * solution.power.total
             if self.concept:
                 by_jig += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))

@@ -118,17 +118,8 @@ def build_disk(
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
-    return replace(
-        _disk(
-            replace(rotor, blade=blade),
-            elements=elements,
-            azimuths=azimuths,
-            only_mach=only_mach,
-            swept=swept,
-            surface=surface,
-            fine_tip=fine_tip,
-        )
-    )
+    rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "fine_tip": fine_tip}
+    return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, **shown))
 
 
 @lru_cache(maxsize=16)

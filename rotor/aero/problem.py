@@ -167,15 +167,8 @@ def build_problem(design: Design) -> Problem:
         inflow = inflow.without_tip_loss()
     only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
     elements, azimuths = grid_of(design)
-    disk = build_disk(
-        rotor,
-        elements=elements,
-        azimuths=azimuths,
-        only_mach=only_mach,
-        swept=swept,
-        surface=models.has("surface_drag"),
-        fine_tip=inflow.fine_tip,
-    )
+    shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
+    disk = build_disk(rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, **shown)
     flow = expected_flow(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
@@ -226,14 +219,8 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     if not models.has("dynamic_stall") or design.hovering or not inflow.pointwise:
         return None
     numbers, tables = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
-    return StallData(
-        numbers=numbers,
-        tables=tables,
-        section=disk.section,
-        weight=disk.weight,
-        half_chord=0.5 * (rotor.blade.chord(disk.r) / rotor.radius),
-        tip_mach=design.tip_mach,
-    )
+    own = {"numbers": numbers, "tables": tables, "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius)}
+    return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
 
 
 def grid_of(design: Design) -> tuple[int, int]:

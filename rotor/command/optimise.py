@@ -23,6 +23,7 @@ from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress
 from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
 from rotor.terminal import wrapped
 from rotor.trim.doubt import other_models
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import Solution
 
 
@@ -130,7 +131,7 @@ def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
     """Least and largest mean index of some trims over inflow models [%]."""
     ends = [
-        loads.band for solution in solutions if (loads := solution.hub_loads) is not None and loads.band is not None
+        loads.band for solution in solutions if (loads := hub_loads(solution)) is not None and loads.band is not None
     ]
     if len(ends) < len(solutions):
         return None

@@ -14,7 +14,7 @@ from rotor.table import CellValue, table
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
-from rotor.trim.hub_loads import why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -98,7 +98,7 @@ def doubt_table(doubt: Doubt) -> str:
 def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
     """Hub loads and blade frequencies of `--json`; where there are none, why is added to the caveats."""
     reason, frequencies = why_no_hub_loads(solution.design), solution.blade_frequencies
-    loads = solution.hub_loads if solution.converged else None
+    loads = hub_loads(solution) if solution.converged else None
     if reason is not None:
         caveats.append(reason.sentence)
     elif loads is None and solution.converged:
@@ -181,7 +181,7 @@ def report(solution: Solution) -> str:
         ]
     if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
         lines.append(wrapped(f"caveat: {reason.sentence}", "  "))
-    elif design.models.bending and solution.converged and (loads := solution.hub_loads) is not None:
+    elif design.models.bending and solution.converged and (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [
             f"hub loads at {loads.per_rev}/rev: "

@@ -7,7 +7,7 @@ from rotor.command.common import add_command
 from rotor.compiled import tell_in_a_log
 from rotor.design.quantities import PRESETS
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 
 

@@ -16,7 +16,7 @@ from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, measure
 from rotor.optimisation.results import ParameterBand
-from rotor.trim.analysis import Analysis
+from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.doubt import Doubt, DoubtRow
 from rotor.trim.solution import Solution
 
@@ -54,11 +54,11 @@ def mean_doubt(shares: Sequence[float], here: Sequence[Solution], there: Sequenc
     return Doubt(power, tuple(rows), other, there[0].design.twist.spec())
 
 
-def _changes(shares: Sequence[float], solutions: Sequence[Solution]) -> dict[str, float]:
+def _changes(shares: Sequence[float], trims: Sequence[Solution | Analysis]) -> dict[str, float]:
     """What every uncertain input does to the mean power [W]."""
     changes = dict[str, float]()
-    for share, solution in zip(shares, solutions, strict=True):
-        for name, change in Analysis(solution).power_changes.items():
+    for share, trim in zip(shares, trims, strict=True):
+        for name, change in analysed(trim).power_changes.items():
             changes[name] = changes.get(name, 0.0) + share * change
     return changes
 
@@ -80,7 +80,7 @@ def best_twist_doubt(
         if measured.by_pitch is None:
             return None
         slopes = concept.slopes(tuple(values.tolist()), measured.solutions[0].disk.r)
-        return slopes @ measured.by_pitch, _changes(objective.shares, measured.solutions)
+        return slopes @ measured.by_pitch, _changes(objective.shares, measured.trims)
 
     curvature, slopes, names = list[Array](), list[list[float]](), list[str]()
     for step in np.diag(steps):

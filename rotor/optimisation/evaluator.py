@@ -32,7 +32,7 @@ class TrimmedBlade:
     pitch: Array
     """Twist at the elements [rad], (elements,)."""
     measured: Measured
-    """Without the solutions, which are kept for the last trims only."""
+    """Without the trims; solutions are kept of the last ones only."""
 
 
 class TrimmedBlades:
@@ -53,10 +53,10 @@ class TrimmedBlades:
 
     def add(self, rotor: Rotor, pitch: Array, measured: Measured) -> TrimmedBlade:
         """Keep what was trimmed."""
-        blade = TrimmedBlade(rotor, pitch, replace(measured, solutions=()))
+        blade = TrimmedBlade(rotor, pitch, replace(measured, trims=()))
         if measured.power is not None:
             self.all.append(blade)
-            self._solved.append((blade, tuple(solution.without_linear() for solution in measured.solutions)))
+            self._solved.append((blade, measured.solutions))
         return blade
 
 

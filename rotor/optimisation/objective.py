@@ -16,12 +16,13 @@ from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
 from rotor.design.quantity import number
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
-from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.adjoint import Objective as PowerKind
+from rotor.trim.adjoint import power_along
+from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
@@ -117,7 +118,7 @@ class Measured:
 
     power: float | None
     """Mean power [W], the total for the objective `vibration`; None when a condition did not trim."""
-    solutions: tuple[Solution, ...]
+    trims: tuple[Analysis, ...]
     """One per condition, as far as they were solved."""
     value: float | None = None
     """The objective: the power [W] or the mean index [%]."""
@@ -131,9 +132,14 @@ class Measured:
     """[1/rad], (limited, elements)"""
 
     @property
+    def solutions(self) -> tuple[Solution, ...]:
+        """Those of `trims`."""
+        return tuple(trim.solution for trim in self.trims)
+
+    @property
     def message(self) -> str:
         """Message of the condition that did not trim, or of the last one."""
-        return self.solutions[-1].message
+        return self.trims[-1].solution.message
 
 
 def check_index(design: Design, objective: Objective, limits: Limits) -> None:
@@ -166,19 +172,19 @@ def measure(
     limits = limits or Limits()
     vibration, indexed = objective.quantity == "vibration", limits.index is not None
     kind: PowerKind = "induced" if objective.quantity == "induced" else "total"
-    solutions, stalled, indices = list[Solution](), list[tuple[float, Array]](), list[tuple[float, Array]]()
+    trims, stalled, indices = list[Analysis](), list[tuple[float, Array]](), list[tuple[float, Array]]()
     power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
-        solution = solve(replace(design, condition=condition.flight), start, options)
-        solutions.append(solution)
+        trims.append(analyse(replace(design, condition=condition.flight), start, options))
+        solution = trims[-1].solution
         if not solution.converged:
-            return Measured(None, tuple(solutions))
+            return Measured(None, tuple(trims))
         power += share * getattr(solution.power, kind)
         if not gradient:
-            index += share * hub_index(Adjoint(solution)) if vibration or indexed else 0.0
+            index += share * hub_index(trims[-1].adjoint) if vibration or indexed else 0.0
             continue
-        adjoint = Adjoint(solution)
+        adjoint = trims[-1].adjoint
         if vibration or indexed:
             indices.append(index_along(adjoint))
             index += share * indices[-1][0]
@@ -190,7 +196,7 @@ def measure(
     limited = [*stalled, *(indices if indexed else [])]
     return Measured(
         power=power,
-        solutions=tuple(solutions),
+        trims=tuple(trims),
         value=index if vibration else power,
         by_pitch=sum(slopes[1:], start=slopes[0]) if gradient else None,
         index=index if vibration or indexed else None,

@@ -35,10 +35,11 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, WeightedCondition, check_index
 from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
-from rotor.trim.adjoint import Adjoint, tail_gain
+from rotor.trim.adjoint import tail_gain
+from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.hub_loads import BAND, hub_index, index_of, load_units, terms_and_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 
 STEP = math.radians(0.5)
 """Amplitude of the trims that give the second order. Our choice, half of what actuators reach."""
@@ -128,19 +129,21 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
     waves = read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics")
     shaped = with_harmonics(design, waves)
-    base = solve(replace(design, active_twist=None)).require()
+    base = analyse(replace(design, active_twist=None))
     numbers = tuple(wave.per_rev for wave in waves)
-    matrix = TMatrix(base, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1)))
+    matrix = TMatrix(
+        base.solution, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1))
+    )
     second = np.zeros((*matrix.slopes.shape, matrix.slopes.shape[1]))
     for k, step in enumerate(STEP * np.eye(matrix.slopes.shape[1])):
-        moved = solve(with_harmonics(shaped, matrix.twist(step)), base).require()
+        moved = analyse(with_harmonics(shaped, matrix.twist(step)), base.solution)
         second[:, :, k] = (_measured(moved, shaped)[1] - matrix.slopes) / STEP
     return replace(matrix, second=0.5 * (second + second.transpose(0, 2, 1)))
 
 
-def _measured(solution: Solution, shaped: Design) -> tuple[Array, Array]:
+def _measured(trim: Analysis, shaped: Design) -> tuple[Array, Array]:
     """Loads and power of a trim, (11,), and their slopes by the active twist of `shaped`, (11, 2 H)."""
-    adjoint = Adjoint(solution)
+    adjoint, solution = trim.adjoint, trim.solution
     problem, point = adjoint.problem, adjoint.point
     structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
     loads, values = terms_and_loads(adjoint)
@@ -252,18 +255,18 @@ def vibration_front(
     matrix = t_matrix(design, harmonics)
     start, front, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
     for x in front_twists(matrix, math.radians(reach_deg), points):
-        solution = solve(with_harmonics(design, matrix.twist(x)), matrix.solution)
+        trim = analyse(with_harmonics(design, matrix.twist(x)), matrix.solution)
         power, index = matrix.power_and_index(x)[0].tolist()
-        front += [replace(_trimmed(solution), preview=(power, index))] if solution.converged else []
-        lost += not solution.converged
+        front += [replace(_trimmed(trim), preview=(power, index))] if trim.solution.converged else []
+        lost += not trim.solution.converged
     reached = f"at most {reach_deg:g}° each of {', '.join(map(str, matrix.harmonics))}/rev"
     words = f"Active twist, {reached}; every point is trimmed again."
     return _over_inflows(VibrationFront(start, tuple(front), words + (f" {lost} did not trim." if lost else "")))
 
 
-def _trimmed(solution: Solution) -> FrontPoint:
-    solution.require()
-    return FrontPoint(solution.design, solution.power.total, hub_index(Adjoint(solution)))
+def _trimmed(given: Solution | Analysis) -> FrontPoint:
+    adjoint = analysed(given).adjoint
+    return FrontPoint(adjoint.solution.design, adjoint.solution.power.total, hub_index(adjoint))
 
 
 def _over_inflows(front: VibrationFront) -> VibrationFront:
@@ -285,8 +288,8 @@ def _index_with(point: FrontPoint, inflow: str) -> float:
     models = point.design.models
     if inflow == models.inflow:
         return point.index
-    other = solve(replace(point.design, models=replace(models, inflow=inflow)))
-    return hub_index(Adjoint(other)) if other.converged else math.nan
+    other = analyse(replace(point.design, models=replace(models, inflow=inflow)))
+    return hub_index(other.adjoint) if other.solution.converged else math.nan
 
 
 def _ends(values: Sequence[float]) -> tuple[float, float] | None:
@@ -344,7 +347,7 @@ def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
 def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     """Front of static twist, by searches."""
     here, family = (WeightedCondition(design.condition),), find_concept(concept)
-    start = _trimmed(solve(design))
+    start = _trimmed(analyse(design))
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
     least = run_search(replace(plain, limits=Limits(index=_ANY)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
@@ -355,7 +358,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
         searches.append(run_search(held, trimmed=trimmed))
         front.append(_best(searches[-1]))
-    trims = [solve(family.apply(design, point.parameters)) for point in (*front, _best(calm))]
+    trims = [analyse(family.apply(design, point.parameters)) for point in (*front, _best(calm))]
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
     words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""

@@ -33,10 +33,11 @@ from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
+from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 
 _KEPT = 500
 """Trims kept, 1 kB each."""
@@ -203,12 +204,14 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
         row = _condition(design) | row
         if study.optimum is None:
             design = _bladed(design, values)
-            solution = solve(design, warm.guess(values, hovering=design.hovering))
+            trim = analyse(design, warm.guess(values, hovering=design.hovering))
+            solution = trim.solution
             row |= {"status": solution.status.value, "message": solution.message}
         else:
             search = _search(design, values, study.optimum, warm)
             optimum = run_search(search)
-            solution = solve(optimum.design, warm.guess(values, hovering=design.hovering))
+            trim = analyse(optimum.design, warm.guess(values, hovering=design.hovering))
+            solution = trim.solution
             row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
             if optimum.status is SearchStatus.CONVERGED and not solution.converged:
                 row |= {"status": solution.status.value, "message": solution.message}
@@ -218,7 +221,7 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
         if solution.converged:
             row |= _answer(solution)
             if solution.design.models.bending:
-                row |= _vibration(solution, row["caveats"])
+                row |= _vibration(trim, row["caveats"])
             warm.keep(values, solution)
     except ValueError as error:
         row |= {"status": "bad-input", "message": str(error)}
@@ -318,15 +321,15 @@ def _answer(solution: Solution) -> Row:
     return row | {"caveats": ", ".join(caveat.name for caveat in solution.caveats), "passes": solution.passes}
 
 
-def _vibration(solution: Solution, caveats: str) -> Row:
+def _vibration(trim: Analysis, caveats: str) -> Row:
     """Blade frequencies, and hub loads, or among the caveats that there are none."""
-    row: Row = {}
+    row, solution = Row(), trim.solution
     if (frequencies := solution.blade_frequencies) is not None:
         for name in FREQUENCIES:
             kind, _, number = name.rpartition("_")
             row[f"{name}_per_rev"] = getattr(frequencies, kind)[int(number) - 1]
     if (reason := why_no_hub_loads(solution.design)) is not None:
         return row | {"caveats": ", ".join(name for name in (caveats, reason.name) if name)}
-    loads = hub_loads(solution, solve, band=False)
+    loads = hub_loads(trim, band=False)
     assert loads is not None
     return row | {"index_percent": loads.index, **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True))}

@@ -23,7 +23,7 @@ from rotor.optimisation.objective import Quantity as Objective
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Plan, Schedule, run_plan
 from rotor.plots import draw_chart
-from rotor.trim.hub_loads import why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -300,7 +300,7 @@ def _mean_rate(design: Design) -> float:
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:
     """`VIBRATION`; None for what there is not."""
-    loads, frequencies = solution.hub_loads if solution.converged else None, solution.blade_frequencies
+    loads, frequencies = hub_loads(solution) if solution.converged else None, solution.blade_frequencies
     modes = (None,) * 3 if frequencies is None else (frequencies.flap[1], frequencies.lag[0], frequencies.torsion[0])
     if loads is None:
         return (*(None for _ in range(3 + len(LOADS))), *modes)

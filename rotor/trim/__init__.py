@@ -1,10 +1,11 @@
 """Trim in hover and forward flight: equations, Newton's method, adjoint gradient, power, and the `Solution`."""
 
-from rotor.trim.adjoint import PitchGradient, power_gradient
-from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import deflections, hub_loads, why_no_hub_loads
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess
+from rotor.trim.adjoint import PitchGradient
+from rotor.trim.analysis import Analysis, power_gradient
+from rotor.trim.hub_loads import why_no_hub_loads
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions
 from rotor.trim.solution import DiskFields, HubLoads
+from rotor.trim.solve import analyse
 from rotor.trim.stability import stability_boundary
 
 __all__ = (
@@ -14,8 +15,8 @@ __all__ = (
     "Guess",
     "HubLoads",
     "PitchGradient",
-    "deflections",
-    "hub_loads",
+    "SolverOptions",
+    "analyse",
     "power_gradient",
     "stability_boundary",
     "why_no_hub_loads",

@@ -18,15 +18,14 @@ from rotor.aero.inflow.local_momentum import BALANCED
 from rotor.aero.section import FX, FZ, RATE, TH, UP, UR, UT
 from rotor.arrays import Array, ShortRepr
 from rotor.blas_threads import one_blas_thread
-from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
+from rotor.columns.flight import SWIRL, SWIRL_SLOPE
 from rotor.columns.hover import turning_of
 from rotor.design.twist import TwistLaw
-from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
+from rotor.engine.linearise import Measure, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import Terms
-from rotor.trim.hover import hover
-from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
-from rotor.trim.newton import LinearisedTrim, first_point
+from rotor.trim.low_speed import HoverDifference, joined_hover
+from rotor.trim.newton import LinearisedTrim
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
@@ -172,13 +171,11 @@ class _Linear:
 class Adjoint(_Linear):
     """The linearised trim of a converged solution: the gradient of any measure by the pitch along the blade."""
 
-    def __init__(self, solution: Solution) -> None:
-        """Raises RuntimeError with the solution's sentence when it is not converged."""
-        self.solution = solution.require()
-        with one_blas_thread():
-            start, linear = solution.start, solution.linear or _linearised(solution)
-            same = start.structure == linear.point.system.structure.name
-            super().__init__(linear, start.factors if same else None)
+    def __init__(self, solution: Solution, linear: LinearisedTrim) -> None:
+        """Of `rotor.trim.Analysis`."""
+        self.solution, start = solution, solution.start
+        same = start.structure == linear.point.system.structure.name
+        super().__init__(linear, start.factors if same else None)
 
     def by_pitch(self, weights: Weights | Terms) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,).
@@ -209,28 +206,10 @@ class Adjoint(_Linear):
         return adjoint.slopes(adjoint.measure(hovering))[0]
 
 
-def _linearised(solution: Solution) -> LinearisedTrim:
-    """The equations at a solution that came without them, from another process."""
-    problem = trim_problem(solution.design, solution.freedoms)
-    if solution.design.hovering:
-        return hover(problem, solution.start).linear
-    system = flight_system(problem)
-    x = first_point(problem, system, solution.start)
-    return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
-
-
 @lru_cache(maxsize=4)
 def _difference_adjoint(difference: HoverDifference) -> _Linear:
     """Adjoint for all measures, and for all conditions that share the hovering rotor."""
     return _Linear(difference.hover.linear)
-
-
-def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
-    """∂P/∂θ(r) of a converged solution, for total power or for induced power alone.
-
-    Raises RuntimeError with the solution's sentence when it is not converged.
-    """
-    return power_along(Adjoint(solution), objective)
 
 
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:

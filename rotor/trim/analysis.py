@@ -1,26 +1,49 @@
-"""What is asked of one trim more than once, kept by whoever asks and gone with it."""
+"""What is asked of one solution beyond its numbers, kept by whoever asks and gone with it."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 
-from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
+from rotor.blas_threads import one_blas_thread
+from rotor.columns.flight import flight_system
+from rotor.engine.linearise import evaluate
+from rotor.trim.adjoint import Adjoint, Objective, PitchGradient, power_along
+from rotor.trim.hover import hover
+from rotor.trim.low_speed import trim_problem
+from rotor.trim.newton import LinearisedTrim, first_point
 from rotor.trim.power_changes import power_changes
 from rotor.trim.solution import Solution
 
 
 class Analysis:
-    """What is asked of a solution, computed when it is first asked for; the slopes of power share one adjoint.
+    """A solution with its equations, linearised there; slopes of power share one adjoint. Not for another process.
 
-    The parts raise RuntimeError with the solution's sentence when it is not converged.
+    The slopes raise RuntimeError with the solution's sentence when it is not converged.
     """
 
-    def __init__(self, solution: Solution) -> None:
-        self.solution = solution
+    def __init__(self, solution: Solution, linear: LinearisedTrim | None = None) -> None:
+        """linear: of the very trim, as `analyse` has it; None: its equations are evaluated once more when needed."""
+        self.solution, self._linear = solution, linear
+
+    @cached_property
+    def linear(self) -> LinearisedTrim:
+        """The equations at the solution."""
+        solution = self.solution
+        if self._linear is not None:
+            return self._linear
+        with one_blas_thread():
+            problem = trim_problem(solution.design, solution.freedoms)
+            if solution.design.hovering:
+                return hover(problem, solution.start).linear
+            problem = problem if solution.wake_course is None else replace(problem, course=solution.wake_course)
+            system = flight_system(problem)
+            x = first_point(problem, system, solution.start)
+            return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
 
     @cached_property
     def adjoint(self) -> Adjoint:
-        """The linearised trim, with its factors."""
-        return Adjoint(self.solution)
+        """For the gradient of any measure."""
+        return Adjoint(self.solution.require(), self.linear)
 
     @cached_property
     def gradient(self) -> PitchGradient:
@@ -39,3 +62,11 @@ class Analysis:
 def analysed(given: Solution | Analysis) -> Analysis:
     """The analysis itself, or that of a solution."""
     return given if isinstance(given, Analysis) else Analysis(given)
+
+
+def power_gradient(given: Solution | Analysis, objective: Objective = "total") -> PitchGradient:
+    """∂P/∂θ(r) of a converged solution, for total power or for induced power alone.
+
+    Raises RuntimeError with the solution's sentence when it is not converged.
+    """
+    return power_along(analysed(given).adjoint, objective)

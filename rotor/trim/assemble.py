@@ -2,28 +2,33 @@
 
 import math
 import time
+from dataclasses import replace
 from functools import partial
+
+import numpy as np
 
 from rotor.aero.display import areas, as_asked, stalled_parts
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
 from rotor.aero.unsteady_section import apparent
+from rotor.columns.bending import coordinates_of
 from rotor.columns.flight import disk_sums
 from rotor.engine.waves import wave_grid
+from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import vortex_ring
 from rotor.trim.newton import TrimResult
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
-from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
+from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import Trimmed, caveats, failure_sentence, implausible
 
 _ENERGY = 1e-6
 """Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
 
 
-def assemble(result: TrimResult, begin: float) -> Solution:
-    """The solution of a trim that began at a time of `time.perf_counter`.
+def assemble(result: TrimResult, begin: float) -> Analysis:
+    """The solution, with its equations, of a trim that began at a time of `time.perf_counter`.
 
     ValueError where the equations and `power` of further freedoms contradict their columns.
     """
@@ -33,25 +38,23 @@ def assemble(result: TrimResult, begin: float) -> Solution:
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
     power = power_budget(problem, elements, total)
-    work, said = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
-    if result.converged and problem.freedoms and 1e3 * abs(work - said) > _ENERGY * abs(power.main_rotor):
+    work, freed = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
+    if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY * abs(power.main_rotor):
         raise ValueError(
-            f"The air gives the motion of the blades {work:.4g} kW, and the freedoms' power says {said:.4g} kW: make "
+            f"The air gives the motion of the blades {work:.4g} kW, and the freedoms' power says {freed:.4g} kW: make "
             "their columns, equations and power agree."
         )
-    moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
     reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
     message = "Trimmed."
     if not converged:
-        message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
+        near = result.nearest  # Without one it is said of the last attempt.
+        there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
+        message = vortex_ring(design) or failure_sentence(design, result.reached, there)
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
-    trimmed = Trimmed(
-        problem, total, fields, stalled, moment, power, _elastic(problem, elements, shown), elements.state
-    )
     climb = design.condition.climb_speed
     least = 0.0 if climb >= 0.0 else -math.inf
     if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
@@ -60,15 +63,15 @@ def assemble(result: TrimResult, begin: float) -> Solution:
             f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in "
             f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
         )
-    return Solution(
+    solution = Solution(
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=tuple(caveats(trimmed)) if converged else (),
+        caveats=(),
         controls=elements.state,
         disk=fields,
         last_power=power,
-        hub_moment=moment,
+        hub_moment=hub_moment(problem, elements),
         ct=total.thrust,
         lift_and_drag=(lift * newtons, drag * newtons),
         cp=power.main_rotor / (newtons * design.rotor.tip_speed),
@@ -78,13 +81,15 @@ def assemble(result: TrimResult, begin: float) -> Solution:
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=trimmed.elastic,
+        elastic=_elastic(problem, elements, shown),
         start=result.guess,
         wake_course=course_of(problem),
-        linear=result.linear,
         freedoms=problem.freedoms,
+        deflections=_deflections(result),
         freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
     )
+    said = tuple(caveats(Trimmed(problem, solution))) if converged else ()
+    return Analysis(replace(solution, caveats=said), result.linear)
 
 
 def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
@@ -108,8 +113,20 @@ def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, Bl
     )
 
 
-_SHOWN = ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
-"""Fields of `DiskFields` that are those of the blade elements."""
+def _deflections(result: TrimResult) -> Deflections | None:
+    bending, point, state = result.problem.bending, result.linear.point, result.linear.elements.state
+    if bending is None:
+        return None
+    q, _ = coordinates_of(bending, point.system.structure, point.z)
+    q = q.copy()
+    q[bending.first, 0] -= bending.precone
+    r, up, forward = (one[..., ::20] for one in (bending.r, bending.along[0], bending.along[3]))
+    up = up.T @ q
+    up[:, 0] += bending.precone * (r - r[0])
+    flapping = np.array([state.coning, state.flap_1c, state.flap_1s])
+    up[:, : min(3, up.shape[1])] -= np.outer(r - r[0], flapping)[:, : up.shape[1]]
+    radius = result.problem.design.rotor.radius
+    return Deflections(r, radius * up, radius * (forward.T @ q))
 
 
 def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
@@ -118,7 +135,10 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         r=disk.r,
         dr=disk.dr,
         psi=disk.psi,
-        **{name: getattr(e, name) for name in _SHOWN},
+        **{
+            name: getattr(e, name)
+            for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+        },
         inflow=e.induced + e.flow.mu_z,
         stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
         dct=e.fz,
@@ -127,10 +147,3 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         unsteady=e.unsteady,
         find_apparent=partial(apparent, e, problem.half_chord) if problem.unsteady else None,
     )
-
-
-def _stalled(result: TrimResult, last: float) -> float:
-    """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
-    if result.nearest is None:
-        return last
-    return stalled_parts(result.nearest.problem, result.nearest.linear.elements)[0]

@@ -12,20 +12,20 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from weakref import WeakKeyDictionary
+from dataclasses import replace
 
 import numpy as np
 
 from rotor.aero.bending import can_bend
-from rotor.arrays import Array, read_only
-from rotor.columns.bending import LOADS, coordinates_of, has_hub_loads, hub_load_terms
+from rotor.arrays import Array
+from rotor.columns.bending import LOADS, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
 from rotor.engine.terms import Terms
-from rotor.engine.waves import waves_at
 from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Caveat, HubLoads, Solution
+from rotor.trim.solve import analyse
 
 SLOWEST = 0.2
 """Advance ratio below which the wake model decides the loads."""
@@ -56,25 +56,28 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
     return Caveat("no-hub-loads", sentence)
 
 
-Solve = Callable[[Design, Solution | Guess | None], Solution]
-"""The solver, as `rotor.trim.solve.solve`."""
+Solve = Callable[[Design, Solution | Guess | None], Analysis]
+"""As `analyse`."""
 
 
-def hub_loads(solution: Solution, solve: Solve, *, band: bool = True) -> HubLoads | None:
-    """Hub loads of a solution; None where `why_no_hub_loads` says why. band: whether to solve with other inflow models.
+def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool = True) -> HubLoads | None:
+    """Vibratory loads on the hub, in some tenths of a second; None where `trim.why_no_hub_loads` says why.
+
+    band: whether to solve with other inflow models as well, for the band.
 
     A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
-    design = solution.require().design
+    trim = analysed(given)
+    design = trim.solution.require().design
     if why_no_hub_loads(design) is not None:
         return None
     if not design.models.bending:
         design = replace(design, models=replace(design.models, bending=True))
-        solution = solve(design, replace(solution.start, factors=None))
-        if not solution.converged:
+        trim = solve(design, replace(trim.solution.start, factors=None))
+        if not trim.solution.converged:
             return None
-    _, values = terms_and_loads(Adjoint(solution))
+    _, values = terms_and_loads(trim.adjoint)
     index = 100.0 * index_of(design, values)[0]
     others = _indices(design, solve) if band else []
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
@@ -90,7 +93,7 @@ def _indices(design: Design, solve: Solve) -> list[float]:
     for name in BAND:
         if name != design.models.inflow:
             other = solve(replace(design, models=replace(design.models, inflow=name)), None)
-            loads = hub_loads(other, solve, band=False) if other.converged else None
+            loads = hub_loads(other, solve=solve, band=False) if other.solution.converged else None
             indices += [] if loads is None else [loads.index]
     return indices
 
@@ -139,56 +142,3 @@ def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     weights = 100.0 * load_units(design) * slopes
     summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
     return 100.0 * index, adjoint.by_pitch(summed)
-
-
-@dataclass(frozen=True, eq=False)
-class Deflections:
-    """How far a blade is bent off the straight blade that flaps as the trim says, by coning and first harmonic."""
-
-    r: Array
-    """Stations over R, (stations,), from the hinge, or where the blade is held, to the tip."""
-    up: Array
-    """w less flapping [m] in the waves 1, cos ψ, sin ψ, cos 2ψ, …, (stations, waves)."""
-    forward: Array
-    """v from the steadily lagged blade [m], in the same waves."""
-
-    def at(self, r: Array, psi: float) -> tuple[Array, Array]:
-        """Up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) both; 0 inboard of the root."""
-        waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
-        up, forward = (np.interp(r, self.r, deflection @ waves, left=0.0) for deflection in (self.up, self.forward))
-        return up, forward
-
-
-_known: "WeakKeyDictionary[Solution, Deflections | None]" = WeakKeyDictionary()
-"""As long as the solution lives: a turning picture asks for each blade of each frame."""
-
-
-def deflections(solution: Solution) -> Deflections | None:
-    """Deflections of a converged solution; None where its blades do not bend. Deflections are small and to first order.
-
-    Raises RuntimeError with the solution's sentence when it is not converged.
-    """
-    if solution not in _known:
-        _known[solution] = _deflections(solution)
-    return _known[solution]
-
-
-@read_only
-def _deflections(solution: Solution) -> Deflections | None:
-    solution.require()
-    if not solution.design.models.bending or not can_bend(solution.design.rotor):
-        return None
-    adjoint = Adjoint(solution)
-    b = adjoint.problem.bending
-    if b is None:
-        return None
-    q, _ = coordinates_of(b, adjoint.point.system.structure, adjoint.point.z)
-    q, controls = q.copy(), solution.controls
-    q[b.first, 0] -= b.precone
-    up = b.along[0].T @ q
-    up[:, 0] += b.precone * (b.r - b.r[0])
-    flapping = np.array([controls.coning, controls.flap_1c, controls.flap_1s])
-    steps = slice(None, None, 20)
-    up[:, : min(3, up.shape[1])] -= np.outer(b.r - b.r[0], flapping)[:, : up.shape[1]]
-    radius = solution.design.rotor.radius
-    return Deflections(b.r[steps], radius * up[steps], radius * (b.along[3].T @ q)[steps])

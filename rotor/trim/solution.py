@@ -29,8 +29,9 @@ from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.aircraft import told
 from rotor.design.design import Design
 from rotor.design.quantities import BESIDE
+from rotor.engine.waves import waves_at
 from rotor.plots import plot_disk
-from rotor.trim.newton import Guess, LinearisedTrim
+from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
 from rotor.user_input import check_suffix, write_whole
 
@@ -156,6 +157,24 @@ class ElasticTwist(ShortRepr):
         }
 
 
+@dataclass(frozen=True, eq=False)
+class Deflections:
+    """How far a blade is bent off the straight blade that flaps as the trim says, by coning and first harmonic."""
+
+    r: Array
+    """Stations over R, (stations,), from the hinge, or where the blade is held, to the tip."""
+    up: Array
+    """w less flapping [m] in the waves 1, cos ψ, sin ψ, cos 2ψ, …, (stations, waves)."""
+    forward: Array
+    """v from the steadily lagged blade [m], in the same waves."""
+
+    def at(self, r: Array, psi: float) -> tuple[Array, Array]:
+        """Up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) both; 0 inboard of the root."""
+        waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
+        up, forward = (np.interp(r, self.r, deflection @ waves, left=0.0) for deflection in (self.up, self.forward))
+        return up, forward
+
+
 @dataclass(frozen=True)
 class HubLoads:
     """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
@@ -184,12 +203,7 @@ class HubLoads:
 
 SCHEMA = "rotor-explorer solution 1"
 """What `Solution.to_dict` is: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
-_RIGID: dict[str, Any] = {
-    "elastic_twist_deg": None,
-    "torsion_frequencies_per_rev": None,
-    "pitch_link_load_n": None,
-    "control_power_w": None,
-}
+_RIGID = ("elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -229,25 +243,19 @@ class Solution:
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
-    linear: LinearisedTrim | None = None
-    """The trim's equations at the solution, for gradients; not for another process."""
     freedoms: tuple[Freedom, ...] = ()
     """Freedoms of the blade that `solve` was given beside the design's."""
     freedom_states: dict[str, float] = field(default_factory=dict[str, float])
     """States of the further freedoms by name."""
-    find_hub_loads: "Callable[[Solution], HubLoads | None] | None" = None
-    """What `hub_loads` is computed by: it solves with other inflow models."""
+    deflections: Deflections | None = None
+    """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None, structure=None)}
-
-    def without_linear(self) -> "Solution":
-        """This solution without its linearisation, 0.7 MB less: for many that are kept as starts."""
-        return replace(self, linear=None)
+        return {**self.__dict__, "start": replace(self.start, factors=None, structure=None)}
 
     def without_factors(self) -> "Solution":
-        """This solution without linearisation and factors, 3 MB with a lifting line: for many that are kept."""
-        return replace(self, linear=None, start=replace(self.start, factors=None))
+        """This solution without what only speeds up trims that start from it, 1.5 MB: for many that are kept."""
+        return replace(self, start=replace(self.start, factors=None))
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"
@@ -274,16 +282,6 @@ class Solution:
                 "The power of the last iterate is in last_power."
             )
         return self.last_power
-
-    @cached_property
-    def hub_loads(self) -> HubLoads | None:
-        """Vibratory loads on the hub, with their band over inflow models; None where there are none.
-
-        Those of the same design with blades that bend, also where this solution's do not.
-        Computed when asked for, in some tenths of a second. RuntimeError when the solution did not converge.
-        """
-        self.require()
-        return None if self.find_hub_loads is None else self.find_hub_loads(self)
 
     @cached_property
     def blade_frequencies(self) -> BladeFrequencies | None:
@@ -373,7 +371,7 @@ class Solution:
             "stalled_area_percent": 100.0 * self.stalled_area,
             "dynamic_stall": self.disk.unsteady is not None,
             "stalled_percent": {"area": 100.0 * self.stalled_area, "thrust": 100.0 * self.stalled_thrust},
-            **(self.elastic.record() if self.elastic else _RIGID),
+            **(self.elastic.record() if self.elastic else dict.fromkeys(_RIGID)),
         }
         return {
             "schema": SCHEMA,

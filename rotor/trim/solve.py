@@ -3,31 +3,27 @@
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 
 from rotor.blas_threads import one_blas_thread
 from rotor.columns.blade import Freedom
 from rotor.columns.flight import check_freedoms
 from rotor.design.design import Design, require_design
+from rotor.trim.analysis import Analysis
 from rotor.trim.assemble import assemble
 from rotor.trim.branches import least_of_branches
 from rotor.trim.forward import first_guess, trim_on_course
 from rotor.trim.hover import hover
-from rotor.trim.hub_loads import hub_loads
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
 from rotor.trim.reach import largest, stall_limit
 from rotor.trim.solution import Solution, Status
 from rotor.trim.validity import MOST_STALLED, stalled_sentence
 
+Start = Solution | Guess | None
 
-@one_blas_thread()
+
 def solve(
-    design: Design,
-    start: Solution | Guess | None = None,
-    options: SolverOptions = DEFAULT_OPTIONS,
-    *,
-    freedoms: Sequence[Freedom] = (),
+    design: Design, start: Start = None, options: SolverOptions = DEFAULT_OPTIONS, *, freedoms: Sequence[Freedom] = ()
 ) -> Solution:
     """Trim a design: the controls, inflow and blade motion at which forces and moments balance.
 
@@ -52,25 +48,27 @@ def solve(
         >>> 0.0 < trim.power.induced < trim.power.main_rotor < trim.power.total  # [W]
         True
     """
+    return analyse(design, start, options, freedoms=freedoms).solution
+
+
+@one_blas_thread()
+def analyse(
+    design: Design, start: Start = None, options: SolverOptions = DEFAULT_OPTIONS, *, freedoms: Sequence[Freedom] = ()
+) -> Analysis:
+    """`solve`, with the equations at the solution kept: for gradients, `doubt`, `hub_loads` and `stability`."""
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
-    solution = _refused(_once(require_design(design), start, options, freedoms), options)
-    return replace(solution, find_hub_loads=partial(hub_loads, solve=solve))
+    found = _once(require_design(design), start, options, freedoms)
+    solution = found.solution
+    if not solution.converged or design.hovering or solution.stalled_thrust <= stall_limit(found.linear.problem):
+        return found
+    # Stalled sections carry more of the thrust than on rotors that were measured.
+    sentence = stalled_sentence(design, solution.stalled_thrust, *largest(solution, options))
+    refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
+    return Analysis(refused, found.linear)
 
 
-def _refused(solution: Solution, options: SolverOptions) -> Solution:
-    """The solution, without power where stalled sections carry more of the thrust than on rotors that were measured."""
-    if solution.linear is None or not solution.converged or solution.design.hovering:
-        return solution
-    if solution.stalled_thrust <= stall_limit(solution.linear.problem):
-        return solution
-    sentence = stalled_sentence(solution.design, solution.stalled_thrust, *largest(solution, options))
-    return replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
-
-
-def _once(
-    design: Design, start: Solution | Guess | None, options: SolverOptions, freedoms: Sequence[Freedom]
-) -> Solution:
+def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]) -> Analysis:
     """The trim of least power, however much is stalled."""
     begin = time.perf_counter()
     problem = trim_problem(design, freedoms)
@@ -84,12 +82,12 @@ def _once(
     if design.hovering:
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
-    solution = assemble(result, begin)
+    found = assemble(result, begin)
     # With so much stall, or so implausible, it may not be the trim of least power.
-    doubtful = solution.stalled_thrust > MOST_STALLED or not solution.converged
+    doubtful = found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
     if design.condition.stand is not None or not (result.converged and doubtful):
-        return solution
-    return least_of_branches(solution, stall_limit(problem), options)
+        return found
+    return least_of_branches(found, stall_limit(problem), options)
 
 
 def _guess(design: Design, earlier: Solution) -> Guess | None:

@@ -23,10 +23,11 @@ from rotor.arrays import Array
 from rotor.assets import package_version
 from rotor.design.design import Design
 from rotor.dynamics.periodic import Exponents, exponents, growth
+from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.blade_system import BladeSystem, blade_system
 from rotor.trim.newton import LinearisedTrim
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 
 Air = Literal["quasi-steady", "unsteady"]
 """Whether lift follows at once, or with the lag of the vorticity that the section sheds."""
@@ -164,14 +165,14 @@ class Stability:
 
 
 def stability(
-    given: Design | Solution,
+    given: Design | Solution | Analysis,
     *,
     air: Air = "quasi-steady",
     offset: float = 0.0,
     with_margins: bool = True,
     harmonics: int = HARMONICS,
 ) -> Stability:
-    """Modes and margins of the blade of a design, or of a solution of `solve`.
+    """Modes and margins of the blade of a design, of a solution, or of its `rotor.trim.Analysis`.
 
     offset: how far the centre of gravity is moved aft, all along the lifting blade [chords]. harmonics: of Hill's
     matrix. RuntimeError when it does not trim, ValueError for an offset beyond half a chord or air of another name.
@@ -191,7 +192,7 @@ def stability(
     return Stability(design, air, offset, damped_modes(system, result), left, bool(result.values.real.max() < 0.0))
 
 
-def margins(given: Design | Solution) -> PitchFlapMargins:
+def margins(given: Design | Solution | Analysis) -> PitchFlapMargins:
     """Margins with the mean slopes of the air around the azimuth, in tenths of a second.
 
     ValueError for a blade that is rigid in torsion. RuntimeError when it does not trim.
@@ -202,16 +203,9 @@ def margins(given: Design | Solution) -> PitchFlapMargins:
     return pitch_flap_margins(system)
 
 
-def linearised(given: Design | Solution) -> LinearisedTrim:
-    """The equations of a trim, which is solved where they are not at hand. RuntimeError when it does not trim."""
-    if isinstance(given, Solution):
-        solution = given.require()
-        if solution.linear is None:  # It came from another process.
-            solution = solve(solution.design, solution).require()
-    else:
-        solution = solve(given).require()
-    assert solution.linear is not None
-    return solution.linear
+def linearised(given: Design | Solution | Analysis) -> LinearisedTrim:
+    """The equations of a trim. RuntimeError when the design does not trim."""
+    return (analyse(given) if isinstance(given, Design) else analysed(given)).adjoint.trim
 
 
 def damped_modes(system: BladeSystem, result: Exponents) -> tuple[DampedMode, ...]:
@@ -295,7 +289,7 @@ class BoundaryPoint:
 
 
 def stability_boundary(
-    given: Design | Solution, offsets: tuple[float, ...], *, air: Air = "quasi-steady"
+    given: Design | Solution | Analysis, offsets: tuple[float, ...], *, air: Air = "quasi-steady"
 ) -> tuple[BoundaryPoint, ...]:
     """The stiffness in torsion that the blade needs in pitch and flap, over offsets of its centre of gravity [chords].
 

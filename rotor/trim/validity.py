@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.elements import BladeElements, DiskSums, TrimState
+from rotor.aero.elements import BladeElements, DiskSums
 from rotor.aero.momentum import VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
@@ -19,8 +19,8 @@ from rotor.design.aircraft import FIXED_SHARE, Stand
 from rotor.design.design import Design
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
-from rotor.trim.power import HubMoment, PowerBudget
-from rotor.trim.solution import Caveat, DiskFields, ElasticTwist
+from rotor.trim.power import HubMoment
+from rotor.trim.solution import Caveat, Solution
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -49,13 +49,7 @@ class Trimmed:
     """A converged trim, and what caveats read of it."""
 
     problem: Problem
-    total: DiskSums
-    fields: DiskFields
-    stalled: float
-    moment: HubMoment
-    power: PowerBudget
-    elastic: ElasticTwist | None
-    state: TrimState
+    solution: Solution
 
     @property
     def design(self) -> Design:
@@ -115,13 +109,13 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
 
 
 def _of_the_models(trim: Trimmed) -> dict[str, str]:
-    design, models, power = trim.design, trim.design.models, trim.power
+    design, models, power = trim.design, trim.design.models, trim.solution.last_power
     said = dict[str, str]()
     if off := switched_off(models):
         names = ", ".join(switch.title.lower() for switch in off)
         said["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
     if not models.flapping and trim.mu > 0.0:
-        said["rigid-blades"] = _rigid(trim.moment)
+        said["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
             said["rigid-blades-linear-inflow"] = (
                 "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low."
@@ -139,7 +133,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
             f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and only "
             "the wake that a lifting line sheds and the damping of the pitch rate answer to it."
         )
-    control_power = 0.0 if trim.elastic is None else trim.elastic.control_power
+    control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         said["control-power"] = (
             f"Pitch links and actuators put {control_power / 1e3:.1f} kW into the pitching blades; that is not part of "
@@ -154,7 +148,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
 
 
 def _of_the_flight(trim: Trimmed) -> dict[str, str]:
-    design, mu, power = trim.design, trim.mu, trim.power
+    design, mu, power = trim.design, trim.mu, trim.solution.last_power
     said = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
         said["low-speed-inflow"] = f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
@@ -193,23 +187,23 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
             f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall decide, which the sections here describe "
             "roughly."
         )
-    loading = trim.total.thrust / design.rotor.solidity
+    loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         said["blade-loading"] = (
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
-            f"too low. {_nearest_to_stall(trim.fields.stall_margin, trim.problem.disk.r)}"
+            f"too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
         )
     return said
 
 
 def _of_the_sections(trim: Trimmed) -> dict[str, str]:
-    design, fields, disk = trim.design, trim.fields, trim.problem.disk
+    design, fields, disk = trim.design, trim.solution.disk, trim.problem.disk
     said = dict[str, str]()
-    if trim.stalled > STALL_SHARE:
+    if trim.solution.stalled_area > STALL_SHARE:
         what = "section data are steady, without dynamic stall"
         if fields.unsteady is not None:
             what = "the lags of dynamic stall are those of a NACA 0012"
-        said["stall"] = f"{100.0 * trim.stalled:.1f} % of the disk is stalled; {what}."
+        said["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
     if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
         said["no-dynamic-stall"] = (
             f"The inflow {design.models.inflow} balances the load at each point by itself, which sections that stall "
@@ -243,7 +237,7 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
 
 def _beyond_stops(trim: Trimmed) -> list[str]:
     """What each control that is beyond its stops needs, and what it has, in words."""
-    stops, state, words = trim.design.aircraft.controls, trim.state, list[str]()
+    stops, state, words = trim.design.aircraft.controls, trim.solution.controls, list[str]()
     if stops is None:
         return words
     ranges = {"collective": stops.collective, "lateral": stops.lateral, "longitudinal": stops.longitudinal}

@@ -96,14 +96,9 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     lag = complex(theodorsen(np.array([k]))[0])
     seen = mean + amplitude * np.imag(lag * (1.0 + 1j * k) * np.exp(1j * phase))
     onset = stall_onset(table)
-    data = StallData(
-        numbers=onset.numbers[None].copy(),
-        tables=onset.tables[None].copy(),
-        section=np.zeros((1, 2), np.int64),
-        weight=np.zeros(1),
-        half_chord=np.full(1, k),
-        tip_mach=mach,
-    )
+    section, weight, half_chord = np.zeros((1, 2), np.int64), np.zeros(1), np.full(1, k)
+    own = {"numbers": onset.numbers[None].copy(), "tables": onset.tables[None].copy(), "half_chord": half_chord}
+    data = StallData(**own, section=section, weight=weight, tip_mach=mach)
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     x = seen - float(table.zero_lift_alpha(mach))
     by = np.empty((3, _AZIMUTHS, 0))

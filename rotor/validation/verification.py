@@ -20,7 +20,7 @@ from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.power import profile_power_coefficient

@@ -7,7 +7,7 @@ import pytest
 
 from explorer.app import App
 from explorer.session import Session
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 from tests.explorer.test_leaving import searching
 from tests.tools.visitor import Visitor, ran

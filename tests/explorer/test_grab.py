@@ -28,7 +28,7 @@ from explorer.model.sliders import (
 )
 from explorer.model.undo import History
 from explorer.tabs.twist_curve import TwistCurveEditor
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 
 TWO = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)

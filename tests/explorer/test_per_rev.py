@@ -37,7 +37,7 @@ from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_index
 from rotor.trim.solve import solve
 from tests.actuate import foreseen
@@ -153,7 +153,7 @@ def answer(whole: DialAnswer) -> DialMatrix:
 def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]) -> tuple[float, float]:
     """Changes of power and index [%], by two trims."""
     rest, moved = (solve(with_harmonics(design, waves)).require() for waves in (before, after))
-    index = hub_index(Adjoint(moved)) / hub_index(Adjoint(rest))
+    index = hub_index(Analysis(moved).adjoint) / hub_index(Analysis(rest).adjoint)
     return 100.0 * (moved.power.total / rest.power.total - 1.0), 100.0 * (index - 1.0)
 
 

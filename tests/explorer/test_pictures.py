@@ -18,6 +18,7 @@ from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_pictu
 from explorer.picture.polar import Drawn, PolarGrid, polar_grid, refined
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
+from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -98,8 +99,7 @@ class TestFields:
 
     def test_circulation_is_that_of_the_panels(self, fast: Solution):
         """Where nothing is stalled the field is the circulation that the lifting line was solved for."""
-        assert fast.linear is not None
-        point, terms = fast.linear.point, fast.linear.problem.inflow_terms
+        point, terms = Analysis(fast).linear.point, Analysis(fast).linear.problem.inflow_terms
         assert isinstance(terms, LiftingLineTerms)
         rotor, grid, line = fast.design.rotor, grid_of(fast), terms.line
         solved = point.x[point.system.structure.given :].reshape(line.panels, line.azimuths)

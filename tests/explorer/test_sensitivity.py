@@ -16,7 +16,7 @@ from explorer.model.sliders import (
 )
 from explorer.model.units import AVIATION, SI
 from explorer.views.worth import worth_row
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 
 DIVISION_STEP = 1e-4

@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 from explorer.charts import vibration
 from explorer.charts.vibration import SPEEDS, IndexCurves, index_chart
 from explorer.model.inputs import Inputs, ViewState, with_rotor
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Analyses, SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
 from explorer.picture.picture import (
     BENDING_SHOWN,
@@ -33,7 +33,7 @@ from explorer.tabs.vibration_panel import VibrationPanel
 from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import HubLoads, Solution
 from rotor.trim.solve import solve
@@ -55,7 +55,7 @@ def straight() -> Solution:
 
 @pytest.fixture(scope="module")
 def loads(bent: Solution) -> HubLoads:
-    found = hub_loads(bent, solve, band=False)
+    found = hub_loads(bent, band=False)
     assert found is not None
     return found
 
@@ -73,7 +73,7 @@ class TestDrawnBlade:
     @pytest.mark.parametrize("psi", [0.4, 2.0, 5.1])
     def test_it_is_moved_by_ten_times_what_the_trim_says(self, bent: Solution, psi: float):
         """Against displacements by which hub loads are tested, less flapping; a flapped blade is 4° steep: 1 %."""
-        adjoint = Adjoint(bent)
+        adjoint = Analysis(bent).adjoint
         b = adjoint.problem.bending
         assert b is not None
         q, _ = coordinates_of(b, adjoint.point.system.structure, adjoint.point.z)
@@ -121,7 +121,7 @@ class TestIndexOverSpeed:
         assert told[0] == len(SPEEDS) - 4
         assert told[-1] == 0
         at = make_design(case=bent.design, mu=SPEEDS[6])
-        alone = hub_loads(solve(at).require(), solve, band=False)
+        alone = hub_loads(solve(at).require(), band=False)
         assert alone is not None
         assert known[6] == pytest.approx(alone.index, rel=1e-3)
         chart = index_chart(curves, bent, bent, known[4])
@@ -141,7 +141,9 @@ class Page:
         self.shown = bridge.state
         self.switch = ""
         context: Any = SimpleNamespace(
-            bridge=bridge, controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words))
+            analyses=Analyses(),
+            bridge=bridge,
+            controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
         )
         self.panel = VibrationPanel(context, lambda: None)
 
@@ -182,7 +184,7 @@ class TestPanel:
         page.show(twisted, pinned=straight)
         assert page.shown["vibration"].change == ""
         page.panel.solve_deferred(lambda: False)
-        row, of_a = page.shown["vibration"], hub_loads(bent, solve, band=False)
+        row, of_a = page.shown["vibration"], hub_loads(bent, band=False)
         assert of_a is not None
         assert row.change.endswith(f"% vs. A ({of_a.index:.1f})")
         percent = float(row.change.split()[0].replace("−", "-"))
@@ -210,7 +212,7 @@ class TestPanel:
         def never(*_: Any, **__: Any) -> None:
             raise AssertionError("computed without bending")
 
-        for module, names in ((vibration_panel, ("hub_loads", "solve", "deflections")), (vibration, ("solve",))):
+        for module, names in ((vibration_panel, ("hub_loads", "solve")), (vibration, ("analyse",))):
             for name in names:
                 monkeypatch.setattr(module, name, never)
         page.show(straight)

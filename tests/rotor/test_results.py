@@ -13,7 +13,7 @@ import rotor
 import rotor.command.validate
 from rotor.__main__ import main
 from rotor.design.twist import parse_twist
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 
 WANTS = "a picture needs matplotlib: pip install 'rotor-explorer[plot]'"
 QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}

@@ -19,7 +19,7 @@ from numpy.testing import assert_allclose
 import rotor
 from rotor.arrays import Array
 from rotor.blas_threads import keep_one_blas_thread
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from tests.patched import empty_caches
 
 ROOT = Path(__file__).parent.parent.parent
@@ -41,7 +41,7 @@ def answer(number: int) -> list[str]:
     found = [*astuple(solution.controls), *astuple(solution.last_power), *power_gradient(solution).by_element]
     if solution.elastic is not None:
         found += solution.elastic.coordinates.ravel().tolist()
-    if solution.design.models.bending and (loads := solution.hub_loads) is not None:
+    if solution.design.models.bending and (loads := rotor.hub_loads(solution)) is not None:
         found += [loads.index, *loads.amplitudes.values()]
     return [float(value).hex() for value in found]
 

@@ -30,12 +30,12 @@ from rotor.optimisation.search import Search, run_search
 from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
-from rotor.trim.adjoint import Adjoint, power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.power_changes import power_changes
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 
 T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
@@ -204,7 +204,7 @@ def measure() -> dict[str, float]:
         pairs = list(zip(nearby, solutions, strict=True))
         figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
         figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
-        figures[f"{beside}doubt"] = _mean(power_changes, [Adjoint(solution) for solution in solutions], 15)
+        figures[f"{beside}doubt"] = _mean(power_changes, [analyse(design).adjoint for design in designs], 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
     return figures
 
@@ -233,9 +233,9 @@ def _three(design: Design, nearby: Design, start: Solution) -> tuple[float, floa
     begin = time.process_time()
     solve(design)
     cold = time.process_time()
-    solution = solve(nearby, start)
+    trim = analyse(nearby, start)
     warm = time.process_time()
-    power_gradient(solution)
+    power_gradient(trim)
     return cold - begin, warm - cold, time.process_time() - warm
 
 
@@ -249,9 +249,9 @@ def _gradient(nearby: Design, start: Solution) -> float:
     """The gradient of a new trim [ms], its derivatives included, which the next trim then uses."""
     times: list[float] = []
     for _ in range(16):
-        solution = solve(nearby, start)
+        trim = analyse(nearby, start)
         begin = time.process_time()
-        power_gradient(solution)
+        power_gradient(trim)
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times[1:])
 

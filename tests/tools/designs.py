@@ -25,6 +25,7 @@ from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.trim.analysis import Analysis
 from rotor.trim.hover import _error
 from rotor.trim.newton import DEFAULT_OPTIONS, _errors
 from rotor.trim.solution import Solution
@@ -168,18 +169,17 @@ def _wrong(solution: Solution) -> str:
 
 def _open(solution: Solution) -> str:
     """The equations built anew and evaluated at the solution; nothing where they hold."""
-    assert solution.linear is not None
-    problem, options = solution.linear.problem, DEFAULT_OPTIONS
+    problem, options = Analysis(solution).linear.problem, DEFAULT_OPTIONS
     if problem.design.hovering:
         system = hover_system(problem)
-        point = evaluate(system, system.grid, solution.linear.point.x)
+        point = evaluate(system, system.grid, Analysis(solution).linear.point.x)
         stand = problem.design.condition.stand
         given = stand is not None and stand.collective is not None  # Then no thrust is to be met.
         thrust = 0.0 if given else abs(float(point.residual[0]))
         error = max(thrust / problem.scale, _error(point, problem, 0 if given else 1))
         return "" if error <= 2.0 * options.accepted_hover else f"hover is open by {error:.1e}"
     system = flight_system(problem)
-    point = evaluate(system, system.grid, solution.linear.point.x)
+    point = evaluate(system, system.grid, Analysis(solution).linear.point.x)
     trim, elastic, inflow = _errors(point, options)
     held = max(trim, elastic) <= options.accepted_residual and inflow <= options.accepted_inflow
     return "" if held else f"open by {trim:.1e}, torsion {elastic:.1e}, inflow {inflow:.1e}"

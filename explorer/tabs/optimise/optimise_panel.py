@@ -260,7 +260,8 @@ class Rival:
 
     def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
         """`problems` get a title and a sentence where the address cannot be read."""
-        self._context, self._address, self._solved = context, address, BaselineCache()
+        self._context, self._address = context, address
+        self._solved = BaselineCache(by=context.analyses.solve)
         self._design = address.read(RIVAL, design_from, None, "Not the optimiser's design of the link", problems)
         self.solution: Solution | None = None
         """The optimiser's trim in the present flight; None without one."""

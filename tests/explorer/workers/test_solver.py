@@ -13,7 +13,7 @@ from explorer.picture import picture
 from rotor.command.warm import compile_all
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 
 def compiled():

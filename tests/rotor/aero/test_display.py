@@ -14,6 +14,7 @@ from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
@@ -77,16 +78,14 @@ def test_what_the_samples_resolve_is_exact(source: int):
 
 class TestFields:
     def test_a_trim_on_the_grid_asked_for_is_shown_as_it_is(self, many: Solution):
-        assert many.linear is not None
-        problem, elements = many.linear.problem, many.linear.elements
+        problem, elements = Analysis(many).linear.problem, Analysis(many).linear.elements
         shown = as_asked(problem, elements)
         assert shown[0] is problem
         assert shown[1] is elements
         assert many.disk.alpha is elements.alpha
 
     def test_at_the_azimuths_of_the_trim_they_are_its_own(self, memoryless: Solution):
-        assert memoryless.linear is not None
-        e, disk, step = memoryless.linear.elements, memoryless.disk, 120 // AZIMUTHS["few azimuths"]
+        e, disk, step = Analysis(memoryless).linear.elements, memoryless.disk, 120 // AZIMUTHS["few azimuths"]
         for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd"):
             assert_allclose(getattr(disk, name)[:, ::step], getattr(e, name), atol=1e-10)
         assert_allclose(disk.dct[:, ::step], e.fz, atol=1e-12)
@@ -94,8 +93,7 @@ class TestFields:
 
     def test_dynamic_stall_is_followed_at_the_azimuths_shown(self, few: Solution):
         """Its lags are those of the path between the azimuths, which is finer in the picture than in the trim."""
-        assert few.linear is not None
-        e, disk, step = few.linear.elements, few.disk, 120 // AZIMUTHS["few azimuths"]
+        e, disk, step = Analysis(few).linear.elements, few.disk, 120 // AZIMUTHS["few azimuths"]
         assert_allclose(disk.alpha[:, ::step], e.alpha, atol=1e-10)
         assert_allclose(disk.dct[:, ::step], e.fz, atol=0.01 * e.fz.max())
         assert np.quantile(np.abs(disk.cl[:, ::step] - e.cl)[e.u_t > 0.1], 0.99) < 0.03
@@ -131,9 +129,8 @@ class TestFields:
 class TestSums:
     def test_power_and_thrust_are_those_of_the_trim(self, few: Solution):
         assert_allclose(few.power.shaft, few.power.main_rotor, rtol=1e-9)
-        assert few.linear is not None
-        disk = few.linear.problem.disk
-        assert_allclose(few.ct, (disk.dr @ few.linear.elements.fz).mean(), rtol=1e-14)
+        disk = Analysis(few).linear.problem.disk
+        assert_allclose(few.ct, (disk.dr @ Analysis(few).linear.elements.fz).mean(), rtol=1e-14)
         assert_allclose((few.disk.dr @ few.disk.dct).mean(), few.ct, rtol=1e-4)
 
 

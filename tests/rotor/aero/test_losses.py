@@ -13,6 +13,7 @@ from rotor.arrays import Array
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
+from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -86,8 +87,7 @@ def test_without_losses_it_does_not_matter_where_they_act():
 def test_hover_of_the_thesis_is_the_closed_form():
     """λ of every annulus against (3.3) with the F of its own λ, for the straight lift curve of the section data."""
     one = with_loss("inflow", 0.0, "thesis")
-    assert one.linear is not None
-    problem, disk = one.linear.problem, one.disk
+    problem, disk = Analysis(one).linear.problem, one.disk
     slope, zero = lift_curve(problem)
     inflow = disk.induced[:, 0]
     factor, _ = loss_factor(disk.r, inflow, 4, 0.1304)
@@ -102,8 +102,7 @@ def test_loss_on_the_inflow_is_that_of_the_annulus_in_fast_flight():
     errors: list[float] = []
     for mu in (0.15, 0.35):
         one = with_loss("inflow", mu, "thesis")
-        assert one.linear is not None
-        disk, state = one.disk, one.linear.elements.state
+        disk, state = one.disk, Analysis(one).linear.elements.state
         psi = np.radians(np.arange(360.0))
         tilt = 15.0 * math.pi / 23.0 * math.tan(0.5 * math.atan2(mu * math.cos(state.shaft_tilt), mu * math.sin(
             state.shaft_tilt) + state.lambda0))  # fmt: skip
@@ -128,8 +127,7 @@ def test_the_parts_of_power_are_the_torque_with_loss_on_the_inflow():
     power = with_loss("inflow", 0.25).power
     assert_allclose(power.shaft, power.main_rotor, rtol=1e-8)
     stated = with_loss("inflow", 0.25, "thesis")
-    assert stated.linear is not None
-    e, psi = stated.linear.elements, stated.disk.psi
+    e, psi = Analysis(stated).linear.elements, stated.disk.psi
     aft = (e.fx * np.sin(psi) - e.fz * e.beta * np.cos(psi)).mean(axis=1)
     lacking = 0.25 * float(stated.disk.dr @ aft) * stated.design.power_unit
     assert_allclose(stated.power.shaft, stated.power.induced + stated.power.profile - lacking, rtol=1e-6)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import make_design, solve
+from rotor import make_design
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.lifting_line import theodorsen
 from rotor.aero.problem import build_problem
@@ -16,6 +16,7 @@ from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, bicubic_coefficients, mach_nodes
 from rotor.arrays import Array
+from rotor.trim.solve import analyse
 
 N = 64
 PSI = 2.0 * np.pi * np.arange(N) / N
@@ -169,7 +170,7 @@ def test_derivatives_are_exact(bends: bool) -> None:
 def test_rates_of_a_trim_are_those_of_its_motion() -> None:
     """θ'' and the rates of U_T and U_P are the Fourier derivatives of the channels, but for the inflow in U_P."""
     design = make_design(mu=0.3, inflow="uniform", pitch_per_rev="3:1:60", off="tip-loss,hub-loss")
-    e = solve(design).require().linear
+    e = analyse(design).linear
     assert e is not None
     rates, waves = e.elements.rates, np.fft.rfftfreq(120, 1.0 / 120)
     assert rates is not None

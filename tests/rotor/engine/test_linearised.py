@@ -23,7 +23,7 @@ from rotor.design.design import Design
 from rotor.engine.linearise import Measure, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
 from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse
 
 STEPS = 10.0 ** -np.arange(4.0, 7.6, 0.5)
 ACTIVE = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))
@@ -126,7 +126,7 @@ def design(case: Case) -> Design:
 @cache
 def solved(name: str) -> Point:
     """The equations at the trim of a case."""
-    linear = solve(design(CASES[name])).require().linear
+    linear = analyse(design(CASES[name])).linear
     assert linear is not None
     return linear.point
 

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.section import FZ
 from rotor.engine.linearise import evaluate, jacobian
+from rotor.trim.analysis import Analysis
 
 PAGE = Path(__file__).parents[3] / "docs" / "developers" / "freedom.md"
 CODE = re.search(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
@@ -19,7 +20,7 @@ def test_the_worked_example_flaps_as_its_loads_say_and_its_jacobian_is_exact():
     assert len(CODE.group(1).splitlines()) <= 40
     names: dict[str, Any] = {}
     exec(compile(CODE.group(1), PAGE.name, "exec"), names)
-    linear = names["solution"].require().linear
+    linear = Analysis(names["solution"].require()).linear
     point, problem, system = linear.point, linear.problem, linear.point.system
     assert point.size <= 1.0
     assert names["beta_2c"] == point.x[system.structure.states["flap_2c"]]

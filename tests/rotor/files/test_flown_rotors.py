@@ -16,6 +16,7 @@ from rotor.dynamics.torsion import blade_modes
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.study.series import between_drag_areas
+from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -148,8 +149,7 @@ def test_hub_moments_are_those_given(baseline: Solution):
     """They are Σ r dF_z, and also the spring's moments and the shear at the hinge, which know nothing of r dF_z."""
     assert_allclose([baseline.hub_moment.roll, baseline.hub_moment.pitch], [20.0, -20.0], atol=1e-3)
     assert_allclose(baseline.ct * baseline.design.thrust_unit, 3300.0, rtol=1e-6)
-    assert baseline.linear is not None
-    problem, elements, c = baseline.linear.problem, baseline.linear.elements, baseline.controls
+    problem, elements, c = Analysis(baseline).linear.problem, Analysis(baseline).linear.elements, baseline.controls
     rotor, disk = baseline.design.rotor, problem.disk
     lift = disk.dr @ elements.fz * baseline.design.thrust_unit / len(disk.psi)
     offset = rotor.blade.flap_hinge * rotor.radius
@@ -163,11 +163,10 @@ def test_hub_moments_are_those_given(baseline: Solution):
 
 def test_the_coning_balances_lift_weight_and_a_spring_that_rests_at_the_precone(baseline: Solution):
     """I Ω² β0 + e S Ω² β0 + K (β0 − 2.5°) = lift times arm − g S, in N m of one blade."""
-    assert baseline.linear is not None
-    problem, rotor = baseline.linear.problem, baseline.design.rotor
+    problem, rotor = Analysis(baseline).linear.problem, baseline.design.rotor
     blade, disk, beta = rotor.blade, problem.disk, baseline.controls.coning
     arm = (disk.r - blade.flap_hinge) * rotor.radius
-    fz = baseline.linear.elements.fz
+    fz = Analysis(baseline).linear.elements.fz
     lift = float(arm * disk.dr @ fz.mean(axis=1)) * baseline.design.thrust_unit / rotor.blades
     offset = blade.flap_hinge * rotor.radius
     stiff = (blade.flap_inertia + offset * blade.flap_static_moment) * rotor.angular_speed**2

@@ -59,7 +59,7 @@ def condition(mu: str, line: LiftingLine = COARSE, wake: type[WakeCourse] = Heli
     thrust = float(row["CT"])
     tilt = math.asin(0.5 * speed**2 * 3.27 / (math.pi * 8.1778**2) / thrust)
     flow = speed * math.cos(tilt), speed * math.sin(tilt), float(row["lam0_Glauert"])
-    return LinesInWake(line, wake(*flow, 0.06, 0.0, 0.0, (1e-6, 1e-9))), thrust
+    return LinesInWake(line, wake(*flow, coning=0.06, flap_1c=0.0, flap_1s=0.0, core=(1e-6, 1e-9))), thrust
 
 
 def over_glauert(lines: LinesInWake, thrust: float, result: InducedPower) -> float:

@@ -21,7 +21,7 @@ from rotor.optimisation.objective import (
     measure,
     read_mission,
 )
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
@@ -59,11 +59,11 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
     concept, values, step = CONCEPTS["quadratic"], np.array([0.05, -0.3]), 1e-6
     tight = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
     centre = solve(concept.apply(design, values), options=tight)
-    _, slope = stalled_share(Adjoint(centre))
+    _, slope = stalled_share(Analysis(centre).adjoint)
     exact = concept.slopes(values, centre.disk.r) @ slope
 
     def area(at: np.ndarray) -> float:
-        return stalled_share(Adjoint(solve(concept.apply(design, at), centre, tight).require()))[0]
+        return stalled_share(Analysis(solve(concept.apply(design, at), centre, tight).require()).adjoint)[0]
 
     measured = [(area(values + step * e) - area(values - step * e)) / (2 * step) for e in np.eye(2)]
     assert_allclose(exact, measured, atol=2e-5 * max(np.abs(exact).max(), 1e-3), rtol=0.0)
@@ -76,7 +76,7 @@ def test_stalled_share_is_close_to_the_counted_area():
     """
     for mu, apart in ((0.3, 0.005), (0.35, 0.005), (0.38, 0.012)):
         solution = solve(make_design(mu=mu, twist="linear:-4", off="unsteady,dynamic-stall"))
-        share, _ = stalled_share(Adjoint(solution))
+        share, _ = stalled_share(Analysis(solution).adjoint)
         assert_allclose(share, solution.stalled_area, atol=apart)
 
 

@@ -26,7 +26,7 @@ def bent(inflow: str, mu: float = 0.3, twist_per_rev: str = "") -> Design:
 
 
 def loads_of(solution: Solution) -> HubLoads:
-    found = hub_loads(solution, rotor.solve, band=False)
+    found = hub_loads(solution, band=False)
     assert found is not None
     return found
 

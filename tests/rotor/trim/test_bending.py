@@ -19,7 +19,7 @@ from rotor.columns.bending import coordinates_of
 from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
-from rotor.trim.adjoint import Adjoint, power_gradient
+from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.hub_loads import hub_loads, index_along, why_no_hub_loads
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import HubLoads, Solution
@@ -44,13 +44,13 @@ def _solved(mu: float, inflow: str) -> Solution:
 
 
 def _at(solution: Solution) -> tuple[Problem, Point, BladeBending]:
-    adjoint = Adjoint(solution)
+    adjoint = Analysis(solution).adjoint
     assert adjoint.problem.bending is not None
     return adjoint.problem, adjoint.point, adjoint.problem.bending
 
 
 def _loads(solution: Solution) -> HubLoads:
-    found = hub_loads(solution, rotor.solve, band=False)
+    found = hub_loads(solution, band=False)
     assert found is not None
     return found
 
@@ -285,7 +285,7 @@ def test_gradients(inflow: str) -> None:
     )
     slopes = np.radians(1.0) * (before.disk.r - 0.75)
     expected = (_loads(high).index - _loads(low).index) / (2.0 * step)
-    assert_allclose(index_along(Adjoint(before))[1] @ slopes, expected, rtol=3e-4)
+    assert_allclose(index_along(Analysis(before).adjoint)[1] @ slopes, expected, rtol=3e-4)
     expected = (high.power.total - low.power.total) / (2.0 * step)
     assert_allclose(power_gradient(before).by_element @ slopes, expected, rtol=3e-5)
 
@@ -303,13 +303,13 @@ def test_where_there_are_no_hub_loads() -> None:
         reason = why_no_hub_loads(design)
         assert reason is not None
         assert words in reason.sentence
-        assert rotor.solve(design).hub_loads is None
+        assert hub_loads(rotor.solve(design)) is None
 
 
 def test_solution_has_hub_loads_with_their_band() -> None:
     """A design whose blades do not bend has those of its twin whose blades do."""
     stiff, bent = rotor.solve(rotor.make_design(mu=0.3)), _solved(0.3, LINE)
-    loads, frequencies = stiff.hub_loads, bent.blade_frequencies
+    loads, frequencies = hub_loads(stiff), bent.blade_frequencies
     assert loads is not None
     assert frequencies is not None
     assert loads.band is not None

@@ -19,7 +19,7 @@ from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.design import Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 

@@ -16,7 +16,7 @@ from rotor.aero.problem import Problem, build_problem
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
-from rotor.trim.adjoint import Adjoint
+from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, DoubtRow, doubt, other_models, sureness
 from rotor.trim.power_changes import hover_part, power_changes
 from tests.patched import Patch
@@ -91,7 +91,7 @@ def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
     here, _ = at_speed()
     design = here.design
     by_hand = 0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
-    assert 1.0 < power_changes(Adjoint(here))["drag_area_percent"] / by_hand < 1.25
+    assert 1.0 < power_changes(Analysis(here).adjoint)["drag_area_percent"] / by_hand < 1.25
 
 
 def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
@@ -99,7 +99,7 @@ def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
     here = rotor.solve(rotor.make_design(hover=True)).require()
     tail = 1.0 + here.power.tail / here.power.main_rotor
     share = 0.01 * SIZES["section_drag_percent"] * here.power.profile * tail
-    assert power_changes(Adjoint(here))["section_drag_percent"] == pytest.approx(share, rel=0.12)
+    assert power_changes(Analysis(here).adjoint)["section_drag_percent"] == pytest.approx(share, rel=0.12)
 
 
 def test_in_hover_a_tenth_of_induced_power_is_uncertain_and_what_the_tail_takes_for_it():
@@ -141,7 +141,7 @@ def test_steady_flow_stands_beside_unsteady_flow_alone(off: str, beside: bool):
 
 def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
     options = {"mu": 0.3, "bending": True}
-    found = power_changes(Adjoint(rotor.solve(rotor.make_design(**options)).require()))
+    found = power_changes(Analysis(rotor.solve(rotor.make_design(**options)).require()).adjoint)
     ends: list[float] = []
     for sign in (1.0, -1.0):
         patch_sections("section_drag_percent", sign * SIZES["section_drag_percent"], patch)
@@ -150,11 +150,12 @@ def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
 
 
 def test_what_a_design_does_not_have_is_no_row():
-    thesis = power_changes(Adjoint(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require()))
+    thesis = power_changes(Analysis(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require()).adjoint)
     assert not {"torsional_stiffness_percent", "section_moment", "wake_transport_percent"} & set(thesis)
     stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
-    assert set(power_changes(Adjoint(rotor.solve(stand).require()))) <= set(thesis) | {"wake_transport_percent"}
-    assert "drag_area_percent" not in power_changes(Adjoint(rotor.solve(stand).require()))
+    found = Analysis(rotor.solve(stand)).power_changes
+    assert set(found) <= set(thesis) | {"wake_transport_percent"}
+    assert "drag_area_percent" not in found
 
 
 @pytest.mark.parametrize("options", [{"hover": True}, {"mu": 0.2, "inflow": "drees", "loss_on": "inflow"}])

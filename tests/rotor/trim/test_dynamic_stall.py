@@ -11,7 +11,7 @@ import pytest
 from rotor import make_design, optimise, solve, sweep
 from rotor.aero.switches import no_effect
 from rotor.design.design import Design
-from rotor.trim.adjoint import Adjoint, power_gradient
+from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.distribution import distribution
 from rotor.trim.validity import MOST_STALLED
 from tests.rotor.check_jacobian import check_along
@@ -28,7 +28,7 @@ def test_the_jacobian_is_exact(changed: dict[str, Any]):
     solution = solve(make_design(**HEAVY, **changed)).require()
     assert solution.disk.unsteady is not None
     assert solution.disk.unsteady.separation.min() < 0.5
-    point = Adjoint(solution).point
+    point = Analysis(solution).adjoint.point
     along = np.random.default_rng(1).normal(size=len(point.system.free)) * point.system.limits
     check_along(point, along * (1e-5 / np.abs(along).max()), 1e-5)
 
@@ -101,7 +101,7 @@ def test_a_turn_is_met_that_steady_sections_refuse():
     still = solve(steady(make_design(**TURN)))
     assert not still.converged
     assert "% of the thrust comes from stalled sections, and beyond 25 % no measured rotor" in still.message
-    again = pickle.loads(pickle.dumps(found.without_linear()))
+    again = pickle.loads(pickle.dumps(found))
     assert power_gradient(again).by_element == pytest.approx(power_gradient(found).by_element, rel=1e-6)
 
 

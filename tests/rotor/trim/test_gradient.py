@@ -14,10 +14,11 @@ from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, measure
-from rotor.trim.adjoint import Adjoint, Weights, power_gradient
+from rotor.trim.adjoint import Adjoint, Weights
+from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
 RELATIVE = 1e-6
@@ -111,9 +112,8 @@ def line(mu: float, inflow: str = "lifting-line", *, elastic: bool = True, prese
 @pytest.mark.parametrize("mu", [0.0, 0.06, 0.3])  # At the second forward flight is joined with hover.
 @pytest.mark.parametrize("inflow", ["lifting-line", "local-momentum", "drees"])
 def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, elastic: bool):
-    here = solve(line(mu, inflow, elastic=elastic)).require()
-    there: Solution = pickle.loads(pickle.dumps(here))
-    assert there.linear is None
+    here = analyse(line(mu, inflow, elastic=elastic))
+    there: Solution = pickle.loads(pickle.dumps(here.solution))
     for objective in ("total", "induced"):
         own = power_gradient(here, objective).by_element
         assert_allclose(power_gradient(there, objective).by_element, own, rtol=0, atol=2e-10 * np.abs(own).max())
@@ -128,13 +128,13 @@ def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, ela
 def test_any_measure_of_the_blade_elements(made: Design):
     """Random weights on each field that a measure may depend on, against differences of trims."""
     random, start = np.random.default_rng(1), solve(made, options=CLOSED).require()
-    r, adjoint, step = start.disk.r, Adjoint(start), 5e-6
+    r, adjoint, step = start.disk.r, Analysis(start).adjoint, 5e-6
     bend = random.uniform(-1.0, 1.0, len(r))
 
     def trimmed(sign: float) -> Adjoint:
         angles = made.twist(r) + sign * step * bend
         law = TableTwist(tuple(r.tolist()), tuple(angles.tolist()), name="bent")
-        return Adjoint(solve(replace(made, twist=law), start, CLOSED).require())
+        return Analysis(solve(replace(made, twist=law), start, CLOSED).require()).adjoint
 
     ends = [trimmed(sign) for sign in (1.0, -1.0)]
     for name in NAMES:

@@ -17,12 +17,12 @@ from rotor.columns.flight import disk_sums
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
-from rotor.trim.adjoint import power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import along, trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.power import power_budget
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 from rotor.validation.compare import design_at, load_set
 
 
@@ -171,9 +171,8 @@ def test_power_falls_steadily_from_hover():
 @pytest.mark.parametrize("mu", [0.05, 0.2, 0.3, 0.4])
 def test_a_wake_has_one_circulation(mu: float):
     """A + 1/k is positive definite in the norm of the energy, k = −∂Γ/∂λ: with lift slopes up to 15 of any sections."""
-    found = solve(line(mu))
-    assert found.linear is not None
-    point, disk = found.linear.point, found.linear.problem.disk
+    linear = analyse(line(mu)).linear
+    point, disk = linear.point, linear.problem.disk
     nodes = point.system.nodes
     assert nodes is not None
     weight = np.repeat(np.sqrt(disk.dr), disk.shape[1])

@@ -16,6 +16,7 @@ from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, PRESETS, STAND
 from rotor.files.make_design import make_design
+from rotor.trim.analysis import Analysis
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.solution import Solution
@@ -46,7 +47,7 @@ def check(solution: Solution) -> None:
         for name in (*(field.name for field in fields(solution.disk) if field.repr), "apparent"):
             values = getattr(solution.disk, name)
             if name == "unsteady":
-                assert (values is None) == (solution.linear is None or solution.linear.problem.stall is None)
+                assert (values is None) == (Analysis(solution).linear.problem.stall is None)
                 continue
             if values is None and (name == "apparent" or solution.elastic is None):
                 continue
