@@ -13,8 +13,8 @@ import pytest
 from watched import COARSE, LARGE, Watched, opened
 
 from explorer.app import App
+from explorer.model import actuator_inputs
 from explorer.model.inputs import Inputs
-from explorer.tabs.actuator import actuator_inputs
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.layout import DRAWERS
 
