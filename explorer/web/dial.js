@@ -202,7 +202,8 @@
     const [amplitude, phase] = wave(chosen), [x, y] = spot(amplitude, phase).map(v => v.toFixed(1));
     const room = Math.max(dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen)), 0);
     const ring = `<circle cx="${middle}" cy="${middle}" r="${scale * Math.min(room, reach)}" class="rxd-ring">
-      <title>Reach of the actuator: ${room.toFixed(2)}° at ${chosen}/rev with the voltage left</title></circle>`;
+      <title>Reach of the actuator: ${room.toFixed(2)}° at ${chosen}/rev with the voltage that is left</title>
+      </circle>`;
     const label = `${chosen}/rev: ${amplitude.toFixed(2)}° at phase ${phase.toFixed(0)}°`;
     return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group"
         aria-label="Twist at ${chosen}/rev, amplitude by phase">
