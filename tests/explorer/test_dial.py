@@ -63,13 +63,12 @@ def test_what_is_answered_is_shown(answered: Now):
     assert [dot[:2] for dot in one.front] == [(-0.5, 3.0), (0.4, -60.0)]
     assert one.front[0][2] == (0.0,) * 8
     assert one.whole > 0.5
-    assert (one.room, one.steady) == (1.0, False)
+    assert one.room == 1.0
     assert dial(replace(answered, ui=Ui("actuate", held=True))).held
 
 
 def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered: Now):
     driven = replace(answered, hand=replace(answered.hand, actuator=replace(AS_BUILT, drives=(50.0,) * 4)))
-    assert dial(driven).steady
     assert dial(driven).room < 1.0
     wide = replace(answered, inputs=replace(BENDING, twist_per_rev=read_harmonics("3:2.2:60", "test")))
     assert dial(wide).reach == 3.0
