@@ -10,8 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from explorer.tabs.actuator.actuator_words import section_svg
-from explorer.tabs.actuator.lifted_picture import TIMES, flown_twist, lifted_picture
 from numpy.testing import assert_allclose
 
 from explorer.model.actuator_inputs import (
