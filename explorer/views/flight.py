@@ -16,12 +16,14 @@ from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
 from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
 from explorer.views.actuated import Built, built, in_actuate
-from explorer.views.now import Asked, Drag, Effect, Memory, Now, Panel, SetActuator, SetHand
+from explorer.views.now import Asked, Drag, Effect, Hand, Memory, Now, Panel, SetActuator, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.verdict import reference
 from rotor.arrays import Array
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 
+AT_REST = (0.0,) * MOST_SEGMENTS
+"""No voltage on any segment."""
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
 _LEAST = 1.5
@@ -205,6 +207,12 @@ def fly(now: Now, x: float) -> tuple[Effect, ...]:
 def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
     """The actuator stops, or works again where the flight is now."""
     return SetHand({"stopped": stopped}), *(() if stopped else _driven(now, now.hand.flown))
+
+
+def landed(hand: Hand) -> tuple[SetActuator | SetHand, ...]:
+    """The blade is back in the rotor: what the flight drove is at rest again, a voltage that a hand set stays."""
+    rest = () if hand.flown is None else (SetActuator({"drives": AT_REST}),)
+    return *rest, SetHand({"lifted": False, "flown": None, "stopped": False})
 
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:

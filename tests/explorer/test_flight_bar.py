@@ -14,7 +14,7 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import SI
 from explorer.parts.actuate import FlightPart
 from explorer.views.actuator import ACTUATOR
-from explorer.views.flight import FLIGHT, HALVES, condition_at, earns_state, fly, place_of, stop_here
+from explorer.views.flight import FLIGHT, HALVES, condition_at, earns_state, fly, landed, place_of, stop_here
 from explorer.views.now import Now, SetHand, Ui
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
@@ -176,6 +176,16 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: Now, fligh
     by_hand = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(drives=(60.0,) * 4)))
     assert stop_here(by_hand, True) == (SetHand({"stopped": True}),)
     assert shown(done(by_hand, stop_here(by_hand, True))).frozen == math.degrees(tip(by_hand)) != 0.0
+
+
+def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: Now):
+    flown = done(ready, fly(ready, 3))
+    stopped = done(flown, stop_here(flown, True))
+    for one in (flown, stopped):
+        back = done(one, landed(one.hand))
+        assert (tip(back), back.hand.lifted, back.hand.stopped, back.hand.flown) == (0.0, False, False, None)
+    by_hand = replace(flown, hand=replace(flown.hand, flown=None))
+    assert tip(done(by_hand, landed(by_hand.hand))) == tip(flown) != 0.0
 
 
 def test_both_are_gone_where_the_blade_is_in_the_rotor(ready: Now):

@@ -4,20 +4,19 @@ import threading
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Outcome, question_of, verdict_tasks
+from explorer.model.actuator_inputs import ActuatorInputs, Outcome, question_of, verdict_tasks
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.lifted_scene import LiftedScene
 from explorer.tabs.background import all_known
 from explorer.tabs.context import TabContext
+from explorer.views.flight import AT_REST, landed
 from explorer.views.now import Hand, SetActuator, SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, place_of
 from explorer.workers import solver
 from rotor import Design, Solution
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
-
-_AT_REST = (0.0,) * MOST_SEGMENTS
 
 
 class ActuatorPanel:
@@ -88,7 +87,7 @@ class ActuatorPanel:
         return all_known().get(task) or task.run()
 
     def lift(self, out: bool) -> None:
-        """Lift one blade out towards the viewer, or let it fly back: what the flight drove is at rest again."""
+        """Lift one blade out towards the viewer, or let it fly back."""
         self._opened = self._opened or out
         if out:
             self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
@@ -96,9 +95,8 @@ class ActuatorPanel:
             self._set(lifted=True)
             return
         self._release()
-        if self._hand.flown is not None:
-            self.reset()
-        self._set(lifted=False, flown=None, stopped=False)
+        for effect in landed(self._hand):
+            self.perform(effect)
 
     def draw(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """The lifted blade as it flies: `design` is without the actuator's twist, `solution` with it."""
@@ -124,7 +122,7 @@ class ActuatorPanel:
 
     def reset(self) -> None:
         """Nothing driven."""
-        self.controls.place({"drives": _AT_REST})
+        self.controls.place({"drives": AT_REST})
 
     def _light(self, pays: bool) -> None:
         self._pays = pays
