@@ -166,4 +166,4 @@ def test_the_versions_are_those_that_the_changes_are_for():
     assert f'"websockets>={viser_compat.WEBSOCKETS},<17"' in project
     assert "websockets<17.0.0,>=13.1" in (requires("viser") or []), "viser allows other versions now: so may we"
     client = (Path(viser_compat.__file__).parents[1] / "web" / "viser.js").read_text(encoding="utf-8")
-    assert f"viser {viser_compat.VISER}" in client.partition("\n")[0]
+    assert f"viser {viser_compat.VISER}" in client.splitlines()[1]
