@@ -16,7 +16,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
 
 FAST, HEAVY = 0.35, 9500.0
@@ -78,11 +78,12 @@ def test_what_the_samples_resolve_is_exact(source: int):
 
 class TestFields:
     def test_a_trim_on_the_grid_asked_for_is_shown_as_it_is(self, many: Solution):
-        problem, elements = Analysis(many).linear.problem, Analysis(many).linear.elements
+        trim = analyse(many.design)
+        problem, elements = trim.linear.problem, trim.linear.elements
         shown = as_asked(problem, elements)
         assert shown[0] is problem
         assert shown[1] is elements
-        assert many.disk.alpha is elements.alpha
+        assert trim.solution.disk.alpha is elements.alpha
 
     def test_at_the_azimuths_of_the_trim_they_are_its_own(self, memoryless: Solution):
         e, disk, step = Analysis(memoryless).linear.elements, memoryless.disk, 120 // AZIMUTHS["few azimuths"]
