@@ -7,7 +7,7 @@ This package imports only words and numbers of `rotor`.
 from collections.abc import Mapping, Sequence
 from typing import TypedDict
 
-from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
+from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, SupposePart
 from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
 from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
 from explorer.parts.stage import (
@@ -40,7 +40,7 @@ class Parts(TypedDict, total=False):
     idle: int
     inset: InsetPart
     lecture: LecturePart | None
-    lifted_labels: Sequence[LiftedLabel]
+    lifted_labels: Sequence[SceneLabel]
     notice: NoticePart | None
     plan: PlanPart | None
     power: PowerPart

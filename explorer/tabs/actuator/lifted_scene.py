@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from explorer.colours import Rgb, css
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
-from explorer.parts.actuate import LiftedLabel
+from explorer.parts.stage import SceneLabel
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, GHOST, LEAD, LEADER, LiftedPicture, mixed
 
@@ -100,7 +100,7 @@ class LiftedScene:
         call(
             self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
         )
-        labels = [LiftedLabel(text, NODE, np.round(at, 3).tolist(), kind) for kind, text, at in picture.labels]
+        labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
         self._bridge.set(lifted_labels=labels)
 
     def release(self, radius: float) -> None:
