@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol, TypeVar
+from typing import Any, Literal, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
@@ -162,25 +162,22 @@ Tell = Callable[[], None]
 """Says, before work is done, that there is more to show."""
 
 
-class Work(Protocol):
+@dataclass(frozen=True, eq=False)
+class Work:
     """What a panel wants computed by the page's own thread, once the page rests."""
 
-    @property
-    def name(self) -> str: ...
-
-    @property
-    def soon(self) -> bool:
-        """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
-        ...
+    name: str
+    about: tuple[Hashable, ...]
+    """All that the result depends on."""
+    run: Callable[[Callable[[], bool], Tell], Any]
+    """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+    soon: bool = False
+    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
 
     @property
     def key(self) -> Hashable:
         """By which `Now.answers` has the result."""
-        ...
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> Any:
-        """The result; None where newer input came first: it is called again once the page rests, and goes on."""
-        ...
+        return self.name, *self.about
 
 
 @dataclass(frozen=True)

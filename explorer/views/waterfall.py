@@ -1,14 +1,13 @@
 """What each part of the physics costs: the waterfall of power, and each switch off alone."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from explorer.colours import PARTS
 from explorer.model.units import SI, Units, number
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.views.now import Now, Panel, Tell
-from rotor import Design
+from explorer.views.now import Now, Panel, Tell, Work
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.markup import Markup, group, tag
 from rotor.study.series import WaterfallStep, waterfall_steps
@@ -134,29 +133,22 @@ _CLIMB = len(SWITCHES) + 1
 """Steps from everything off to everything on; those with each switch off alone follow."""
 
 
-class Steps:
-    """All steps of a design: some twenty trims."""
+def steps_asked(now: Now) -> tuple[Work, ...]:
+    """All steps of the design with everything on: some twenty trims."""
+    if now.state is None:
+        return ()
+    design = with_switches(now.state.solution.design, ())
+    coming, found = waterfall_steps(design), list[WaterfallStep]()
 
-    name, soon = "waterfall", False
-
-    def __init__(self, design: Design) -> None:
-        """`design`: with everything on."""
-        self.key = self.name, design
-        self._coming: Iterator[WaterfallStep] = waterfall_steps(design)
-        self._found: list[WaterfallStep] = []
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
+    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
         """Goes on where it was interrupted. Whole, or not at all: it would grow under the eyes."""
-        del tell
         while not superseded():
-            if (step := next(self._coming, None)) is None:
-                return tuple(self._found)
-            self._found.append(step)
+            if (step := next(coming, None)) is None:
+                return tuple(found)
+            found.append(step)
         return None
 
-
-def steps_asked(now: Now) -> tuple[Steps, ...]:
-    return () if now.state is None else (Steps(with_switches(now.state.solution.design, ())),)
+    return (Work("waterfall", (design,), run),)
 
 
 def waterfall(now: Now) -> dict[str, Any]:
