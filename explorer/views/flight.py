@@ -52,14 +52,9 @@ def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
     if (one := _on_stage(now)) is None:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
-    verdict = None if wrong else one.verdict or now.memory.latest.get(_VERDICT)
-    return {
-        "flight": _flight(now, one, wrong),
-        "earns": earns_state(verdict, one.verdict is not None, now.units, wrong),
-    }
-
-
-_FLIGHT, _VERDICT = "flight", "verdict"
+    verdict = None if wrong else one.verdict or now.memory.latest.get("verdict")
+    earns = earns_state(verdict, one.verdict is not None, now.units, wrong)
+    return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
 def _on_stage(now: Now) -> Built | None:
@@ -72,9 +67,13 @@ def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     """The last flight and the last verdict."""
     if (one := _on_stage(now)) is None:
         return now.memory
-    known = {_VERDICT: one.verdict} if one.verdict is not None else {}
-    known |= {_FLIGHT: one.flight} if isinstance(one.flight, ActuatorFlight) else {}
+    known = {"verdict": one.verdict} if one.verdict is not None else {}
+    known |= {"flight": one.flight} if isinstance(one.flight, ActuatorFlight) else {}
     return replace(now.memory, latest={**now.memory.latest, **known})
+
+
+def _last(now: Now) -> ActuatorFlight | None:
+    return now.memory.latest.get("flight")
 
 
 def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
@@ -161,13 +160,12 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, unit.symbol, problem, "" if problem else _COMPUTING)
     if verdict is None:
         return state
-    used, masses = fuel_used(verdict), verdict.installed.masses
-    parts = [("its twist" if name == "gross" else name, -power) for name, power in verdict.savings]
-    where = pair_words(verdict)
+    used, masses, where = fuel_used(verdict), verdict.installed.masses, pair_words(verdict)
+    bars = [_bar("its twist" if name == "gross" else name, -power, units) for name, power in verdict.savings]
     return replace(
         state,
         where=where,
-        bars=(*(_bar(*part, units) for part in parts), _bar("in all", -verdict.net_saving, units, total=True)),
+        bars=(*bars, _bar("in all", -verdict.net_saving, units, total=True)),
         against=reference(verdict).removeprefix("the "),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
@@ -180,11 +178,8 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
 
 def _bar(name: str, power: float, units: Units, total: bool = False) -> Bar:
     text = signed(power, units)
-    kind = _SIGNS.get(text[0], "")
+    kind: Sign = "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
     return Bar(name, round(units.power[0].of(power), 3), text, kind, total)
-
-
-_SIGNS: dict[str, Sign] = {"+": "loss", "−": "gain"}
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
@@ -212,10 +207,6 @@ def follow_flight(now: Now) -> tuple[Effect, ...]:
     one = None if now.hand.stopped else _on_stage(now)
     come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
     return _driven(now, now.hand.flown) if come else ()
-
-
-def _last(now: Now) -> ActuatorFlight | None:
-    return now.memory.latest.get(_FLIGHT)
 
 
 def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
