@@ -108,7 +108,6 @@ class Session:
         self.page.take(reading, state)
         if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
             self.page.show_power_number()
-        self.page.write_address(state)  # With the frame: whoever loads the page anew has what was seen.
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 
     @staticmethod
@@ -130,7 +129,7 @@ class Session:
         except ValueError as error:
             return Reading(inputs, view, problem=str(error))
         # The designs of a search are shown without actuator, so a driven actuator takes precedence.
-        preview = page.preview(sliders) if design == sliders else None
+        preview = page.optimise.preview(sliders) if design == sliders else None
         return Reading(inputs, view, sliders, preview or design, preview is not None)
 
     def _solve(self, reading: Reading) -> Solution | None:

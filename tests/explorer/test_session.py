@@ -12,7 +12,7 @@ from explorer import session as session_module
 from explorer.charts import plots
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import FailedTrim, Reading, SessionState
+from explorer.model.session_state import Analyses, FailedTrim, Reading, SessionState
 from explorer.session import Session
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import Design, Solution
@@ -31,6 +31,8 @@ class RecordingPage:
         self.found: Design | None = None
         self.moves_sliders = False
         self.pin = None
+        self.context = SimpleNamespace(analyses=Analyses())
+        self.optimise = SimpleNamespace(preview=lambda design: self.found)
 
     def __getattr__(self, name: str) -> Any:
         return lambda *_, **__: self.calls.append(name)
@@ -41,9 +43,6 @@ class RecordingPage:
 
     def driven(self, design: Design) -> Design:
         return design
-
-    def preview(self, design: Design) -> Design | None:
-        return self.found
 
     def pin_or_swap(self, *_: Any) -> bool:
         self.calls.append("pin_or_swap")
@@ -56,11 +55,11 @@ class RecordingPage:
         self.calls.append("show_frame")
         self.frames.append(SimpleNamespace(reading=reading, solution=solution, only_azimuth=only_azimuth))
 
-    def show_results(self, _: Any, state: SessionState) -> None:
+    def show_results(self, _: Any, state: SessionState, curve: Any) -> None:
         self.calls.append("show_results")
         self.states.append(state)
 
-    def show_failure(self, failure: FailedTrim) -> None:
+    def show_failure(self, failure: FailedTrim, curve: Any) -> None:
         self.calls.append("show_failure")
         self.failures.append(failure)
 
@@ -120,7 +119,7 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
 def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
     assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
-    assert page.calls[3:7] == ["solve_pinned", "write_address", "show_results", "show_power"]
+    assert page.calls[3:7] == ["solve_pinned", "take", "show_results", "follow"]
     assert page.calls[-1] == "solve_deferred"
     assert page.calls.index("follow") < page.calls.index("solve_deferred")
     assert page.frames[-1].solution is page.states[-1].solution
@@ -137,7 +136,7 @@ def test_inputs_without_a_design_keep_the_last_picture(session: Session):
     page: Any = session.page
     page.inputs = replace(Inputs(), law="three", three_first=0.7, three_second=0.6)
     update(session)
-    assert page.calls == ["read", "pin_or_swap", "show_failure", "show_power"]
+    assert page.calls == ["read", "pin_or_swap", "show_failure"]
     failure = page.failures[-1]
     assert failure.good is good
     assert failure.solution is None
@@ -185,7 +184,7 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
     session._update()
-    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "write_address"]
+    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "take"]
 
 
 def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -193,7 +192,7 @@ def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monke
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     update(session)
-    assert page.calls[-4:] == ["draw_finely", "keep", "sweep", "solve_deferred"]
+    assert page.calls[-4:] == ["rest", "keep", "sweep", "solve_deferred"]
 
 
 def test_in_a_drag_an_old_curve_is_swept_before_the_page_is_still(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -211,7 +210,7 @@ def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, mon
     monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3))
     page: Any = session.page
     session._update()
-    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_power_number", "write_address"]
+    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "take", "show_power_number"]
 
 
 def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):

@@ -17,8 +17,6 @@ from explorer.workers import solver
 from rotor import Design, Solution
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 
-_AT_REST = (0.0,) * MOST_SEGMENTS
-
 
 class ActuatorPanel:
     """What is shown of it are panels of `explorer/views`."""
@@ -124,7 +122,7 @@ class ActuatorPanel:
 
     def reset(self) -> None:
         """Nothing driven."""
-        self.controls.place({"drives": _AT_REST})
+        self.controls.place({"drives": (0.0,) * MOST_SEGMENTS})
 
     def _light(self, pays: bool) -> None:
         self._pays = pays
