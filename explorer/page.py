@@ -50,7 +50,7 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT, stop_here
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
-from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
+from explorer.views.now import Effect, Grab, Move, Now, Ui
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
@@ -396,10 +396,8 @@ class Page:
     def _perform(self, effect: Effect) -> None:
         """Do what a press says."""
         match effect:
-            case Drag(inputs):
-                self.context.drag_to(inputs)
-            case Put(inputs):
-                self.context.set_inputs(inputs)
+            case Move(inputs, by_hand):
+                (self.context.drag_to if by_hand else self.context.set_inputs)(inputs)
             case Grab(held):
                 self._grabbed(held)
             case _:

@@ -16,7 +16,7 @@ from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInput
 from explorer.model.units import number
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
-from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetActuator, SetHand
+from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
 from rotor.actuator import (
     Actuator,
     ExtensionTwist,
@@ -126,7 +126,7 @@ def _form_elsewhere(now: Now) -> dict[str, FormLook]:
 
 def other_baseline(now: Now, value: object) -> tuple[Effect, ...]:
     """Count savings from the other blade."""
-    return (SetActuator({"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
+    return (SetHand(actuator={"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
 
 
 def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
@@ -139,7 +139,7 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
-    return SetHand({"flown": None}), SetActuator({"drives": drives})
+    return (SetHand({"flown": None}, {"drives": drives}),)
 
 
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question) -> Markup:

@@ -18,7 +18,7 @@ from explorer.parts.actuate import DialPart, Settled
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import built, in_actuate
 from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
-from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put
+from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
@@ -152,7 +152,7 @@ def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
     for wave in value:
         if wave.per_rev in HARMONICS:
             moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
-    return (Drag(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
+    return (Move(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
 
 
 def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
@@ -160,7 +160,8 @@ def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
     dots = _dots(now)
     if not 0 <= number_of < len(dots):
         return ()
-    return (Put(replace(now.inputs, twist_per_rev=tuple(map(_on_sliders, dots[number_of].twist)))),)
+    twist = tuple(map(_on_sliders, dots[number_of].twist))
+    return (Move(replace(now.inputs, twist_per_rev=twist), by_hand=False),)
 
 
 DIAL = Panel(view, in_actuate, asks, presses={"dial": act, "dial_front": take_dot})

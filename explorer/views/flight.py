@@ -16,7 +16,7 @@ from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
 from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
 from explorer.views.actuated import Built, built, in_actuate
-from explorer.views.now import Asked, Drag, Effect, Memory, Now, Panel, SetActuator, SetHand
+from explorer.views.now import Asked, Effect, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.verdict import reference
 from rotor.arrays import Array
@@ -193,32 +193,32 @@ def fly(now: Now, x: float) -> tuple[Effect, ...]:
         return ()
     flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
     mu, climb = condition_at(one.legs, flown)
-    drives = () if now.hand.stopped else _driven(now, flown)
-    return SetHand({"flown": flown}), *drives, Drag(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+    drives = {} if now.hand.stopped else _driven(now, flown)
+    return SetHand({"flown": flown}, drives), Move(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
 
 
 def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
     """The actuator stops, or works again where the flight is now."""
-    return SetHand({"stopped": stopped}), *(() if stopped else _driven(now, now.hand.flown))
+    return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
 
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
     one = None if now.hand.stopped else _on_stage(now)
     come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
-    return _driven(now, now.hand.flown) if come else ()
+    return (SetHand(actuator=_driven(now, now.hand.flown)),) if come else ()
 
 
-def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
+def _driven(now: Now, x: float | None) -> dict[str, Any]:
     """Voltages as the last flight has them there; nothing where none is known.
 
     Fibres are laid the other way where the voltages of the flight oppose its twists.
     """
     if (one := built(now)) is None or x is None:
-        return ()
+        return {}
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
-        return ()
+        return {}
     actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
     changes: dict[str, Any] = {}
     if isinstance(actuator, PiezoPly):
@@ -226,7 +226,7 @@ def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
         changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
     legs = np.arange(len(shares))
     drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
-    return (SetActuator({**changes, "drives": (*drives, *(0.0,) * (MOST_SEGMENTS - len(drives)))}),)
+    return {**changes, "drives": (*drives, *(0.0,) * (MOST_SEGMENTS - len(drives)))}
 
 
 FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly})

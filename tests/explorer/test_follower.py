@@ -11,7 +11,7 @@ import pytest
 from explorer.model.inputs import OPENING
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.follower import Follower
-from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put, Tell, Ui, Work
+from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel, Tell, Ui, Work
 from explorer.workers.call import Call
 
 NOW = Now(OPENING, None, None)
@@ -24,7 +24,7 @@ def shown(now: Now) -> Mapping[str, Any]:
 
 
 def pressed(now: Now, value: Any) -> tuple[Effect, ...]:
-    return Grab(False), Drag(replace(now.inputs, advance_ratio=value)), Put(now.inputs)
+    return Grab(False), Move(replace(now.inputs, advance_ratio=value)), Move(now.inputs, by_hand=False)
 
 
 class Page:
@@ -81,7 +81,7 @@ def test_only_panels_that_are_seen_are_called(asked: list[Any]):
 def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
     page = Page(Panel(shown, presses={"speed": pressed}))
     page.presses["speed"](0.2)
-    assert page.done == [Grab(False), Drag(replace(OPENING, advance_ratio=0.2)), Put(OPENING)]
+    assert page.done == [Grab(False), Move(replace(OPENING, advance_ratio=0.2)), Move(OPENING, by_hand=False)]
     page.done.clear()
     page.now = replace(NOW, ui=Ui(held=True))
     page.presses["speed"](0.2)
