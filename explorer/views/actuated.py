@@ -43,19 +43,9 @@ def _built(now: Now) -> "Built | str":
     flight_task = modes_task = None
     if verdict is not None:
         flight_task, modes_task = Call(flight_of, (verdict,)), Call(actuator_stability, (installed, design))
+    flight, modes, legs = now.answers.get(flight_task), now.answers.get(modes_task), flight_legs(design)
     return Built(
-        design,
-        installed,
-        question,
-        tasks,
-        outcomes,
-        outcome,
-        verdict,
-        flight_task,
-        now.answers.get(flight_task),
-        modes_task,
-        now.answers.get(modes_task),
-        flight_legs(design),
+        design, installed, question, tasks, outcomes, outcome, verdict, flight_task, flight, modes_task, modes, legs
     )
 
 
