@@ -23,34 +23,31 @@ _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr"
 
 @dataclass(frozen=True, eq=False)
 class ReportEntry:
-    """A design of the report."""
+    """A design of the report: the name that the user knows, for example Now, and a converged solution."""
 
     title: str
-    """The name that the user knows, for example Now."""
     solution: Solution
-    """Converged."""
 
 
 @dataclass(frozen=True, eq=False)
 class DesignReport:
-    """The content of a report."""
+    """The content of a report: designs, the present one first, and what all changes are counted from.
+
+    `ranges`: colour range by title of the field, where it is not the default; the same for all designs. `own_section`:
+    the reference is the user's own design, which is shown like the others. `actuator`: the verdict on that chosen for
+    the first design, or why there is none; empty where none was chosen.
+    """
 
     reference: ReportEntry
-    """The reference of all changes: the pinned design, or the baseline twist."""
     entries: tuple[ReportEntry, ...]
-    """The designs, the present one first; the reference is not among them."""
     view: ViewState
     when: datetime
     ranges: Mapping[str, Range] = field(default_factory=dict)
-    """Colour range by title of the field, where it is not the default; the same for all designs."""
     own_section: bool = False
-    """Whether the reference is the user's own design, which is shown like the others."""
     actuator: Verdict | str = ""
-    """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
 
     @property
     def units(self) -> Units:
-        """Units of power, speed and weight."""
         return UNITS[self.view.units]
 
     def colour_range(self, shown: Field) -> Range:

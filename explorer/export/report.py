@@ -105,7 +105,6 @@ def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> Markup:
 
 
 def _section(report: DesignReport, k: int) -> Markup:
-    """Everything about one design."""
     entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution
     design, active = solution.design, wave_words(solution.design)

@@ -211,7 +211,6 @@ def blade(design: Design) -> Markup:
 
 
 def _table(title: str, rows: Iterable[Row]) -> Markup:
-    """Two columns under a title."""
     body = [tag("tr", tag("td", name), tag("td", value)) for name, value in rows]
     return tag("div", tag("h3", title), tag("table", body))
 
@@ -221,7 +220,6 @@ def _row(name: Content, cells: Iterable[Content], kind: str = "") -> Markup:
 
 
 def _named(part: str, title: str) -> Markup:
-    """The name of a part of the power behind its colour."""
     return tag("i", style=f"background:{PARTS[part]}") + title
 
 

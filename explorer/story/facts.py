@@ -420,7 +420,6 @@ def _of(kind: Kind, **values: float) -> dict[str, Number]:
 
 
 def _said(**texts: str) -> dict[str, Number]:
-    """Facts that are words."""
     return {name: Number("words", 0.0, text) for name, text in texts.items()}
 
 

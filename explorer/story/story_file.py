@@ -182,7 +182,6 @@ class _Points:
 
 
 def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> dict[str, Any]:
-    """One step with all its states."""
     units, field = UNITS[view.units], FIELDS[step.field]
     stops, before = list[dict[str, Any]](), None
     for stop in facts.stops:
@@ -208,7 +207,6 @@ def _figures(step: LectureStep, b: Solution, a: Solution, facts: Facts, units: U
 
 
 def _scale(field: Field, rotor: Rotor) -> dict[str, Any]:
-    """The colour bar."""
     colours = [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()]
     return {
         "title": field.title,

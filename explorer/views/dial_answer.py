@@ -141,7 +141,6 @@ def _numbers_of(design: Design, matrix: TMatrix, power: float, index: float) -> 
 
 
 def _rounded(values: Any) -> Any:
-    """Nested lists of a few digits."""
     if getattr(values, "ndim", 0):
         return [_rounded(value) for value in values]
     return float(f"{float(values):.{_DIGITS}g}")

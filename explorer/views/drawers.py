@@ -45,7 +45,6 @@ def trust(now: Now) -> dict[str, Any]:
 
 
 def _models_asked(now: Now) -> tuple[Asked, ...]:
-    """The powers with other models."""
     return tuple(Asked(_URGENCY, (Call(models_beside, designs.about),), _STILL) for designs in doubted(now))
 
 

@@ -206,7 +206,8 @@ def follow_flight(now: Now) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
     one = None if now.hand.stopped else _on_stage(now)
     come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
-    return (SetHand(actuator=_driven(now, now.hand.flown)),) if come else ()
+    drives = _driven(now, now.hand.flown) if come else {}
+    return (SetHand(actuator=drives),) if drives else ()
 
 
 def _driven(now: Now, x: float | None) -> dict[str, Any]:

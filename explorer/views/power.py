@@ -121,7 +121,6 @@ def _status(state: SessionState) -> Status:
 
 
 def _kind(change: float, total: float) -> Kind:
-    """Class of a change of power [W]."""
     if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
         return ""
     return "good" if change < 0.0 else "bad"
