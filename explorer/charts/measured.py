@@ -157,12 +157,10 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 @dataclass(frozen=True)
 class OurPower:
-    """Our main-rotor power in a measured flight [W]."""
+    """Our main-rotor power in a flight [W], and between the drag areas of the sources; None without trim or band."""
 
     power: float | None
-    """None where it does not trim."""
     band: tuple[float, float] | None
-    """With the lowest and the highest drag area of the sources; None where they give one value."""
 
 
 class FlownPowers:

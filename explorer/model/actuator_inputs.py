@@ -12,28 +12,12 @@ from numpy.typing import ArrayLike
 
 from explorer.workers.call import Call
 from rotor import Design, Rotor
-from rotor.actuator import (
-    Actuator,
-    ActuatorFlight,
-    ConditionPair,
-    ExtensionTwist,
-    FlightLeg,
-    Host,
-    InstalledActuator,
-    PiezoPly,
-    Placement,
-    Verdict,
-    actuators,
-    default_placement,
-    find_actuator,
-    fly,
-    install,
-    judge,
-    standard_flight,
-)
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, divisions_of, twisted
-from rotor.actuator.section import BladeKind
-from rotor.actuator.verdict import Against
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, actuators, find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, divisions_of, twisted
+from rotor.actuator.section import BladeKind, Host, Placement, default_placement
+from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.arrays import Array
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept

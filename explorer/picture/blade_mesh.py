@@ -24,10 +24,10 @@ Faces = NDArray[np.uint32]
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
+    """Vertices (n, 3) and faces (m, 3), counter-clockwise seen from outside."""
+
     vertices: Array
-    """Shape (n, 3)."""
     faces: Faces
-    """Shape (m, 3), counter-clockwise seen from outside."""
 
     def scaled(self, factor: float) -> "Mesh":
         """This shape, `factor` times as large about the origin."""

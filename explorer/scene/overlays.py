@@ -29,13 +29,11 @@ _OPACITY = 0.38
 
 @dataclass(frozen=True)
 class OtherBlade:
-    """A blade to compare the reference blade with."""
+    """A blade as built to compare the reference blade with, in a colour or the grey of the page's theme."""
 
     rotor: Rotor
     twist: TwistLaw
-    """The twist as built."""
     colour: colours.Rgb | None
-    """None: the grey of the page's theme."""
 
 
 def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:

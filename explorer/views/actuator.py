@@ -17,18 +17,10 @@ from explorer.model.units import number
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
 from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
-from rotor.actuator import (
-    Actuator,
-    ExtensionTwist,
-    InstalledActuator,
-    PiezoPly,
-    TorqueTube,
-    Verdict,
-    actuators,
-    find_actuator,
-    verdict_sentence,
-)
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pictures import twist_comparison
+from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.chart import Axis, Chart, Line, drawn_chart
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor

@@ -10,17 +10,11 @@ from explorer.model.units import number
 from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
 from rotor import Solution
-from rotor.actuator import (
-    Actuator,
-    ActuatorStability,
-    InstalledActuator,
-    PiezoPly,
-    Verdict,
-    verdict_details,
-    verdict_sentence,
-)
-from rotor.actuator.limits import Limit
+from rotor.actuator.catalogue import Actuator, PiezoPly
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.limits import ActuatorStability, Limit
 from rotor.actuator.pictures import Part, section_picture
+from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.markup import Attribute, Markup, group, tag
 from rotor.trim.stability import DampedMode
 from rotor.units import typographic
