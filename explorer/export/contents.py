@@ -95,7 +95,11 @@ def report_of(
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    installed = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
+    installed = dict[str, Range]()
+    for name in _USUAL:
+        if not (shown := FIELDS[name]).void_in_reverse_flow:  # One range for all designs, so that they can be compared.
+            values = [field_values(entry.solution, shown).ravel() for entry in entries]
+            installed[name] = fitted_range(shown, np.concatenate(values))
     return DesignReport(
         reference=reference,
         entries=tuple(entries),
@@ -105,8 +109,3 @@ def report_of(
         own_section=own_section,
         actuator=actuator,
     )
-
-
-def _fitted(shown: Field, entries: Sequence[ReportEntry]) -> Range:
-    """A colour range that covers all designs, so that their pictures can be compared."""
-    return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

@@ -189,7 +189,8 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         before = points.solutions[b]
         a = None if stop.against is None else points.add(stop.against, view, field, COMPARED, before)
         reference = solve(baseline_of(before.design)).require() if a is None else points.solutions[a]
-        stops.append({"b": b, "a": a, "figures": _figures(step, before, reference, facts, units)})
+        values = {**facts.words(units), **quantities(before, reference, units)}
+        stops.append({"b": b, "a": a, "figures": [(caption, values[name]) for name, caption in step.figures]})
     rotor = points.solutions[stops[0]["b"]].design.rotor
     return {
         **vars(step_record(step, facts, units)),
@@ -199,11 +200,6 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         "scale": _scale(field, rotor),
         "cameras": _cameras(step, rotor.radius),
     }
-
-
-def _figures(step: LectureStep, b: Solution, a: Solution, facts: Facts, units: Units) -> list[tuple[str, str]]:
-    values = {**facts.words(units), **quantities(b, a, units)}
-    return [(caption, values[name]) for name, caption in step.figures]
 
 
 def _scale(field: Field, rotor: Rotor) -> dict[str, Any]:

@@ -16,7 +16,6 @@ from rotor.actuator.limits import ActuatorStability, Limit
 from rotor.actuator.pictures import Part, section_picture
 from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.markup import Attribute, Markup, group, tag
-from rotor.trim.stability import DampedMode
 from rotor.units import typographic
 
 _NONE = "–"
@@ -108,10 +107,11 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
         return tag("div.rx.rx-dim.rx-small", outcome or "computing…", data_explorer="modes")
     blades = {"as it is": outcome.without, "with actuator": outcome.fitted}
     head = tag("tr", tag("th", "Mode"), [tag("th", name) for name in blades])
-    rows = [
-        tag("tr", tag("td", name), [tag("td.rx-num", _mode_words(blade.mode(name))) for blade in blades.values()])
-        for name in (mode.name for mode in outcome.without.modes)
-    ]
+    rows = list[Markup]()
+    for name in (mode.name for mode in outcome.without.modes):
+        modes = [blade.mode(name) for blade in blades.values()]
+        words = [f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %" for mode in modes]
+        rows.append(tag("tr", tag("td", name), [tag("td.rx-num", each) for each in words]))
     sentences = [
         tag("div.rx-small", tag("b", name.capitalize()), f": {typographic(blade.margins.sentence)}")
         for name, blade in outcome.cases.items()
@@ -119,10 +119,6 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
     ]
     note = tag("div.rx-dim.rx-small", "Per cent of critical damping, in this flight; linear, quasi-steady air.")
     return tag("div.rx", tag("table.rxa-table", head, rows), sentences, note, data_explorer="modes")
-
-
-def _mode_words(mode: DampedMode) -> str:
-    return f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %"
 
 
 def _limit(limit: Limit) -> Markup:
