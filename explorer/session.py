@@ -138,9 +138,8 @@ class Session:
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
-            answer = self.page.context.analyses.solve(
-                design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken)
-            )
+            options = replace(DEFAULT_OPTIONS, stop=self._overtaken)
+            answer = self.page.context.analyses.solve(design, self._good, options)
             if not answer.converged and self._overtaken():
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
             self._latest = answer

@@ -49,9 +49,8 @@ class MeasuredChart:
         if measured is None:
             return None
         known = self._points.get(_key(measured, solution.design), ())
-        return _drawn(
-            measured, solution, known, self._present(measured, solution, measured.quantity in _AT_ONCE), previous
-        )
+        now = self._present(measured, solution, measured.quantity in _AT_ONCE)
+        return _drawn(measured, solution, known, now, previous)
 
     def _present(self, measured: MeasuredSet, solution: Solution, compute: bool) -> float:
         """The quantity of the present solution; NaN where it is not known and not to be computed."""

@@ -52,10 +52,8 @@ def compared(design: Design, undriven: Design, fitted: Fitted | None) -> tuple[D
 
     Blades bend in both where they can, since vibration needs it, and no blade has pitch at n/rev.
     """
-    bends = can_bend(design.rotor)
-    flown, still = (
-        replace(one, pitch_per_rev=(), models=replace(one.models, bending=bends)) for one in (design, undriven)
-    )
+    pair, bends = (design, undriven), can_bend(design.rotor)
+    flown, still = (replace(one, pitch_per_rev=(), models=replace(one.models, bending=bends)) for one in pair)
     if fitted is None:
         return flown, replace(flown, active_twist=None)
     if fitted.twist is None:

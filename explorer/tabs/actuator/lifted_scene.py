@@ -94,10 +94,9 @@ class LiftedScene:
             if len(segments):
                 colour = mixed(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
                 handle.points, handle.colors = segments.astype(np.float32), even_colours(colour, len(segments))
-        lit = {f"{NODE}/{name}": solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
-        call(
-            self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
-        )
+        lit = {name: solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
+        glow = {f"{NODE}/{name}": [css(colour), strength] for name, (colour, strength) in lit.items()}
+        call(self._client, "rotorScene.glow", glow)
         labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
         self._bridge.set(lifted_labels=labels)
 
