@@ -50,7 +50,7 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT, stop_here
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
-from explorer.views.now import Drag, Effect, Grab, Now, Put, Ui
+from explorer.views.now import Effect, Grab, Move, Now, Ui
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
@@ -95,19 +95,9 @@ class Page:
         with layout.in_mode("explore"):
             self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
         analyses = Analyses()
-        pinboard, controls = Pinboard(analyses.solve), self.controls
+        pinboard, controls, pool = Pinboard(analyses.solve), self.controls, shared.pool
         context = self.context = TabContext(
-            client,
-            bridge,
-            keyboard,
-            layout,
-            self.display,
-            controls,
-            tracker,
-            analyses,
-            pinboard,
-            shared.pool,
-            callbacks,
+            client, bridge, keyboard, layout, self.display, controls, tracker, analyses, pinboard, pool, callbacks
         )
         with banner:
             secret = facts.kept.get(PRESENT, "")
@@ -150,13 +140,10 @@ class Page:
             self._presence.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        self.follower = Follower(
-            PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
-        )
+        self.follower = Follower(PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform)
         by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here, FLIGHT.seen))
-        following = self.top, self.probe, settings, self.history, self.file
-        self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
-        """Everything that only follows."""
+        following = self.top, self.probe, settings, self.history, self.file, export, self.lecture, self._presence
+        self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         self.controls.reset_button.on_click(lambda _: self._reset())
@@ -201,10 +188,6 @@ class Page:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
         self._actuator_inputs = self.actuator.inputs()
         return self._actuator_inputs.apply(design)
-
-    def preview(self, design: Design) -> Design | None:
-        """The design of a search to show in place of the one on the sliders, which the search began from."""
-        return self.optimise.preview(design)
 
     @property
     def pin(self) -> Pinned | None:
@@ -265,6 +248,7 @@ class Page:
         tracker.solved(state.inputs, state.solution.power.total, self._pause)
         self.follower.memory = self.follower.memory.then(state, self._now.state, tracker.reference)
         self._now = replace(self._read(reading), state=state, problem="")
+        self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
 
     def _read(self, reading: Reading) -> Now:
         """What was read in this update, in place of that of the last."""
@@ -311,10 +295,6 @@ class Page:
         """Update all other tabs."""
         for tab in self.tabs:
             tab.show(state)
-
-    def write_address(self, state: SessionState) -> None:
-        """Bring the address into line with what is shown."""
-        self.file.follow(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing moves: a finer disk, slopes of power and how sure it is."""
@@ -371,25 +351,24 @@ class Page:
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
-        inputs, context = reading.inputs, self.context
-        self.controls.follow(_on_sliders(reading))
-        self.controls.refresh(inputs, context.units)
+        inputs, shown = reading.inputs, None
+        if reading.previewed and reading.design is not None:
+            shown = replace(with_optimum(inputs, reading.design), advance_ratio=reading.design.condition.advance_ratio)
+        self.controls.follow(shown)
+        self.controls.refresh(inputs, self.context.units)
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
         self.top.show_design(inputs, self.history.steps)
         self._touched = self._touched or inputs != self._start
-        self._prompt()
+        # What to do first, until something was done.
+        wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
+        tip = [0.97 * self.camera.radius, 0.0, 0.0]
+        prompt = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
+        self.context.bridge.set(prompt=prompt)
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
-
-    def _prompt(self) -> None:
-        """What to do first, until something was done."""
-        wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
-        tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        words = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
-        self.context.bridge.set(prompt=words)
 
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
@@ -417,10 +396,8 @@ class Page:
     def _perform(self, effect: Effect) -> None:
         """Do what a press says."""
         match effect:
-            case Drag(inputs):
-                self.context.drag_to(inputs)
-            case Put(inputs):
-                self.context.set_inputs(inputs)
+            case Move(inputs, by_hand):
+                (self.context.drag_to if by_hand else self.context.set_inputs)(inputs)
             case Grab(held):
                 self._grabbed(held)
             case _:
@@ -433,11 +410,9 @@ class Page:
 
     def _default(self, label: str) -> None:
         """A slider was double-clicked."""
-        if self.context.held:
-            return
-        if self.layout.mode == "explore":
+        if not self.context.held and self.layout.mode == "explore":
             self.controls.default(label, self._opening)
-        else:
+        elif not self.context.held:
             (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
@@ -447,11 +422,3 @@ class Page:
         self.actuator.reset()
         self.rival.begin(None)
         self.controls.set_inputs(self._opening)
-
-
-def _on_sliders(reading: Reading) -> Inputs | None:
-    """What the sliders show of a preview; None where there is none."""
-    if not reading.previewed or reading.design is None:
-        return None
-    preview = with_optimum(reading.inputs, reading.design)
-    return replace(preview, advance_ratio=reading.design.condition.advance_ratio)

@@ -108,7 +108,6 @@ class Session:
         self.page.take(reading, state)
         if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
             self.page.show_power_number()
-        self.page.write_address(state)  # With the frame: whoever loads the page anew has what was seen.
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 
     @staticmethod
@@ -130,7 +129,7 @@ class Session:
         except ValueError as error:
             return Reading(inputs, view, problem=str(error))
         # The designs of a search are shown without actuator, so a driven actuator takes precedence.
-        preview = page.preview(sliders) if design == sliders else None
+        preview = page.optimise.preview(sliders) if design == sliders else None
         return Reading(inputs, view, sliders, preview or design, preview is not None)
 
     def _solve(self, reading: Reading) -> Solution | None:
@@ -139,9 +138,8 @@ class Session:
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
-            answer = self.page.context.analyses.solve(
-                design, self._good, replace(DEFAULT_OPTIONS, stop=self._overtaken)
-            )
+            options = replace(DEFAULT_OPTIONS, stop=self._overtaken)
+            answer = self.page.context.analyses.solve(design, self._good, options)
             if not answer.converged and self._overtaken():
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
             self._latest = answer

@@ -11,7 +11,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
-from explorer.views.now import Drag, Effect, Hand, Now, Panel, Put, SetActuator, SetHand, Ui
+from explorer.views.now import Effect, Hand, Move, Now, Panel, SetHand, Ui
 from explorer.workers.call import Call
 from rotor.design import Harmonic
 from rotor.trim.solve import solve
@@ -42,14 +42,12 @@ def done(now: Now, effects: tuple[Effect, ...]) -> Now:
     """What effects leave behind: sliders, the hand, widgets of the actuator in whole per cent."""
     for effect in effects:
         match effect:
-            case Drag(inputs) | Put(inputs):
+            case Move(inputs):
                 now = replace(now, inputs=inputs)
-            case SetHand(changes):
-                now = replace(now, hand=replace(now.hand, **changes))
-            case SetActuator(changes):
-                whole = {"drives": tuple(map(round, changes["drives"]))} if "drives" in changes else {}
-                actuator: ActuatorInputs = replace(now.hand.actuator, **{**changes, **whole})
-                now = replace(now, hand=replace(now.hand, actuator=actuator))
+            case SetHand(changes, moved):
+                whole = {"drives": tuple(map(round, moved["drives"]))} if "drives" in moved else {}
+                actuator: ActuatorInputs = replace(now.hand.actuator, **{**moved, **whole})
+                now = replace(now, hand=replace(now.hand, **changes, actuator=actuator))
             case _:
                 pass
     return now

@@ -49,9 +49,8 @@ class MeasuredChart:
         if measured is None:
             return None
         known = self._points.get(_key(measured, solution.design), ())
-        return _drawn(
-            measured, solution, known, self._present(measured, solution, measured.quantity in _AT_ONCE), previous
-        )
+        now = self._present(measured, solution, measured.quantity in _AT_ONCE)
+        return _drawn(measured, solution, known, now, previous)
 
     def _present(self, measured: MeasuredSet, solution: Solution, compute: bool) -> float:
         """The quantity of the present solution; NaN where it is not known and not to be computed."""
@@ -157,12 +156,10 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 @dataclass(frozen=True)
 class OurPower:
-    """Our main-rotor power in a measured flight [W]."""
+    """Our main-rotor power in a flight [W], and between the drag areas of the sources; None without trim or band."""
 
     power: float | None
-    """None where it does not trim."""
     band: tuple[float, float] | None
-    """With the lowest and the highest drag area of the sources; None where they give one value."""
 
 
 class FlownPowers:

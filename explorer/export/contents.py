@@ -23,34 +23,31 @@ _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr"
 
 @dataclass(frozen=True, eq=False)
 class ReportEntry:
-    """A design of the report."""
+    """A design of the report: the name that the user knows, for example Now, and a converged solution."""
 
     title: str
-    """The name that the user knows, for example Now."""
     solution: Solution
-    """Converged."""
 
 
 @dataclass(frozen=True, eq=False)
 class DesignReport:
-    """The content of a report."""
+    """The content of a report: designs, the present one first, and what all changes are counted from.
+
+    `ranges`: colour range by title of the field, where it is not the default; the same for all designs. `own_section`:
+    the reference is the user's own design, which is shown like the others. `actuator`: the verdict on that chosen for
+    the first design, or why there is none; empty where none was chosen.
+    """
 
     reference: ReportEntry
-    """The reference of all changes: the pinned design, or the baseline twist."""
     entries: tuple[ReportEntry, ...]
-    """The designs, the present one first; the reference is not among them."""
     view: ViewState
     when: datetime
     ranges: Mapping[str, Range] = field(default_factory=dict)
-    """Colour range by title of the field, where it is not the default; the same for all designs."""
     own_section: bool = False
-    """Whether the reference is the user's own design, which is shown like the others."""
     actuator: Verdict | str = ""
-    """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
 
     @property
     def units(self) -> Units:
-        """Units of power, speed and weight."""
         return UNITS[self.view.units]
 
     def colour_range(self, shown: Field) -> Range:
@@ -98,7 +95,11 @@ def report_of(
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    installed = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
+    installed = dict[str, Range]()
+    for name in _USUAL:
+        if not (shown := FIELDS[name]).void_in_reverse_flow:  # One range for all designs, so that they can be compared.
+            values = [field_values(entry.solution, shown).ravel() for entry in entries]
+            installed[name] = fitted_range(shown, np.concatenate(values))
     return DesignReport(
         reference=reference,
         entries=tuple(entries),
@@ -108,8 +109,3 @@ def report_of(
         own_section=own_section,
         actuator=actuator,
     )
-
-
-def _fitted(shown: Field, entries: Sequence[ReportEntry]) -> Range:
-    """A colour range that covers all designs, so that their pictures can be compared."""
-    return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

@@ -53,17 +53,18 @@ def comparison(report: DesignReport) -> Markup:
             for entry in report.all
         ]
 
+    designs = [entry.solution.design for entry in report.all]
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
     width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
-        _row("Twist", [twist_words(entry.solution.design.twist) for entry in report.all], "words"),
-        _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
-        _row("Mass, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
-        _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
+        _row("Twist", [twist_words(design.twist) for design in designs], "words"),
+        _row("Speed", [_speed(design, report.units) for design in designs]),
+        _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
+        _row("Model", [_below(inflow_words(one), f"{one.preset}, {physics_words(one)}") for one in designs], "words"),
         _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
         *(
             _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
-            for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
+            for name, title in part_titles(*designs).items()
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
@@ -115,10 +116,11 @@ def parts(report: DesignReport, entry: ReportEntry) -> Markup:
     """Power by parts with shares and the change against the reference."""
     power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)
-    rows: list[Row] = [
-        (_named(name, title), _share(getattr(power, name), power.total, units))
-        for name, title in part_titles(entry.solution.design).items()
-    ]
+    rows = list[Row]()
+    for name, title in part_titles(entry.solution.design).items():
+        part = getattr(power, name)
+        share = tag("small", f"{number(100.0 * part / power.total)} %")
+        rows.append((_named(name, title), (units.watts(part, 1), " ", share)))
     rows += [
         ("Main rotor", units.watts(power.main_rotor, 1)),
         (tag("b", "Total"), tag("b", units.watts(power.total, 1))),
@@ -211,7 +213,6 @@ def blade(design: Design) -> Markup:
 
 
 def _table(title: str, rows: Iterable[Row]) -> Markup:
-    """Two columns under a title."""
     body = [tag("tr", tag("td", name), tag("td", value)) for name, value in rows]
     return tag("div", tag("h3", title), tag("table", body))
 
@@ -221,7 +222,6 @@ def _row(name: Content, cells: Iterable[Content], kind: str = "") -> Markup:
 
 
 def _named(part: str, title: str) -> Markup:
-    """The name of a part of the power behind its colour."""
     return tag("i", style=f"background:{PARTS[part]}") + title
 
 
@@ -239,10 +239,6 @@ def _with_change(solution: Solution, reference: Solution, value: Callable[[Solut
     return _below(units.watts(here, 1), f"{units.watts(here - there, 1, sign=True)}{per_cent}")
 
 
-def _share(part: float, total: float, units: Units) -> Content:
-    return units.watts(part, 1), " ", tag("small", f"{number(100.0 * part / total)} %")
-
-
 def _speed(design: Design, units: Units) -> Content:
     climb = ", ".join(units.beside(design.condition))
     if design.hovering:
@@ -256,10 +252,6 @@ def _weight(design: Design, units: Units) -> Content:
         return stand_words(stand)
     mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
     return _below(mass, units.altitude.text(design.condition.altitude))
-
-
-def _model(design: Design) -> Markup:
-    return _below(inflow_words(design), f"{design.preset}, {physics_words(design)}")
 
 
 def _efficiency_number(solution: Solution, merit: str = "", ratio: str = "") -> str:

@@ -12,28 +12,12 @@ from numpy.typing import ArrayLike
 
 from explorer.workers.call import Call
 from rotor import Design, Rotor
-from rotor.actuator import (
-    Actuator,
-    ActuatorFlight,
-    ConditionPair,
-    ExtensionTwist,
-    FlightLeg,
-    Host,
-    InstalledActuator,
-    PiezoPly,
-    Placement,
-    Verdict,
-    actuators,
-    default_placement,
-    find_actuator,
-    fly,
-    install,
-    judge,
-    standard_flight,
-)
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, divisions_of, twisted
-from rotor.actuator.section import BladeKind
-from rotor.actuator.verdict import Against
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, actuators, find_actuator
+from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, divisions_of, twisted
+from rotor.actuator.section import BladeKind, Host, Placement, default_placement
+from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.arrays import Array
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept
@@ -68,18 +52,15 @@ class ActuatorInputs:
     """Fibres laid the other way, so that positive voltage turns the tip down."""
 
     @property
-    def host(self) -> Host:
-        return Host() if self.blade == "retrofit" else Host("new", self.stiffness)
-
-    @property
-    def placement(self) -> Placement:
-        return Placement(self.span, self.chord, self.plies)
+    def mounting(self) -> tuple[Placement, Host]:
+        host = Host() if self.blade == "retrofit" else Host("new", self.stiffness)
+        return Placement(self.span, self.chord, self.plies), host
 
     def installed(self, rotor: Rotor) -> InstalledActuator:
         """The actuator on the blade; ValueError with one sentence where that cannot be built."""
-        actuator = find_actuator(self.actuator)
+        actuator, (placement, host) = find_actuator(self.actuator), self.mounting
         divisions = () if isinstance(actuator, ExtensionTwist) else concept_divisions(self.concept)
-        return install(actuator, replace(self.placement, divisions=divisions), self.host, rotor)
+        return install(actuator, replace(placement, divisions=divisions), host, rotor)
 
     def swings(self, installed: InstalledActuator) -> tuple[float, ...]:
         """Each segment's share of its whole range, positive for tip up."""
@@ -137,7 +118,7 @@ def question_of(inputs: ActuatorInputs, design: Design) -> Question:
     """What the tab asks about a design; ValueError for a pair of equal conditions."""
     start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
     pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
-    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.against)
+    return Question(pair, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
 
 
 def swing_of(actuator: Actuator, drive: float) -> float:
@@ -152,8 +133,7 @@ def drive_of(actuator: Actuator, swing: float) -> float:
     """The inverse, within −100…100."""
     if not isinstance(actuator, PiezoPly):
         return min(max(100.0 * swing, -100.0), 100.0)
-    low, high = actuator.voltage_range
-    side = high if swing >= 0.0 else -low
+    side = actuator.voltage_range[1] if swing >= 0.0 else -actuator.voltage_range[0]
     return min(max(100.0 * swing * actuator.voltage_swing / side, -100.0), 100.0) if side else 0.0
 
 
@@ -171,14 +151,8 @@ Outcome = Verdict | str
 
 def verdict_on(question: Question) -> Verdict:
     """The verdict on the actuator asked about; ValueError or RuntimeError with a sentence where there is none."""
-    return judge(
-        find_actuator(question.actuator),
-        question.pair,
-        find_concept(question.concept),
-        question.placement,
-        question.host,
-        against=question.against,
-    )
+    actuator, concept = find_actuator(question.actuator), find_concept(question.concept)
+    return judge(actuator, question.pair, concept, question.placement, question.host, against=question.against)
 
 
 def lean_verdict(question: Question) -> Verdict:
@@ -206,12 +180,8 @@ def flight_of(verdict: Verdict) -> ActuatorFlight:
 def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
     """The standard flight of a design, with a leg half way between any two."""
     legs = standard_flight(design)
-    halves = [
-        FlightLeg(
-            f"{a.name} to {b.name}",
-            0.5 * (a.advance_ratio + b.advance_ratio),
-            0.0 if a.climb_speed else 0.5 * b.climb_speed,  # A climb ends half way to the next leg.
-        )
-        for a, b in pairwise(legs)
-    ]
+    halves = list[FlightLeg]()
+    for a, b in pairwise(legs):  # A climb ends half way to the next leg.
+        climb = 0.0 if a.climb_speed else 0.5 * b.climb_speed
+        halves.append(FlightLeg(f"{a.name} to {b.name}", 0.5 * (a.advance_ratio + b.advance_ratio), climb))
     return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])

@@ -31,7 +31,6 @@ from rotor.design.quantities import CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.units import KNOT
 
 OWN = "own"
 """Name in `Inputs` of the user's own rotor."""
@@ -205,10 +204,6 @@ class Inputs(_Quantities):
         """Names of inputs on the sliders that change nothing now."""
         unchanged = self.law == "builtin" and self.built_inner == self.built_outer == 0.0
         return frozenset({"built_division"}) if unchanged else frozenset()
-
-    @property
-    def speed_kt(self) -> float:
-        return self.advance_ratio * self.tip_speed / KNOT
 
     @property
     def tip_speed(self) -> float:

@@ -20,11 +20,10 @@ _DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
 
 @dataclass(frozen=True, eq=False)
 class Pinned:
-    """A design that others are compared with."""
+    """A design that others are compared with, and its converged solution when it was pinned."""
 
     inputs: Inputs
     solution: Solution
-    """Solution of the design when it was pinned; converged."""
 
     @property
     def driven(self) -> bool:
@@ -59,9 +58,10 @@ def same_but_flight(inputs: Inputs, other: Inputs) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class PinResult:
+    """What is pinned now, what to put on the sliders, and what to say."""
+
     pinned: Pinned | None
     inputs: Inputs | None = None
-    """Inputs to put on the sliders."""
     sentence: str = ""
 
 
@@ -164,18 +164,18 @@ class Analyses:
 
 @dataclass(frozen=True, eq=False)
 class SessionState:
-    """The result of one update of a session; every tab reads this value."""
+    """The result of one update of a session, converged; every tab reads this value.
+
+    `baseline`: the reference of every change while nothing is pinned. `pinned`: A of A/B, in the present flight or in
+    its own, as the user chose, where it may not have converged; `pin`: what was pinned, with its solution at that time.
+    """
 
     inputs: Inputs
     view: ViewState
     solution: Solution
-    """Converged."""
     baseline: Solution
-    """The reference of every change while nothing is pinned."""
     pinned: Solution | None
-    """A of A/B, in the present flight or in its own, as the user chose. It may not have converged there."""
     pin: Pinned | None = None
-    """What was pinned: its inputs, its title, and its solution at that time."""
 
     def only_turned(self, before: "SessionState | None") -> bool:
         """Whether only the azimuth of the reference blade differs from `before`."""
@@ -197,29 +197,29 @@ class SessionState:
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """What the page asks for at one instant."""
+    """What the page asks for at one instant: the design on the sliders, or why there is none, in one sentence.
+
+    `design`: what to solve, that on the sliders with the actuator's twist or, if `previewed`, one that a search found.
+    """
 
     inputs: Inputs
     view: ViewState
     sliders: Design | None = None
-    """The design on the sliders; None where they mean none."""
     design: Design | None = None
-    """The design to solve: that on the sliders, with the actuator's twist, or one that a search found."""
     previewed: bool = False
-    """Whether `design` is one that a search found."""
     problem: str = ""
-    """Why there is no design, in one sentence."""
 
 
 @dataclass(frozen=True, eq=False)
 class FailedTrim:
-    """Inputs without a solution."""
+    """Inputs without a solution: the one that did not converge, None where they mean no design.
+
+    `good`: the last converged one, which the picture still shows.
+    """
 
     reading: Reading
     solution: Solution | None
-    """The one that did not converge; None where the inputs mean no design."""
     good: Solution | None
-    """The last converged one, which the picture still shows."""
 
     @property
     def message(self) -> str:

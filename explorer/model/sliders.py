@@ -78,12 +78,10 @@ def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class SliderSensitivity:
-    """Power sensitivity of one slider at its present position."""
+    """∂P/∂(input) of total power [W per unit of the input] by a field of `Inputs` at its present position."""
 
     name: str
-    """The field of `Inputs`."""
     slope: float
-    """∂P/∂(input) of total power [W per unit of the input]."""
 
     def watts(self, units: Units = SI) -> float:
         """Change of total power for one natural step up [W]."""
@@ -210,15 +208,12 @@ PIECES = {name: (LAWS[name].angles, LAWS[name].breaks) for name in ("linear", "b
 
 @dataclass(frozen=True)
 class Station:
-    """A place of the blade that can be grabbed."""
+    """A place of the blade that can be grabbed, at r/R, counted from the root; sliding it changes `division`."""
 
     index: int
-    """From 0 at the root."""
     r: float
-    """r/R"""
     title: str
     division: str | None = None
-    """Field of `Inputs` that sliding it changes."""
 
 
 def grabbed_inputs(inputs: Inputs) -> Inputs:

@@ -100,10 +100,6 @@ class Units:
         """What is not as in most flights, in words."""
         return [words for row in BESIDE.values() if (words := self.said(row, getattr(condition, row.field)))]
 
-    def climb_rate(self, value: float) -> str:
-        """A rate of climb [m/s] in words; empty for level flight."""
-        return self.said(BESIDE["climb_m_s"], value)
-
     def airspeed(self, value: float) -> str:
         """A speed [m/s] in all three units; `hover` for zero."""
         if value == 0.0:

@@ -7,54 +7,42 @@ This package imports only words and numbers of `rotor`.
 from collections.abc import Mapping, Sequence
 from typing import TypedDict
 
-from explorer.parts.actuate import DialMatrix, DialPart, EarnsPart, FlightPart, LiftedLabel, SupposePart
-from explorer.parts.frame import BarPart, LecturePart, NoticePart, StepPart, ViewsPart
-from explorer.parts.results import HandPart, InsetPart, PowerPart, StripChart, Worth
-from explorer.parts.stage import (
-    FieldPart,
-    PlanPart,
-    RidePart,
-    RubberPart,
-    SceneLabel,
-    TurnPart,
-    TwistPart,
-    VibrationPart,
-)
+from explorer.parts import actuate, frame, results, stage
 from rotor.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
     """Every part by its name, and what it is."""
 
-    bar: BarPart
+    bar: frame.BarPart
     big: bool
     coarse: int
-    dial: DialPart
+    dial: actuate.DialPart
     dial_front: DrawnChart
-    dial_matrix: DialMatrix | None
-    earns: EarnsPart | None
-    field: FieldPart
-    flight: FlightPart | None
-    hand: HandPart | None
-    hub_labels: Sequence[SceneLabel]
+    dial_matrix: actuate.DialMatrix | None
+    earns: actuate.EarnsPart | None
+    field: stage.FieldPart
+    flight: actuate.FlightPart | None
+    hand: results.HandPart | None
+    hub_labels: Sequence[stage.SceneLabel]
     idle: int
-    inset: InsetPart
-    lecture: LecturePart | None
-    lifted_labels: Sequence[LiftedLabel]
-    notice: NoticePart | None
-    plan: PlanPart | None
-    power: PowerPart
-    probe_label: Sequence[SceneLabel]
-    prompt: SceneLabel | None
-    ride: RidePart | None
-    rubber: RubberPart | None
-    steps: Sequence[StepPart]
-    strip: Sequence[StripChart]
-    suppose: SupposePart | None
-    turn: TurnPart
-    twist: TwistPart
-    vibration: VibrationPart | None
-    views: ViewsPart
+    inset: results.InsetPart
+    lecture: frame.LecturePart | None
+    lifted_labels: Sequence[stage.SceneLabel]
+    notice: frame.NoticePart | None
+    plan: stage.PlanPart | None
+    power: results.PowerPart
+    probe_label: Sequence[stage.SceneLabel]
+    prompt: stage.SceneLabel | None
+    ride: stage.RidePart | None
+    rubber: stage.RubberPart | None
+    steps: Sequence[frame.StepPart]
+    strip: Sequence[results.StripChart]
+    suppose: actuate.SupposePart | None
+    turn: stage.TurnPart
+    twist: stage.TwistPart
+    vibration: stage.VibrationPart | None
+    views: frame.ViewsPart
     wipe: bool
     wiped: float
-    worth: Mapping[str, Worth]
+    worth: Mapping[str, results.Worth]

@@ -1,4 +1,4 @@
-"""What Actuate shows: dial and front of n/rev twist, the flight, the balance of power, what would pay, labels."""
+"""What Actuate shows: dial and front of n/rev twist, the flight, the balance of power, what would pay."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -11,31 +11,28 @@ Sign = Literal["", "gain", "loss"]
 
 @dataclass(frozen=True)
 class Settled:
-    """What a trim gave, with the inflow model of the design first."""
+    """Changes of power, in the unit of the dial, and of the index [%]: with the inflow model of the design first."""
 
     power: tuple[float, ...]
-    """Changes, in the unit of the dial."""
     index: tuple[float, ...]
-    """[%]"""
 
 
 @dataclass(frozen=True)
 class DialPart:
-    """The dial of twist at n/rev."""
+    """The dial of twist at n/rev, with amplitudes and phases [°].
+
+    `now`: n, amplitude and phase. `reach`: its radius. `whole`: amplitude of half the voltage range, of which steady
+    voltage leaves the share `room`. `words`: why nothing is foreseen. `front`: changes of power and index [%], cosine
+    and sine parts of each harmonic.
+    """
 
     harmonics: tuple[int, ...]
     now: tuple[tuple[int, float, float], ...]
-    """n, amplitude and phase [°]."""
     reach: float
-    """Its radius [°]."""
     whole: float
-    """Amplitude of half the voltage range [°]."""
     room: float
-    """Share of it that steady voltage leaves."""
     rings: tuple[tuple[float, str], ...]
-    """Radius [°] and its words."""
     words: str
-    """Why nothing is foreseen; empty where something is, or will be."""
     computing: bool
     settled: Settled | None
     problem: str
@@ -44,7 +41,6 @@ class DialPart:
     unit: str
     per_watt: float
     front: tuple[tuple[float, float, tuple[float, ...]], ...]
-    """Changes of power and index [%], cosine and sine parts of each harmonic [°]."""
     exaggerated: str
     shake: float
     held: bool
@@ -52,39 +48,39 @@ class DialPart:
 
 @dataclass(frozen=True)
 class DialNumbers:
-    """Harmonics of the hub loads and the power, their slopes and curvatures by cosine and sine parts [°]."""
+    """Harmonics of the hub loads and the power, their slopes and curvatures by cosine and sine parts [°].
+
+    `power` [W] and `index` [%] are those of the blade compared with.
+    """
 
     base: list[float]
     slopes: list[list[float]]
     second: list[list[list[float]]]
     gains: list[float]
     power: float
-    """Of the blade compared with [W]."""
     index: float
-    """Of the blade compared with [%]."""
 
 
 @dataclass(frozen=True)
 class DialMatrix(DialNumbers):
-    """The numbers with the inflow model of the design."""
+    """The numbers with the inflow model of the design, and with the others."""
 
     inflows: tuple[DialNumbers, ...]
-    """With the others."""
 
 
 @dataclass(frozen=True)
 class FlightPart:
-    """Tip twist from hover to fast flight, and where the design flies."""
+    """Tip twist from hover to fast flight, and where the design flies: `at`, counted in legs from 0.
+
+    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°].
+    """
 
     legs: tuple[tuple[str, str], ...]
-    """Name and condition."""
     at: float
-    """Place on the bar, from 0 at the first leg."""
     kind: Kind
     words: str
     flown: bool
     frozen: float | None
-    """Twist of an actuator that has stopped [°]."""
     tip: str
     chart: DrawnChart
 
@@ -120,22 +116,10 @@ class EarnsPart:
 
 @dataclass(frozen=True)
 class SupposePart:
-    """The break-even line with a supposed actuator."""
+    """The break-even line with a supposed actuator at a twist [°] and a mass [kg]."""
 
     words: str
     kind: Sign = ""
     note: str = ""
     chart: DrawnChart | None = None
     at: tuple[float, float] | None = None
-    """[°, kg]"""
-
-
-@dataclass(frozen=True)
-class LiftedLabel:
-    """Words beside the lifted blade."""
-
-    text: str
-    node: str
-    at: list[float]
-    """In the axes of the node [m]."""
-    kind: str

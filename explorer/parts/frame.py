@@ -11,29 +11,25 @@ Button = tuple[str, str]
 
 @dataclass(frozen=True)
 class PinnedRow:
-    """What is said of A."""
+    """What is said of A; `along`: it flies in the present condition."""
 
     title: str
     power: str
     along: bool
-    """Whether it flies in the present condition."""
 
 
 @dataclass(frozen=True)
 class BarPart:
-    """The bar at the top."""
+    """The bar at the top; `rotors`: name and title of each. `held`: a presenter moves the page."""
 
     rotors: Sequence[tuple[str, str]]
-    """Name and title of each."""
     rotor: str
     mode: str
     drawer: str
-    """Empty: none is open."""
     undo: bool
     redo: bool
     pinned: PinnedRow | None
     held: bool
-    """Whether a presenter moves the page."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +48,11 @@ class NoticePart:
 
 @dataclass(frozen=True)
 class StepControl:
+    """`words`: one a position; none while they are computed."""
+
     label: str
     kind: str
     words: Sequence[str]
-    """One a position; empty while they are computed."""
 
 
 @dataclass(frozen=True)
@@ -76,30 +73,30 @@ class StepPart:
 
 @dataclass(frozen=True)
 class StepAnswer:
-    """What it says after the guess."""
+    """What it says after the guess, `right` being the place of the right option.
+
+    `dots`: x, y and colour of each, by position of the control.
+    """
 
     right: int
-    """Place of the right option."""
     answer: str
     chart: DrawnChart
     dots: Sequence[Sequence[tuple[float, float, str]]]
-    """x, y and colour of each, by position of the control."""
 
 
 @dataclass(frozen=True)
 class LecturePart:
-    """Where the lecture stands."""
+    """Where the lecture stands: at which step, from 0, and at which position (`stop`) of its control.
+
+    `figures`: caption and value of each. `finish`: title of the button behind the last step.
+    """
 
     at: int
-    """Step, from 0."""
     guess: int | None
     answer: StepAnswer | None
     stop: int
-    """Position of the control."""
     figures: Sequence[tuple[str, str]]
-    """Caption and value of each."""
     busy: bool
     problem: str
     held: bool
     finish: str
-    """Title of the button behind the last step."""

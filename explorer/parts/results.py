@@ -12,24 +12,22 @@ Kind = Literal["", "good", "bad"]
 
 @dataclass(frozen=True)
 class Status:
-    """The chip of the power card."""
+    """The chip of the power card; `measured`: how well this rotor is validated here."""
 
     kind: Literal["converged", "care", "problem"]
     words: str
     title: str
     measured: str = ""
-    """How well this rotor is validated here; empty where there is no trim."""
 
 
 @dataclass(frozen=True)
 class Share:
-    """A part of the power."""
+    """A part of the power; `share`: of all parts that need power."""
 
     part: str
     name: str
     value: str
     share: float
-    """Of all parts that need power."""
     title: str
 
 
@@ -44,21 +42,21 @@ class Since:
 
 @dataclass(frozen=True)
 class Sureness:
-    """How sure the power and its change are."""
+    """How sure the power and its change are: both bands, whether the sign is known, and all of it as a sentence."""
 
     within: str = ""
-    """Band of the power, in its unit."""
     change_within: str = ""
-    """Band of the change [%]."""
     sure: str = ""
-    """Whether the sign of the change is known."""
     doubt: str = ""
-    """All of it, as a sentence."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PowerPart(Sureness):
-    """The power card."""
+    """The power card.
+
+    `ideal`: least induced power at this lift, as a share of all parts. `rest`: in place of `since`, while nothing has
+    changed. `problem`: why there is no trim; the numbers are those of the last one.
+    """
 
     status: Status
     total: str = "–"
@@ -68,38 +66,34 @@ class PowerPart(Sureness):
     against: str = "as built"
     parts: Sequence[Share] = ()
     ideal: float | None = None
-    """Least induced power at this lift, as a share of all parts."""
     ideal_title: str = ""
     since: Since | None = None
     rest: str = ""
-    """In its place, while nothing has changed."""
     why: str = ""
     problem: str = ""
-    """Why there is no trim; the numbers are those of the last one."""
 
 
 @dataclass(frozen=True)
 class Worth:
-    """What a step up of a slider changes."""
+    """What a step up of a slider changes, its `size` 0…1, and which way saves power.
+
+    `stale`: it belongs to the design before this one.
+    """
 
     way: Literal["up", "down", ""]
-    """Which way saves power."""
     value: str
     unit: str
     size: float
-    """Of the change, 0…1."""
     sentence: str
     stale: bool
-    """Whether it belongs to the design before this one."""
 
 
 @dataclass(frozen=True)
 class Speeds:
-    """Advance ratios on the chart of power."""
+    """Advance ratios on the chart of power: now, and of the last trim or where the engines give no more."""
 
     mu: float
     fastest: float
-    """Of the last trim, or where the engines give no more."""
 
 
 @dataclass(frozen=True)
@@ -115,29 +109,26 @@ class StripChart:
 
 @dataclass(frozen=True)
 class Cut:
-    """A section of the inset."""
+    """A section of the inset: points [forward, up] about the quarter chord, in reference chords, and angles [°]."""
 
     r: float
     outline: Sequence[Sequence[float]]
-    """Points [forward, up] about the quarter chord, in reference chords."""
     theta: float
-    """[°]"""
     ghost: float | None
 
 
 @dataclass(frozen=True)
 class InsetBlade:
-    """The blade of the inset from the side of its tip, and its ghost; angles are true twist [°]."""
+    """The blade of the inset from the side of its tip, and its ghost; angles are true twist [°].
+
+    They are drawn `times` as large about the twist at 0.75 R, the `datum`. `theta` and `ghost` are at the stations `r`.
+    """
 
     times: float
-    """The exaggeration to draw the angles with."""
     r: Sequence[float]
-    """Stations along the edges."""
     datum: float
-    """Twist at 0.75 R, about which it is exaggerated."""
     ghost_datum: float
     theta: Sequence[float]
-    """At the stations."""
     ghost: Sequence[float] | None
     cuts: Sequence[Cut]
 
@@ -154,28 +145,29 @@ class InsetPart(InsetBlade):
 
 @dataclass(frozen=True)
 class Best:
-    """The twist of least power of the station that is held."""
+    """The twist [°] and the least power of the station in the hand, and whether it is held there.
+
+    Power is in the unit of the page.
+    """
 
     theta: float
-    """[°]"""
     power: float
-    """In the unit of the page."""
     held: bool
-    """Whether the station is held there."""
 
 
 @dataclass(frozen=True)
 class HandPart:
-    """Power beside the blade, while a station of it is held."""
+    """Power beside the blade, while a station of it is held; numbers are in the unit of the page.
+
+    `rival`: power of the optimiser's design.
+    """
 
     power: str
     change: str
     kind: Kind
     now: float
-    """Power in the unit of the page."""
     before: float
     digits: int
     place: str
     best: Best | None
     rival: float | None
-    """Power of the optimiser's design."""

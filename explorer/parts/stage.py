@@ -8,55 +8,50 @@ from rotor.chart import DrawnChart
 
 @dataclass(frozen=True)
 class SceneLabel:
-    """Words at a point of the scene."""
+    """Words at a point of the scene, which moves with a node: x, y, z from its origin [m].
+
+    `title`: what is said where the pointer rests on it. `kind`: how the style sheet names it.
+    """
 
     text: str
     node: str
-    """Name of the node that the point moves with."""
     at: Sequence[float]
-    """x, y, z from its origin [m]."""
     title: str = ""
-    """What is said where the pointer rests on it."""
     kind: str = ""
-    """How its style sheet names it."""
 
 
 @dataclass(frozen=True)
 class TurnPart:
-    """The reference blade's azimuth, and how the rotor turns by itself."""
+    """The reference blade's azimuth [°], and how the rotor turns by itself. `held`: a presenter moves the page."""
 
     psi: float
-    """[°]"""
     playing: bool
     pace: str
     held: bool
-    """Whether a presenter moves the page."""
 
 
 @dataclass(frozen=True)
 class FieldPart:
-    """The quantity on the disk, with its colour bar."""
+    """The quantity on the disk, with its colour bar.
+
+    `ticks`: place [% of the bar] and text of each. `fitted`: the range is fitted to the data; `beyond`: values lie
+    below it, and above. `regions`: whether each is shown. `stalled`: how much of the disk is. `difference`: whether
+    B − A is shown; None without A. `held`: a presenter moves the page.
+    """
 
     fields: Sequence[str]
     field: str
     unit: str
     colours: Sequence[str]
     ticks: Sequence[tuple[float, str]]
-    """Place [% of the bar] and text of each."""
     faded: bool
     fitted: bool
-    """Whether the range is fitted to the data."""
     regions: Mapping[str, bool]
-    """Whether each region is shown."""
     stalled: str
-    """How much of the disk is; empty: none."""
     difference: bool | None
-    """Whether B − A is shown; None without A."""
     wipe: bool
     beyond: tuple[bool, bool]
-    """Whether values lie below the range, and above."""
     held: bool
-    """Whether a presenter moves the page."""
 
 
 @dataclass(frozen=True)
@@ -72,43 +67,41 @@ class PackedTable:
 
 @dataclass(frozen=True)
 class PlanRegion:
+    """A region with its shares of disk and thrust in words; its outline, and that of A, as polylines of points
+    (right, down), in radii.
+    """
+
     name: str
     title: str
     words: str
-    """Its shares of disk and thrust."""
     lines: Sequence[Sequence[Sequence[float]]]
-    """Its outline as polylines of points (right, down), in radii."""
     before: Sequence[Sequence[Sequence[float]]]
-    """The outline for A."""
 
 
 @dataclass(frozen=True)
 class PlanPart:
-    """Everything that the page's plan of the disk is drawn from."""
+    """Everything that the page's plan of the disk is drawn from; lengths are in radii.
+
+    `picture`: a PNG in base 64, its edges twice `reach` long. `root`: where the blade begins. `flight`: airspeed in
+    words. `around`: the axes of the angle of attack over azimuth. `mu`: advance ratio along the disk. `values`: what is
+    read under the pointer, by name, once nothing moves: `psi` of the columns begins at zero, `r` of the rows goes from
+    `root` to 1. `alpha_a`: angle of attack of A [°]. `held`: what the outlines beside are of while the blade is in the
+    hand; None: it is not.
+    """
 
     picture: str
-    """A PNG in base 64."""
     reach: float
-    """Half the length of its edges, in radii."""
     root: float
-    """Where the blade begins, in radii."""
     blades: int
     field: str
     unit: str
     regions: Sequence[PlanRegion]
     flight: str
-    """Airspeed in words; empty in hover."""
     around: DrawnChart
-    """The axes of the angle of attack over azimuth."""
     mu: float
-    """Advance ratio along the disk."""
     values: Mapping[str, PackedTable] | None = None
-    """What is read under the pointer, by name, once nothing moves: `psi` of the columns begins at zero, `r` of the rows
-    goes from `root` to 1."""
     alpha_a: PackedTable | None = None
-    """Angle of attack of A [°]."""
     held: str | None = None
-    """What the outlines beside are of while the blade is in the hand; None: it is not."""
 
 
 @dataclass(frozen=True)
@@ -128,65 +121,59 @@ class VibrationPart:
 @dataclass(frozen=True)
 class RidePart:
     """A section around the disk at equal steps of ψ from 0. Where the flow comes from the trailing edge, angles count
-    from there.
+    from there, and the flow `u` [m/s] is negative.
+
+    `psi`: where the turn begins. `out`: radius of the section, `radius`: of the rotor [m]. Angles [°], lift [kN/m].
+    `margin`: to stall; None where it has none. `curves`: C_l over `angles`, a curve for each step of ψ. `chart`: the
+    axes, with the path of the turn.
     """
 
     r: float
     psi: float
-    """Where the turn begins [°]."""
     out: float
-    """Radius of the section [m]."""
     radius: float
-    """Of the rotor [m]."""
     section: str
     outline: Sequence[Sequence[float]]
     u: Sequence[float]
-    """Flow [m/s], negative from the trailing edge."""
     theta: Sequence[float]
     phi: Sequence[float]
     alpha: Sequence[float]
     cl: Sequence[float]
     mach: Sequence[float]
     lift: Sequence[float]
-    """[kN/m]"""
     where: Sequence[str]
     region: Sequence[str]
     margin: Sequence[str | None]
-    """To stall [°]; None where it has none."""
     angles: Sequence[float]
-    """Of the lift curves [°]."""
     curves: Sequence[Sequence[float]]
-    """C_l over them, a curve for each step of ψ."""
     chart: DrawnChart
-    """The axes, with the path of the turn."""
 
 
 @dataclass(frozen=True)
 class RubberPart:
-    """The blade that is twisted by hand, seen from the tip."""
+    """The blade that is twisted by hand, seen from the tip.
+
+    `press`: another number each time that it is taken. `knot`: the station that is held, `by` a "hand" on the blade, a
+    "key", or a handle of the "curve". `stations`: r/R. `ends`: twist [°] where a slider ends, and which: the lower end
+    first.
+    """
 
     press: int
-    """Another number each time that it is taken."""
     knot: str
-    """The station that is held."""
     by: str
-    """A "hand" on the blade, a "key", or a handle of the "curve"."""
     stations: Sequence[float]
-    """r/R of each."""
     titles: Sequence[str]
     ends: Sequence[tuple[float, str]]
-    """Twist [°] where a slider ends, and which: the lower end first."""
 
 
 @dataclass(frozen=True)
 class Knot:
-    """A handle of the twist curve."""
+    """A handle of the twist curve, at r/R and a twist [°]."""
 
     name: str
     title: str
     r: float
     theta: float
-    """[°]"""
 
 
 @dataclass(frozen=True)
@@ -199,9 +186,8 @@ class RoleLines:
 
 @dataclass(frozen=True)
 class TwistPart:
-    """The twist curve of the rail, with its handles."""
+    """The twist curve of the rail, with its handles; the blade in the hand is drawn from the lines at `places`."""
 
     chart: DrawnChart
     knots: Sequence[Knot]
     places: RoleLines
-    """The blade in the hand is drawn from these lines."""

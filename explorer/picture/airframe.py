@@ -21,6 +21,7 @@ _LEAST_HINGE = 0.30
 """A teetering rotor's hub still has arms this long [m, at that radius]."""
 _ABSORBERS = ("UH-60A",)
 """Rotors with a bifilar vibration absorber above the hub."""
+_SWASHPLATE = [[0.0, -0.63], [0.38, -0.63], [0.40, -0.58], [0.38, -0.52], [0.20, -0.49], [0.0, -0.49]]
 
 
 def size(radius: float) -> float:
@@ -33,7 +34,7 @@ def rotor_head(rotor: Rotor) -> Mesh:
     """Everything that turns with the blades; its first arm points along x, as a blade at ψ = 0 does."""
     scale = size(rotor.radius)
     hinge = max(rotor.blade.flap_hinge * rotor.radius / scale, _LEAST_HINGE)
-    parts = [_hub(hinge), _swashplate()]
+    parts = [_hub(hinge), revolved(_SWASHPLATE, 36)]
     for k in range(rotor.blades):
         parts += _arm(2.0 * math.pi * k / rotor.blades, hinge)
     if rotor.name in _ABSORBERS:
@@ -51,10 +52,6 @@ def _hub(hinge: float) -> Mesh:
     rim = 0.82 * hinge
     outline = [[0.0, -0.12], [rim, -0.12], [1.02 * rim, -0.05], [1.02 * rim, 0.05], [0.8 * rim, 0.10], [0.17, 0.14]]
     return revolved([*outline, [0.15, 0.24], [0.0, 0.24]])
-
-
-def _swashplate() -> Mesh:
-    return revolved([[0.0, -0.63], [0.38, -0.63], [0.40, -0.58], [0.38, -0.52], [0.20, -0.49], [0.0, -0.49]], 36)
 
 
 def _arm(psi: float, hinge: float) -> list[Mesh]:

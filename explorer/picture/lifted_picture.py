@@ -59,15 +59,12 @@ class Solid:
 
 @dataclass(frozen=True, eq=False)
 class LiftedPicture:
-    """What the scene assigns."""
+    """Solids and lines (segments, 2, 3) by name; labels: kind, text and where it stands [m]; the fibres shine 0…1."""
 
     solids: dict[str, Solid]
     lines: dict[str, Array]
-    """By name, (segments, 2, 3)."""
     labels: tuple[tuple[str, str, Array], ...]
-    """Kind, text and where it stands [m]."""
     lit: float
-    """How brightly the fibres shine, 0…1."""
 
 
 @dataclass(frozen=True, eq=False)

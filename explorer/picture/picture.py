@@ -27,12 +27,10 @@ BENDING_SHOWN = 10.0
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Pose of a child in its parent."""
+    """Pose of a child in its parent: a unit quaternion (4,) and a position [m], (3,)."""
 
     wxyz: Array
-    """Unit quaternion, shape (4,)."""
     position: Array
-    """[m], shape (3,)."""
 
 
 def about(axis: int, angle: float) -> Array:

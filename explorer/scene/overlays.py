@@ -29,13 +29,11 @@ _OPACITY = 0.38
 
 @dataclass(frozen=True)
 class OtherBlade:
-    """A blade to compare the reference blade with."""
+    """A blade as built to compare the reference blade with, in a colour or the grey of the page's theme."""
 
     rotor: Rotor
     twist: TwistLaw
-    """The twist as built."""
     colour: colours.Rgb | None
-    """None: the grey of the page's theme."""
 
 
 def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
@@ -89,7 +87,7 @@ class Ghost:
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
-                self._lines.points, self._lines.colors = segments, _even(dark, len(segments))
+                self._lines.points, self._lines.colors = segments, even_colours(dark, len(segments))
 
 
 class AirLines:
@@ -121,6 +119,6 @@ def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSeg
     return api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
 
 
-def _even(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
-    """One colour for every end of `count` segments."""
+def even_colours(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
+    """One colour for every end of `count` segments: the page cannot change from one for all to one for each."""
     return np.tile(np.array(colour, dtype=np.uint8), (count, 2, 1))

@@ -8,17 +8,9 @@ import viser
 from explorer.colours import Rgb, SceneTheme
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
+from explorer.picture import disk_image
 from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import Faces, Mesh, blade_shape, blade_vertices, joined
-from explorer.picture.disk_image import (
-    REACH,
-    SHADOW_CENTRE,
-    SHADOW_HALF,
-    half_width,
-    ring_mask,
-    shadow_mask,
-    tinted_png,
-)
 from explorer.picture.picture import Blades, Picture, Pose, about
 from rotor import Rotor
 
@@ -72,7 +64,7 @@ class RotorNodes:
             place(blade, Pose(about(2, psi), hinge))  # Until the first solution says more.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
-        self.words.render_width = self.words.render_height = 2.0 * REACH * radius
+        self.words.render_width = self.words.render_height = 2.0 * disk_image.REACH * radius
         self._png_size = 0
 
     def show(self, picture: Picture, everything: bool, still: bool = True) -> None:
@@ -106,14 +98,16 @@ class RotorNodes:
         viser_compat.set_png(self.image, png)
         if pixels != self._png_size and self._fitted is not None:
             self._png_size = pixels
-            self.image.render_width = self.image.render_height = 2.0 * half_width(self._fitted.radius, pixels)
+            self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(
+                self._fitted.radius, pixels
+            )
 
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
         self._head.color = theme.head
         for k, blade in enumerate(self._blades):
             blade.color = theme.blade if k else theme.reference_blade
-        viser_compat.set_png(self.words, tinted_png(ring_mask(), theme.lettering))
+        viser_compat.set_png(self.words, disk_image.tinted_png(disk_image.ring_mask(), theme.lettering))
 
 
 class Scene:
@@ -216,14 +210,14 @@ class Scene:
         craft = airframe(rotor)
         for handle, mesh in ((self._body, craft.body), (self._glass, craft.glass), (self._dark_parts, craft.dark)):
             set_mesh(handle, mesh)
-        half, radius = SHADOW_HALF * rotor.radius, rotor.radius
+        half, radius = disk_image.SHADOW_HALF * rotor.radius, rotor.radius
         self._shadow.render_width = self._shadow.render_height = 2.0 * half
-        self._shadow.position = (SHADOW_CENTRE * radius, 0.0, craft.ground - _BELOW_GROUND * size(radius))
+        self._shadow.position = (disk_image.SHADOW_CENTRE * radius, 0.0, craft.ground - _BELOW_GROUND * size(radius))
         self._draw_shadow()
 
     def _draw_shadow(self) -> None:
-        mask = shadow_mask(airframe(self._fitted), self._fitted.radius)
-        viser_compat.set_png(self._shadow, tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
+        mask = disk_image.shadow_mask(airframe(self._fitted), self._fitted.radius)
+        viser_compat.set_png(self._shadow, disk_image.tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
 
     def _set_visible(self) -> None:
         self.rotor.words.visible = not (self._close or self._behind)

@@ -33,13 +33,13 @@ class StoryPlace:
 
 @dataclass(frozen=True)
 class PresentedView:
+    """What a presenter shows; `against`: A of A/B. `camera`: position and the point looked at [m]."""
+
     inputs: Inputs
     view: ViewState
     against: Inputs | None = None
-    """A of A/B."""
     place: StoryPlace | None = None
     camera: tuple[Point, Point] | None = None
-    """Position and the point looked at [m]."""
 
 
 Listener = Callable[[PresentedView | None], None]

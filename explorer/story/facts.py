@@ -64,13 +64,11 @@ class Number:
 
 @dataclass(frozen=True)
 class ChartLine:
-    """One line of a chart."""
+    """One line of a chart, in the colour of a part of power, "a", "b" or "limit"; None where there is no trim."""
 
     name: str
     colour: str
-    """A part of power, "a", "b" or "limit"."""
     y: tuple[float | None, ...]
-    """None where there is no trim."""
 
 
 @dataclass(frozen=True)
@@ -420,7 +418,6 @@ def _of(kind: Kind, **values: float) -> dict[str, Number]:
 
 
 def _said(**texts: str) -> dict[str, Number]:
-    """Facts that are words."""
     return {name: Number("words", 0.0, text) for name, text in texts.items()}
 
 

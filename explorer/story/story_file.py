@@ -182,7 +182,6 @@ class _Points:
 
 
 def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> dict[str, Any]:
-    """One step with all its states."""
     units, field = UNITS[view.units], FIELDS[step.field]
     stops, before = list[dict[str, Any]](), None
     for stop in facts.stops:
@@ -190,7 +189,8 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         before = points.solutions[b]
         a = None if stop.against is None else points.add(stop.against, view, field, COMPARED, before)
         reference = solve(baseline_of(before.design)).require() if a is None else points.solutions[a]
-        stops.append({"b": b, "a": a, "figures": _figures(step, before, reference, facts, units)})
+        values = {**facts.words(units), **quantities(before, reference, units)}
+        stops.append({"b": b, "a": a, "figures": [(caption, values[name]) for name, caption in step.figures]})
     rotor = points.solutions[stops[0]["b"]].design.rotor
     return {
         **vars(step_record(step, facts, units)),
@@ -202,13 +202,7 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
     }
 
 
-def _figures(step: LectureStep, b: Solution, a: Solution, facts: Facts, units: Units) -> list[tuple[str, str]]:
-    values = {**facts.words(units), **quantities(b, a, units)}
-    return [(caption, values[name]) for name, caption in step.figures]
-
-
 def _scale(field: Field, rotor: Rotor) -> dict[str, Any]:
-    """The colour bar."""
     colours = [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()]
     return {
         "title": field.title,

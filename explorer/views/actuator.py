@@ -16,19 +16,11 @@ from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInput
 from explorer.model.units import number
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
-from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetActuator, SetHand
-from rotor.actuator import (
-    Actuator,
-    ExtensionTwist,
-    InstalledActuator,
-    PiezoPly,
-    TorqueTube,
-    Verdict,
-    actuators,
-    find_actuator,
-    verdict_sentence,
-)
+from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pictures import twist_comparison
+from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.chart import Axis, Chart, Line, drawn_chart
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
@@ -38,6 +30,7 @@ _STILL = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
 _IDLE = 2.5
 """How long the page must have been still before work is begun that nobody asked for [s]."""
+_CHART, _STATIONS, _USED = "actuator.chart", 61, "#2f9e44"
 _FULL = 100.0
 """The whole voltage on its slider [%]."""
 DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
@@ -72,9 +65,6 @@ def view(now: Now) -> dict[str, Any]:
         "actuator.modes": words.modes_panel(one.modes),
         "actuator.table": table_panel(one.outcomes, one.question),
     }
-
-
-_CHART = "actuator.chart"
 
 
 def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
@@ -128,7 +118,7 @@ def _form_elsewhere(now: Now) -> dict[str, FormLook]:
 
 def other_baseline(now: Now, value: object) -> tuple[Effect, ...]:
     """Count savings from the other blade."""
-    return (SetActuator({"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
+    return (SetHand(actuator={"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
 
 
 def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
@@ -141,7 +131,7 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
-    return SetHand({"flown": None}), SetActuator({"drives": drives})
+    return (SetHand({"flown": None}, {"drives": drives}),)
 
 
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question) -> Markup:
@@ -165,7 +155,7 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
     if isinstance(outcome, str):
         cells = tag("td.rx-num.rxa-bad", "cannot be built", colspan=4, title=outcome)
     elif outcome is not None:
-        words, kind = short_verdict(outcome)
+        words, kind = _short_verdict(outcome)
         numbers = (
             number(math.degrees(outcome.attainable), 1),
             number(outcome.installed.masses.aircraft),
@@ -173,37 +163,28 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
         )
         verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
         cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
-    name = tag("td", short_name(id), care if actuator.provenance.recalled else None, title=actuator.name)
+    name = tag("td", id.replace("_", " "), care if actuator.provenance.recalled else None, title=actuator.name)
     return tag("tr", name, cells, class_="rxa-chosen" if chosen else None)
 
 
-def short_verdict(verdict: Verdict) -> tuple[str, str]:
+def _short_verdict(verdict: Verdict) -> tuple[str, str]:
     """A few words, and the class that colours them."""
     if verdict.pays:
         return "pays", "rx-less"
     if not verdict.feasible:
         return "too weak", "rxa-bad"
-    if verdict.net_saving <= 0.0:
-        return "costs more", "rxa-bad"
-    return "cannot be built", "rxa-bad"
-
-
-def short_name(id: str) -> str:
-    return id.replace("_", " ")
+    return "costs more" if verdict.net_saving <= 0.0 else "cannot be built", "rxa-bad"
 
 
 def actuator_titles() -> dict[str, str]:
     """Titles of the menu of actuators, by id."""
-    return {id: f"{short_name(id)}: {_kind(actuator)}" for id, actuator in actuators().items()}
+    return {id: f"{id.replace('_', ' ')}: {_kind(actuator)}" for id, actuator in actuators().items()}
 
 
 def _kind(actuator: Actuator) -> str:
     if isinstance(actuator, PiezoPly):
         return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
     return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
-
-
-_STATIONS = 61
 
 
 def reach_chart(
@@ -227,9 +208,6 @@ def reach_chart(
     seen = [value for line in lines for value in line.y if math.isfinite(value)]
     y_axis = Axis("°", held_range(previous, min(0.0, *seen), max(0.2, *seen)))
     return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
-
-
-_USED = "#2f9e44"
 
 
 ACTUATOR = Panel(view, in_actuate, asks, remember=remember, presses={"against": other_baseline, "pull": pull})

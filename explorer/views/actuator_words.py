@@ -1,7 +1,6 @@
 """Words, numbers and the drawn section of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
-from collections.abc import Iterable
 from functools import lru_cache
 
 from explorer.charts.svg import line, polygon, text
@@ -11,19 +10,12 @@ from explorer.model.units import number
 from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
 from rotor import Solution
-from rotor.actuator import (
-    Actuator,
-    ActuatorStability,
-    InstalledActuator,
-    PiezoPly,
-    Verdict,
-    verdict_details,
-    verdict_sentence,
-)
-from rotor.actuator.limits import Limit
+from rotor.actuator.catalogue import Actuator, PiezoPly
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.limits import ActuatorStability, Limit
 from rotor.actuator.pictures import Part, section_picture
+from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.markup import Attribute, Markup, group, tag
-from rotor.trim.stability import DampedMode
 from rotor.units import typographic
 
 _NONE = "–"
@@ -40,10 +32,9 @@ def voltage_bar(actuator: Actuator) -> Markup:
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks: list[Markup] = []
     for at, value in marks:
-        place = f"left:{at:g}%"
         words = f"{number(value)} {unit}" if at == 100.0 else number(value)
-        ticks.append(tag("i", style=place))
-        ticks.append(tag("span", words, style=f"{place}{_SHIFT.get(at, '')};white-space:nowrap"))
+        shift = f"left:{at:g}%{_SHIFT.get(at, '')};white-space:nowrap"
+        ticks += [tag("i", style=f"left:{at:g}%"), tag("span", words, style=shift)]
     colours = tag("div.rx-gradient", style=f"background:linear-gradient(90deg,{stops})")
     return tag("div.rx.rx-scale", colours, tag("div.rx-ticks", ticks), data_explorer="voltage-bar")
 
@@ -57,34 +48,25 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: So
     return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words)), data_explorer="actuator-now")
 
 
-def named_lines(entries: Iterable[tuple[str, str]]) -> Markup:
-    """Names with their values, one a line."""
-    return group(tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value)) for name, value in entries)
-
-
 def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
-    masses = installed.masses
+    masses, whole = installed.masses, "Whole range"
+    if isinstance(installed.actuator, PiezoPly):
+        low, high = installed.actuator.voltage_range
+        whole = f"{number(low)} to {number(high, sign=True)} V"
     entries = [
         ("Twist required", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
         ("Added mass", f"{number(masses.aircraft)} kg"),
-        (_range_words(installed.actuator), f"{number(math.degrees(installed.attainable), 2)}°"),
+        (whole, f"{number(math.degrees(installed.attainable), 2)}°"),
         ("On each blade", f"{number(masses.blade, 1)} kg"),
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
-        ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
+        ("Unlimited twist", _NONE if verdict is None else f"{number(1e-3 * verdict.ideal_saving, 1, sign=True)} kW"),
     ]
+    lines = [tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value)) for name, value in entries]
     built = tag("div.rx-dim.rx-small", f"{mass_words(masses)}.")
-    return tag("div.rx", tag("div.rx-grid", named_lines(entries)), built, data_explorer="actuator-numbers")
-
-
-def _range_words(actuator: Actuator) -> str:
-    """What the twist of the whole range is called."""
-    if not isinstance(actuator, PiezoPly):
-        return "Whole range"
-    low, high = actuator.voltage_range
-    return f"{number(low)} to {number(high, sign=True)} V"
+    return tag("div.rx", tag("div.rx-grid", lines), built, data_explorer="actuator-numbers")
 
 
 def problem_panel(outcome: Outcome | None) -> Markup:
@@ -125,10 +107,11 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
         return tag("div.rx.rx-dim.rx-small", outcome or "computing…", data_explorer="modes")
     blades = {"as it is": outcome.without, "with actuator": outcome.fitted}
     head = tag("tr", tag("th", "Mode"), [tag("th", name) for name in blades])
-    rows = [
-        tag("tr", tag("td", name), [tag("td.rx-num", _mode_words(blade.mode(name))) for blade in blades.values()])
-        for name in (mode.name for mode in outcome.without.modes)
-    ]
+    rows = list[Markup]()
+    for name in (mode.name for mode in outcome.without.modes):
+        modes = [blade.mode(name) for blade in blades.values()]
+        words = [f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %" for mode in modes]
+        rows.append(tag("tr", tag("td", name), [tag("td.rx-num", each) for each in words]))
     sentences = [
         tag("div.rx-small", tag("b", name.capitalize()), f": {typographic(blade.margins.sentence)}")
         for name, blade in outcome.cases.items()
@@ -138,17 +121,9 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
     return tag("div.rx", tag("table.rxa-table", head, rows), sentences, note, data_explorer="modes")
 
 
-def _mode_words(mode: DampedMode) -> str:
-    return f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %"
-
-
 def _limit(limit: Limit) -> Markup:
     sentence = tag("span", tag("b", limit_words(limit.name)), f" {typographic(limit.sentence)}")
     return tag("div", tag("span.rx-good", "✓") if limit.ok else tag("span.rxa-bad", "✕"), sentence)
-
-
-def _kw(power: float | None) -> str:
-    return _NONE if power is None else f"{number(1e-3 * power, 1, sign=True)} kW"
 
 
 _WIDTH, _HEIGHT = 312.0, 92.0

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from explorer.hosting.messages import WavePress
-from explorer.model.units import Units, number
+from explorer.model.actuator_inputs import AGAINST
+from explorer.model.units import number
 from explorer.parts.actuate import DialPart, Settled
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import built, in_actuate
 from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
-from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put
+from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
@@ -44,18 +45,23 @@ _URGENCY, _STILL = 3, 0.4
 
 
 def _fitted(now: Now) -> Fitted | None:
-    one = built(now)
-    return None if one is None else one.fitted
-
-
-def _asked(now: Now) -> tuple[Call, Call | None] | None:
-    """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
-    state, fitted = now.state, _fitted(now)
-    if state is None or now.sliders is None or now.problem:
+    if (one := built(now)) is None:
         return None
+    inputs = now.hand.actuator
+    fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
+    twist = one.design.twist if inputs.against == "as-built" else fixed
+    against = AGAINST[inputs.against]
+    return Fitted(one.installed, inputs.volts(one.installed), twist, f"the {against[0].lower()}{against[1:]}")
+
+
+def _asked(now: Now) -> tuple[Call | None, Call | None]:
+    """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
+    state, fitted = now.state, now.of(_fitted)
+    if state is None or now.sliders is None or now.problem:
+        return None, None
     pair = compared(state.solution.design, now.sliders, fitted)
     if pair is None:
-        return None
+        return None, None
     trimmed = Call(effect, pair)
     if why_no_hub_loads(state.solution.design) is not None:
         return trimmed, None
@@ -66,14 +72,12 @@ def _asked(now: Now) -> tuple[Call, Call | None] | None:
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    trimmed, foreseen = now.of(_asked) or (None, None)
-    return (Asked(_URGENCY, tuple(call for call in (trimmed, foreseen) if call is not None), _STILL),)
+    return (Asked(_URGENCY, tuple(call for call in now.of(_asked) if call is not None), _STILL),)
 
 
 def _answer(now: Now) -> DialAnswer | str | None:
     """What foresees, or why nothing does; None on its way."""
-    foreseen = (now.of(_asked) or (None, None))[1]
-    return None if foreseen is None else now.answers.get(foreseen)
+    return now.answers.get(now.of(_asked)[1])
 
 
 def _dots(now: Now) -> tuple[FrontDot, ...]:
@@ -96,19 +100,17 @@ def view(now: Now) -> dict[str, Any]:
 
 
 def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
-    fitted, waves, unit = _fitted(now), now.inputs.twist_per_rev, now.units.power[0]
+    fitted, waves, unit = now.of(_fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if fitted is None else fitted.whole
-    drive = 0.0
-    if fitted is not None and whole:
-        sizes = [(HARMONICS.index(n.per_rev), _polar(n)[0]) for n in waves if n.per_rev in HARMONICS]
-        drive = sum(fitted.losses[k] * size**2 for k, size in sizes)
-    moved, settled = now.answers.get((now.of(_asked) or (None,))[0]), None
+    losses = {} if fitted is None else dict(zip(HARMONICS, fitted.losses, strict=True))
+    drive = sum(losses.get(wave.per_rev, 0.0) * _polar(wave)[0] ** 2 for wave in waves)
+    moved, settled = now.answers.get(now.of(_asked)[0]), None
     if isinstance(moved, EffectInFlight):
-        settled = Settled(
-            tuple(unit.of(change + drive) for change in moved.power), tuple(round(change, 2) for change in moved.index)
-        )
+        power = tuple(unit.of(change + drive) for change in moved.power)
+        settled = Settled(power, tuple(round(change, 2) for change in moved.index))
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
+    speed = design.condition.advance_ratio * design.rotor.tip_speed
     reach = max(_REACH, *(math.ceil(_polar(wave)[0]) for wave in waves), 0.0)
     return DialPart(
         harmonics=HARMONICS,
@@ -122,7 +124,7 @@ def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart
         settled=settled,
         problem=moved if isinstance(moved, str) else "",
         against="the same blade at rest" if fitted is None else fitted.against,
-        where=_where(design, now.units),
+        where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),
         front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in _dots(now)),
@@ -150,7 +152,7 @@ def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
     for wave in value:
         if wave.per_rev in HARMONICS:
             moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
-    return (Drag(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
+    return (Move(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
 
 
 def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
@@ -158,7 +160,8 @@ def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
     dots = _dots(now)
     if not 0 <= number_of < len(dots):
         return ()
-    return (Put(replace(now.inputs, twist_per_rev=tuple(map(_on_sliders, dots[number_of].twist)))),)
+    twist = tuple(map(_on_sliders, dots[number_of].twist))
+    return (Move(replace(now.inputs, twist_per_rev=twist), by_hand=False),)
 
 
 DIAL = Panel(view, in_actuate, asks, presses={"dial": act, "dial_front": take_dot})
@@ -166,14 +169,10 @@ DIAL = Panel(view, in_actuate, asks, presses={"dial": act, "dial_front": take_do
 
 def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:
     """The harmonics with this one at another amplitude and phase [°]; none below `_LEAST`."""
-    size = 0.0 if amplitude < _LEAST else min(amplitude, 20.0)
-    return _replaced(waves, Harmonic(per_rev, math.radians(size), math.radians(phase % 360.0)))
-
-
-def _replaced(waves: tuple[Harmonic, ...], harmonic: Harmonic) -> tuple[Harmonic, ...]:
-    """The harmonics with `own` in place of that of its order; none there where its amplitude is zero."""
-    others = [wave for wave in waves if wave.per_rev != harmonic.per_rev]
-    return tuple(sorted([*others, harmonic] if harmonic.amplitude else others, key=lambda wave: wave.per_rev))
+    kept = [wave for wave in waves if wave.per_rev != per_rev]
+    if amplitude >= _LEAST:
+        kept.append(Harmonic(per_rev, math.radians(min(amplitude, 20.0)), math.radians(phase % 360.0)))
+    return tuple(sorted(kept, key=lambda wave: wave.per_rev))
 
 
 def _on_sliders(wave: Harmonic) -> Harmonic:
@@ -190,27 +189,16 @@ def _polar(wave: Harmonic) -> tuple[float, float]:
 def _parts(waves: Sequence[Harmonic]) -> tuple[float, ...]:
     """Cosine and sine of each harmonic of the dial [°]."""
     sizes = {wave.per_rev: np.degrees(wave.amplitude) * np.exp(1j * wave.phase) for wave in waves}
-    return tuple(
-        round(float(part), 4) for n in HARMONICS for part in (np.real(sizes.get(n, 0.0)), np.imag(sizes.get(n, 0.0)))
-    )
-
-
-def _where(design: Design, units: Units) -> str:
-    """The flight condition, in words."""
-    return (
-        "in hover"
-        if design.hovering
-        else f"at {units.speed[0].text(design.condition.advance_ratio * design.rotor.tip_speed)}"
-    )
+    found = [complex(sizes.get(n, 0.0)) for n in HARMONICS]
+    return tuple(round(part, 4) for size in found for part in (size.real, size.imag))
 
 
 def _dot_words(dot: FrontDot) -> str:
     low, high = (number(end, 0, sign=True) for end in dot.over_inflows)
     words = f"power {number(dot.power, 1, sign=True)} %, vibration {number(dot.index, 0, sign=True)} %"
     words += f" ({low} to {high} over inflow models{')' if dot.agreed else ', which disagree in sign)'}"
-    return (
-        f"{words}: {harmonic_words(tuple(map(_on_sliders, dot.twist)), ())}. Press to take it, or drag along the front."
-    )
+    twist = harmonic_words(tuple(map(_on_sliders, dot.twist)), ())
+    return f"{words}: {twist}. Press to take it, or drag along the front."
 
 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
@@ -226,19 +214,16 @@ def front_chart(dots: Sequence[FrontDot]) -> Chart:
     ticks = tuple(at for at in round_ticks(low, high, 4) if at < high)
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
     line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
+    computed = [result for result in shown if result.kind == "computed"]
+    measured = [result for result in shown if result.kind != "computed"]
+    named = ("published, measured", measured), ("computed", computed)
+    published = [_published(label, results, high, column, alone) for label, results in named]
     best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
     return Chart(
         "Vibration by power",
         Axis("power [%]", (low, end), (*ticks, 0.5 * (high + end)), (*map(tick_text, ticks), "vibration alone")),
         Axis("changes [%]", (-100.0, most), tuple(at for at in _VIBRATIONS if at < most)),
-        (
-            *spreads,
-            _published(
-                "published, measured", [result for result in shown if result.kind != "computed"], high, column, alone
-            ),
-            _published("computed", [result for result in shown if result.kind == "computed"], high, column, alone),
-            *(best if dots else ()),
-        ),
+        (*spreads, *published, *(best if dots else ())),
         (Rule(high, colour=_FAINT, dashes=""), Rule(0.0, colour=_FAINT, dashes="")),
     )
 
@@ -264,12 +249,13 @@ def _published(
 ) -> Points:
     """Programmes at their power, or where they are one of those `alone` in a column of its own beyond `high`."""
     ends = [result.vibration_percent or (0.0, 0.0) for result in shown]
+    places = [
+        high + column * (alone.index(result) + 0.75) if result in alone else result.power_change_percent or 0.0
+        for result in shown
+    ]
     return Points(
         label,
-        [
-            high + column * (alone.index(result) + 0.75) if result in alone else result.power_change_percent or 0.0
-            for result in shown
-        ],
+        places,
         [0.5 * (low + high) for low, high in ends],
         "var(--rx-dim)",
         "ring" if label == "computed" else "dot",

@@ -25,15 +25,13 @@ _DIGITS = 6
 
 @dataclass(frozen=True)
 class Fitted:
-    """The actuator on the blade, and the blade that power and vibration are compared with."""
+    """The actuator on the blade, with the steady voltage of each segment [V], and the blade that power and vibration
+    are compared with: its twist, None while it is being worked out, and what it is called."""
 
     installed: InstalledActuator
     volts: tuple[float, ...]
-    """Steady voltage of each segment [V]."""
     twist: TwistLaw | None
-    """Twist of the blade compared with; None while it is being worked out."""
     against: str
-    """What that blade is called."""
 
     @property
     def whole(self) -> float:
@@ -54,10 +52,8 @@ def compared(design: Design, undriven: Design, fitted: Fitted | None) -> tuple[D
 
     Blades bend in both where they can, since vibration needs it, and no blade has pitch at n/rev.
     """
-    bends = can_bend(design.rotor)
-    flown, still = (
-        replace(one, pitch_per_rev=(), models=replace(one.models, bending=bends)) for one in (design, undriven)
-    )
+    pair, bends = (design, undriven), can_bend(design.rotor)
+    flown, still = (replace(one, pitch_per_rev=(), models=replace(one.models, bending=bends)) for one in pair)
     if fitted is None:
         return flown, replace(flown, active_twist=None)
     if fitted.twist is None:
@@ -67,15 +63,15 @@ def compared(design: Design, undriven: Design, fitted: Fitted | None) -> tuple[D
 
 @dataclass(frozen=True)
 class FrontDot:
-    """One compromise of the front, foreseen."""
+    """One compromise of the front, foreseen: changes of power and of the vibration index [%].
+
+    `over_inflows`: least and largest change of the index over inflow models.
+    """
 
     twist: tuple[Harmonic, ...]
     power: float
-    """Change of power [%]."""
     index: float
-    """Change of the vibration index [%]."""
     over_inflows: tuple[float, float]
-    """Least and largest change of the index over inflow models [%]."""
 
     @property
     def agreed(self) -> bool:
@@ -85,12 +81,11 @@ class FrontDot:
 
 @dataclass(frozen=True)
 class DialAnswer:
-    """The response to n/rev twist against another blade, and the front of power and vibration."""
+    """The response to n/rev twist against another blade, per degree as `dial.js` needs it, and the front of power and
+    vibration, from least power to least vibration."""
 
     numbers: DialMatrix
-    """What `dial.js` needs, per degree."""
     front: tuple[FrontDot, ...]
-    """From least power to least vibration."""
 
 
 def dial_answer(design: Design, reference: Design, losses: Sequence[float], reach: float) -> DialAnswer:
@@ -144,7 +139,6 @@ def _numbers_of(design: Design, matrix: TMatrix, power: float, index: float) -> 
 
 
 def _rounded(values: Any) -> Any:
-    """Nested lists of a few digits."""
     if getattr(values, "ndim", 0):
         return [_rounded(value) for value in values]
     return float(f"{float(values):.{_DIGITS}g}")

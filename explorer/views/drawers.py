@@ -45,11 +45,7 @@ def trust(now: Now) -> dict[str, Any]:
 
 
 def _models_asked(now: Now) -> tuple[Asked, ...]:
-    """The powers with other models."""
-    return tuple(
-        Asked(_URGENCY, (Call(models_beside, (one.solution.design, one.reference and one.reference.design)),), _STILL)
-        for one in doubted(now)
-    )
+    return tuple(Asked(_URGENCY, (Call(models_beside, designs.about),), _STILL) for designs in doubted(now))
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details")

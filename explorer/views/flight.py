@@ -16,7 +16,7 @@ from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
 from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
 from explorer.views.actuated import Built, built, in_actuate
-from explorer.views.now import Asked, Drag, Effect, Hand, Memory, Now, Panel, SetActuator, SetHand
+from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.verdict import reference
 from rotor.arrays import Array
@@ -54,14 +54,9 @@ def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
     if (one := _on_stage(now)) is None:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
-    verdict = None if wrong else one.verdict or now.memory.latest.get(_VERDICT)
-    return {
-        "flight": _flight(now, one, wrong),
-        "earns": earns_state(verdict, one.verdict is not None, now.units, wrong),
-    }
-
-
-_FLIGHT, _VERDICT = "flight", "verdict"
+    verdict = None if wrong else one.verdict or now.memory.latest.get("verdict")
+    earns = earns_state(verdict, one.verdict is not None, now.units, wrong)
+    return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
 def _on_stage(now: Now) -> Built | None:
@@ -74,9 +69,13 @@ def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     """The last flight and the last verdict."""
     if (one := _on_stage(now)) is None:
         return now.memory
-    known = {_VERDICT: one.verdict} if one.verdict is not None else {}
-    known |= {_FLIGHT: one.flight} if isinstance(one.flight, ActuatorFlight) else {}
+    known = {"verdict": one.verdict} if one.verdict is not None else {}
+    known |= {"flight": one.flight} if isinstance(one.flight, ActuatorFlight) else {}
     return replace(now.memory, latest={**now.memory.latest, **known})
+
+
+def _last(now: Now) -> ActuatorFlight | None:
+    return now.memory.latest.get("flight")
 
 
 def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
@@ -163,13 +162,12 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, unit.symbol, problem, "" if problem else _COMPUTING)
     if verdict is None:
         return state
-    used, masses = fuel_used(verdict), verdict.installed.masses
-    parts = [("its twist" if name == "gross" else name, -power) for name, power in verdict.savings]
-    where = pair_words(verdict)
+    used, masses, where = fuel_used(verdict), verdict.installed.masses, pair_words(verdict)
+    bars = [_bar("its twist" if name == "gross" else name, -power, units) for name, power in verdict.savings]
     return replace(
         state,
         where=where,
-        bars=(*(_bar(*part, units) for part in parts), _bar("in all", -verdict.net_saving, units, total=True)),
+        bars=(*bars, _bar("in all", -verdict.net_saving, units, total=True)),
         against=reference(verdict).removeprefix("the "),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
@@ -182,11 +180,8 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
 
 def _bar(name: str, power: float, units: Units, total: bool = False) -> Bar:
     text = signed(power, units)
-    kind = _SIGNS.get(text[0], "")
+    kind: Sign = "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
     return Bar(name, round(units.power[0].of(power), 3), text, kind, total)
-
-
-_SIGNS: dict[str, Sign] = {"+": "loss", "−": "gain"}
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
@@ -200,42 +195,39 @@ def fly(now: Now, x: float) -> tuple[Effect, ...]:
         return ()
     flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
     mu, climb = condition_at(one.legs, flown)
-    drives = () if now.hand.stopped else _driven(now, flown)
-    return SetHand({"flown": flown}), *drives, Drag(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+    drives = {} if now.hand.stopped else _driven(now, flown)
+    return SetHand({"flown": flown}, drives), Move(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
 
 
 def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
     """The actuator stops, or works again where the flight is now."""
-    return SetHand({"stopped": stopped}), *(() if stopped else _driven(now, now.hand.flown))
+    return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
 
 
-def landed(hand: Hand) -> tuple[SetActuator | SetHand, ...]:
+def landed(hand: Hand) -> SetHand:
     """The blade is back in the rotor: what the flight drove is at rest again, a voltage that a hand set stays."""
-    rest = () if hand.flown is None else (SetActuator({"drives": AT_REST}),)
-    return *rest, SetHand({"lifted": False, "flown": None, "stopped": False})
+    rest = {"lifted": False, "flown": None, "stopped": False}
+    return SetHand(rest, {} if hand.flown is None else {"drives": AT_REST})
 
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
     one = None if now.hand.stopped else _on_stage(now)
     come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
-    return _driven(now, now.hand.flown) if come else ()
+    drives = _driven(now, now.hand.flown) if come else {}
+    return (SetHand(actuator=drives),) if drives else ()
 
 
-def _last(now: Now) -> ActuatorFlight | None:
-    return now.memory.latest.get(_FLIGHT)
-
-
-def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
+def _driven(now: Now, x: float | None) -> dict[str, Any]:
     """Voltages as the last flight has them there; nothing where none is known.
 
     Fibres are laid the other way where the voltages of the flight oppose its twists.
     """
     if (one := built(now)) is None or x is None:
-        return ()
+        return {}
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
-        return ()
+        return {}
     actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
     changes: dict[str, Any] = {}
     if isinstance(actuator, PiezoPly):
@@ -243,7 +235,7 @@ def _driven(now: Now, x: float | None) -> tuple[SetActuator, ...]:
         changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
     legs = np.arange(len(shares))
     drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
-    return (SetActuator({**changes, "drives": (*drives, *(0.0,) * (MOST_SEGMENTS - len(drives)))}),)
+    return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
 
 
 FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly})

@@ -4,8 +4,8 @@ from typing import Any
 
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
-from explorer.views.now import Now, Panel
-from explorer.views.work import Doubted
+from explorer.views.now import Now, Panel, Work
+from explorer.views.work import doubt_work
 from rotor import Solution
 from rotor.trim.doubt import Doubt, decimals
 
@@ -13,10 +13,10 @@ _EQUAL = 50.0
 """Changes of power below this [W] are none."""
 
 
-def against_rival(now: Now) -> tuple[Doubted, ...]:
+def against_rival(now: Now) -> tuple[Work, ...]:
     """How sure the difference from the optimiser's blade is."""
     state, rival = now.state, now.rival
-    return () if state is None or rival is None else (Doubted(state.solution, rival, now.analyses, "rival"),)
+    return () if state is None or rival is None else (doubt_work("rival", state.solution, rival, now.analyses),)
 
 
 def notice(now: Now) -> dict[str, Any]:

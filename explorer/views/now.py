@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol, TypeVar
+from typing import Any, Literal, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
@@ -22,42 +22,40 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Ui:
-    """What of the page is open."""
+    """What of the page is open, and whether a presenter moves it (`held`)."""
 
     mode: Mode = "explore"
     drawer: str = ""
-    """Empty: none."""
     held: bool = False
-    """Whether a presenter moves the page."""
 
 
 @dataclass(frozen=True)
 class Hand:
-    """What the hand has set beside the inputs of the design."""
+    """What the hand has set beside the inputs of the design.
+
+    `lifted`: the blade with its actuator is out of the rotor. `flown`: where on the flight bar the voltages follow the
+    flight; None where a hand set them. `stopped`: the actuator has; voltages stay as they are, wherever it flies.
+    `pulled`: drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds.
+    `on_stage`: what would pay is shown in place of the balance of power. `place`: range of twist [°] and mass of all
+    blades [kg] of the supposed actuator; None until it is dragged.
+    """
 
     actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
     lifted: bool = False
-    """Whether the blade with its actuator is out of the rotor."""
     flown: float | None = None
-    """Where on the flight bar the voltages follow the flight; None where a hand set them."""
     stopped: bool = False
-    """Whether the actuator has stopped: voltages stay as they are, wherever it flies."""
     pulled: tuple[tuple[float, ...], float] = (), 0.0
-    """Drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds."""
     on_stage: bool = False
-    """Whether the stage shows what would pay in place of the balance of power."""
     place: tuple[float, float] | None = None
-    """Range of twist [°] and mass of all blades [kg] of the supposed actuator; None until it is dragged."""
 
 
 @dataclass(frozen=True, eq=False)
 class Counted:
-    """The solutions that the change since a grab lies between."""
+    """The solutions that the change since a grab lies between, and the power of the one before it [W]."""
 
     before: Solution | None = None
     last: Solution | None = None
     power: float | None = None
-    """Of the solution before the grab [W]."""
 
     def then(self, solution: Solution, reference: float | None) -> "Counted":
         """With one more; `reference`: power before the grab [W], as `PowerTracker` has it."""
@@ -69,12 +67,10 @@ class Counted:
 
 @dataclass(frozen=True)
 class HeldStation:
-    """The station of the blade that is in the hand."""
+    """The station of the blade that is in the hand, and its twist of least power with that power in W, once known."""
 
     place: str
-    """In words."""
     best: Best | None
-    """Its twist of least power, with that power in W; None until it is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +98,8 @@ class Now:
     """All that a panel may show at one instant."""
 
     inputs: Inputs
-    """On the sliders."""
     sliders: Design | None
-    """The design that they mean, without the actuator's twist; None where they mean none."""
+    """The design that the inputs mean, without the actuator's twist; None where they mean none."""
     state: SessionState | None
     """The last converged one; None before the first."""
     problem: str = ""
@@ -162,39 +157,30 @@ Tell = Callable[[], None]
 """Says, before work is done, that there is more to show."""
 
 
-class Work(Protocol):
+@dataclass(frozen=True, eq=False)
+class Work:
     """What a panel wants computed by the page's own thread, once the page rests."""
 
-    @property
-    def name(self) -> str: ...
-
-    @property
-    def soon(self) -> bool:
-        """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
-        ...
+    name: str
+    about: tuple[Hashable, ...]
+    """All that the result depends on."""
+    run: Callable[[Callable[[], bool], Tell], Any]
+    """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+    soon: bool = False
+    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
 
     @property
     def key(self) -> Hashable:
         """By which `Now.answers` has the result."""
-        ...
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> Any:
-        """The result; None where newer input came first: it is called again once the page rests, and goes on."""
-        ...
+        return self.name, *self.about
 
 
 @dataclass(frozen=True)
-class Drag:
-    """Move the sliders as a hand does."""
+class Move:
+    """Move the sliders, as a hand does or to a design that comes by none."""
 
     inputs: Inputs
-
-
-@dataclass(frozen=True)
-class Put:
-    """Move the sliders to a design that comes by no hand."""
-
-    inputs: Inputs
+    by_hand: bool = True
 
 
 @dataclass(frozen=True)
@@ -206,16 +192,13 @@ class Grab:
 
 @dataclass(frozen=True)
 class SetHand:
-    """Of what the hand has set beside the inputs, these fields of `Hand`; others may move meanwhile."""
+    """Of what the hand has set beside the inputs, these fields of `Hand`, and as widgets these of `ActuatorInputs`.
 
-    changes: Mapping[str, Any]
+    Others may move meanwhile.
+    """
 
-
-@dataclass(frozen=True)
-class SetActuator:
-    """Move widgets of the actuator: these fields of `ActuatorInputs`."""
-
-    changes: Mapping[str, Any]
+    changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    actuator: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
 @dataclass(frozen=True)
@@ -226,7 +209,7 @@ class SetAddress:
     value: str | None
 
 
-Effect = Drag | Put | Grab | SetHand | SetActuator | SetAddress
+Effect = Move | Grab | SetHand | SetAddress
 Press = Callable[[Now, Any], tuple[Effect, ...]]
 """What a press does, from what is known now and the value that came with it."""
 

@@ -29,6 +29,7 @@ SUPPOSED = "i"
 MOST_TWIST, MOST_MASS = 90.0, 1e4
 """Largest twist [°] and mass [kg] of a supposed actuator that a link may hold."""
 _PLACE = re.compile(",".join([r"\d{1,5}(?:\.\d{1,4})?"] * 2), re.ASCII)
+_LINE, _PAYS = "#1c7ed6", "#0ca678"
 _STILL = 0.25
 """How long the supposed actuator must stand before it is trimmed [s]."""
 
@@ -39,14 +40,9 @@ def _line_asked(now: Now) -> Call | None:
     return None if one is None else Call(break_even, (one.question.pair,))
 
 
-def _line(now: Now) -> BreakEven | str | None:
-    """The sentence that says why there is none; None on its way."""
-    return now.answers.get(now.of(_line_asked))
-
-
 def _trim_asked(now: Now) -> Call | None:
     """Of the supposed actuator, once the line is known."""
-    even, one = _line(now), built(now)
+    even, one = now.answers.get(now.of(_line_asked)), built(now)
     if one is None or not isinstance(even, BreakEven) or not even.worthwhile:
         return None
     degrees, mass = _place(now, even)
@@ -84,7 +80,7 @@ def _stage(now: Now) -> SupposePart | None:
     """What the page draws; None where it shows the balance of power."""
     if now.of(_line_asked) is None:
         return None
-    even = _line(now)
+    even = now.answers.get(now.of(_line_asked))  # Or the sentence that says why there is none.
     if not isinstance(even, BreakEven) or not even.worthwhile:
         words = even or "Trimming the break-even line…"
         return SupposePart(words if isinstance(words, str) else pay_sentence(words))
@@ -132,9 +128,6 @@ def place_of(text: str) -> tuple[float, float]:
     if not parts or parts[0] > MOST_TWIST or not 0.0 < parts[1] <= MOST_MASS:
         raise ValueError(f"The supposed actuator {text[:40]!r} is not a twist in degrees and a mass in kg: write 4,12.")
     return parts[0], parts[1]
-
-
-_LINE, _PAYS = "#1c7ed6", "#0ca678"
 
 
 def mass_chart(even: BreakEven, verdicts: Sequence[Verdict] = (), units: Units = SI) -> Chart:

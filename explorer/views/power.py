@@ -14,7 +14,6 @@ from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.now import Now, Panel
 from explorer.views.work import doubted
-from rotor import Solution
 
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
@@ -34,9 +33,8 @@ def power_card(now: Now) -> dict[str, Any]:
     else:
         card = replace(_numbers(state, now.units), **_change(now, state), **vars(sureness(now)))
     if now.problem:
-        sentence = re.sub(
-            r" The nearest trim found is at .*?\.(?= |$)", "", now.problem
-        )  # The button may find another.
+        # The button may find another.
+        sentence = re.sub(r" The nearest trim found is at .*?\.(?= |$)", "", now.problem)
         problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
         card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
     return {"power": card}
@@ -73,11 +71,12 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
     reference = state.reference.power if state.reference.converged else None
     unit, digits = units.power[0], fineness(power)
     whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
-    apart = percent = None
-    if reference is not None:
-        apart = units.watts(power.total - reference.total, digits, sign=True)
-        if reference.total > _TELLING * whole:
-            percent = 100.0 * (power.total / reference.total - 1.0)
+    change, percent = BLANK, None
+    if reference is not None and reference.total > _TELLING * whole:
+        percent = 100.0 * (power.total / reference.total - 1.0)
+        change = f"{number(percent, 1, sign=True)} %"
+    elif reference is not None:
+        change = units.watts(power.total - reference.total, digits, sign=True)
     parts = list[Share]()
     for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
@@ -91,7 +90,7 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         status=_status(state),
         total=number(unit.of(power.total), digits),
         unit=unit.symbol,
-        change=apart or BLANK if percent is None else f"{number(percent, 1, sign=True)} %",
+        change=change,
         kind="" if percent is None else _kind(percent, 100.0),
         against=against(solution.design, state.pinned is not None),
         parts=parts,
@@ -103,12 +102,12 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
 def _status(state: SessionState) -> Status:
     """The chip: trimmed, or engines, stalled area, number of caveats; and how well this rotor is validated here."""
     reasons = cautions(state.solution, state.pinned)
-    stalled = state.solution.stalled_area
+    stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
     title = " ".join([*reasons, record.sentence])
     if state.solution.power.total < 0.0:
         words = "autorotation"
-    elif (installed := _exceeded(state.solution)) is not None:
+    elif installed is not None and any(caveat.name == "installed-power" for caveat in state.solution.caveats):
         words = f"engines give only {UNITS[state.view.units].watts(installed)}"
     elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
@@ -121,14 +120,7 @@ def _status(state: SessionState) -> Status:
     return Status("care", words, title, record.words)
 
 
-def _exceeded(solution: Solution) -> float | None:
-    """Power of the engines [W] where the rotors take more; None where they do not, or it is not known."""
-    beyond = any(caveat.name == "installed-power" for caveat in solution.caveats)
-    return solution.design.aircraft.installed_power if beyond else None
-
-
 def _kind(change: float, total: float) -> Kind:
-    """Class of a change of power [W]."""
     if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
         return ""
     return "good" if change < 0.0 else "bad"

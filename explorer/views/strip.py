@@ -5,17 +5,17 @@ Axes are held while the data fit them, so that they do not jump during a drag.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
-from explorer.charts.measured import FlownPowers, MeasuredChart, source_of
+from explorer.charts.measured import source_of
 from explorer.charts.plots import PowerCurve
 from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.results import Kind, Speeds, StripChart
 from explorer.text.design_words import against
-from explorer.views.now import Memory, Now, Panel, Tell
+from explorer.views.now import Memory, Now, Panel, Tell, Work
 from rotor import Design, Solution
 from rotor.chart import Chart, drawn_chart
 
@@ -85,48 +85,22 @@ def _axis(now: Now, name: str) -> str:
     return f"{name}-change" if name == "power" and changed else name
 
 
-@dataclass(frozen=True, eq=False)
-class MeasuredPoints:
-    """Our trims at the points that were measured of this rotor on a test stand."""
-
-    chart: MeasuredChart
-    solution: Solution
-    name, soon = "measured", False
-
-    @property
-    def key(self) -> tuple[Any, ...]:
-        return self.name, self.solution.design
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> bool | None:
-        self.chart.trim_points(self.solution, superseded, tell)
-        return None if superseded() else True
-
-
-@dataclass(frozen=True, eq=False)
-class Flights:
-    """Our trims in the flights whose power was measured."""
-
-    powers: FlownPowers
-    solution: Solution
-    name, soon = "flights", False
-
-    @property
-    def key(self) -> tuple[Any, ...]:
-        return self.name, self.solution.design
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> bool | None:
-        self.powers.trim_flights(self.solution, superseded, tell)
-        return None if superseded() else True
-
-
-def trims_asked(now: Now) -> tuple[MeasuredPoints | Flights, ...]:
-    """On a stand at what was measured; in flight only beside the power itself."""
+def trims_asked(now: Now) -> tuple[Work, ...]:
+    """Our trims at what was measured: on a test stand, or in flight, there only beside the power itself."""
     if now.state is None:
         return ()
     solution = now.state.solution
-    points = MeasuredPoints(now.measured, solution)
+
+    def work(name: str, trim: Callable[[Solution, Callable[[], bool], Tell], None]) -> Work:
+        def run(superseded: Callable[[], bool], tell: Tell) -> bool | None:
+            trim(solution, superseded, tell)
+            return None if superseded() else True
+
+        return Work(name, (solution.design,), run)
+
+    points = work("measured", now.measured.trim_points)
     plain = solution.design == now.state.reference.design
-    return (points, Flights(now.flown, solution)) if plain else (points,)
+    return (points, work("flights", now.flown.trim_flights)) if plain else (points,)
 
 
 def band_words(design: Design, drawn: bool) -> str:

@@ -1,14 +1,13 @@
 """What each part of the physics costs: the waterfall of power, and each switch off alone."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from explorer.colours import PARTS
 from explorer.model.units import SI, Units, number
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.views.now import Now, Panel, Tell
-from rotor import Design
+from explorer.views.now import Now, Panel, Tell, Work
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.markup import Markup, group, tag
 from rotor.study.series import WaterfallStep, waterfall_steps
@@ -28,14 +27,17 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup
     """Rows from everything off to everything on; "Computing …" without steps."""
     if not steps:
         return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
-    top = 1.04 * max((_length(step) for step in steps if step.power is not None), default=1.0)
+    powers = [step.solution.power for step in steps if step.power is not None]
+    # The total but for what a descent gives.
+    lengths = [max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers]
+    top = 1.04 * max(lengths, default=1.0)
     rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
     if steps[-1].power is not None:
         rows.append(_whole("All switched on", steps[-1], 2.0 + len(steps) * _ROW, top, units))
-    height = (len(steps) + 1) * _ROW - 8.0
-    box = f"0 0 {WIDTH} {height:.0f}"
+    box = f"0 0 {WIDTH} {(len(steps) + 1) * _ROW - 8.0:.0f}"
     drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
-    key = _key(steps[0], units)
+    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].solution.design)]
+    key = tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
     return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
 
 
@@ -46,33 +48,29 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     change, added = step.change, step.added
     if change is None or added is None or step.against is None:
         return _whole(step.title, step, y, top, units)
-    unit = units.power[0]
     before, after = _x(step.against.power.total, top), _x(step.power, top)
     left, width = min(before, after), abs(after - before)
     if width < _THINNEST:
         left, width = 0.5 * (before + after - _THINNEST), _THINNEST
-    colour = _MORE if added > 0.0 else _LESS
-    bar = None if step.note else _rect(left, y + 2, width, colour)
+    bar = None if step.note else _rect(left, y + 2, width, _MORE if added > 0.0 else _LESS)
     link = tag("line.rx-w-link", x1=before, x2=before, y1=y - 12, y2=y + 13)
     beneath = _patches(change, y, units)
     if step.note:  # From the bars on; one too long for that ends at the right edge.
         long = len(step.note) > _LONG_NOTE
         place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
         beneath = _words(place, y + 24, step.note, look)
-    shown = number(unit.of(added), 1, sign=True)
-    power = _words(WIDTH, y + 11, shown, "rx-w-number")
+    power = _words(WIDTH, y + 11, number(units.power[0].of(added), 1, sign=True), "rx-w-number")
     return tag("g", tag("title", _spoken(step, units)), link, _words(0, y + 11, step.title), bar, power, beneath)
 
 
 def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     """A bar of all parts from zero."""
-    power, x, rects = step.solution.power, _BAR_LEFT, []
+    power, x, rects, unit = step.solution.power, _BAR_LEFT, list[Markup](), units.power[0]
     titles = part_titles(step.solution.design)
     for part in titles:
         width = max(_x(getattr(power, part), top) - _BAR_LEFT, 0.0)
         rects.append(_rect(x, y + 2, width, PARTS[part]))
         x += width
-    unit = units.power[0]
     parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in titles)
     total = _words(WIDTH, y + 11, number(unit.of(power.total), 1), "rx-w-number rx-w-strong")
     title = tag("title", f"{name}: {unit.text(power.total, 1)}; {parts}")
@@ -101,18 +99,6 @@ def _spoken(step: WaterfallStep, units: Units) -> str:
     return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
 
 
-def _length(step: WaterfallStep) -> float:
-    """The power of the parts that need any [W]: the total but for what a descent gives."""
-    power = step.solution.power
-    return max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS))
-
-
-def _key(step: WaterfallStep, units: Units) -> Markup:
-    """The parts' colours, and the unit of every number above."""
-    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(step.solution.design)]
-    return tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
-
-
 def _x(power: float, top: float) -> float:
     return _BAR_LEFT + (_BAR_RIGHT - _BAR_LEFT) * power / top
 
@@ -134,29 +120,22 @@ _CLIMB = len(SWITCHES) + 1
 """Steps from everything off to everything on; those with each switch off alone follow."""
 
 
-class Steps:
-    """All steps of a design: some twenty trims."""
+def steps_asked(now: Now) -> tuple[Work, ...]:
+    """All steps of the design with everything on: some twenty trims."""
+    if now.state is None:
+        return ()
+    design = with_switches(now.state.solution.design, ())
+    coming, found = waterfall_steps(design), list[WaterfallStep]()
 
-    name, soon = "waterfall", False
-
-    def __init__(self, design: Design) -> None:
-        """`design`: with everything on."""
-        self.key = self.name, design
-        self._coming: Iterator[WaterfallStep] = waterfall_steps(design)
-        self._found: list[WaterfallStep] = []
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
+    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
         """Goes on where it was interrupted. Whole, or not at all: it would grow under the eyes."""
-        del tell
         while not superseded():
-            if (step := next(self._coming, None)) is None:
-                return tuple(self._found)
-            self._found.append(step)
+            if (step := next(coming, None)) is None:
+                return tuple(found)
+            found.append(step)
         return None
 
-
-def steps_asked(now: Now) -> tuple[Steps, ...]:
-    return () if now.state is None else (Steps(with_switches(now.state.solution.design, ())),)
+    return (Work("waterfall", (design,), run),)
 
 
 def waterfall(now: Now) -> dict[str, Any]:

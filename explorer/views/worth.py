@@ -1,24 +1,32 @@
 """What a step of each slider changes. Of the twist exactly, from one adjoint; of the flight by differences of trims."""
 
+from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
 from explorer.model.inputs import Inputs
-from explorer.model.sliders import SLIDERS, SliderSensitivity, slider, twist_sensitivities
+from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
 from explorer.model.units import Units
 from explorer.parts.results import Worth
-from explorer.views.now import Now, Panel
-from explorer.views.work import FlightSlopes, Slopes, by_power
+from explorer.views.now import Now, Panel, Tell, Work
+from explorer.views.work import by_power
 
 _HALF = 6e3
 """Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
 
 
-def slopes_asked(now: Now) -> tuple[Slopes, FlightSlopes] | tuple[()]:
-    """Those of the twist and of the flight; none without power, nor where no slider holds the design."""
-    state = now.state
+def slopes_asked(now: Now) -> tuple[Work, ...]:
+    """∂P/∂θ(r), and what a step of each slider of the flight changes, at two trims each; none without power."""
+    state, analyses = now.state, now.analyses
     if state is None or now.problem or not by_power(state.solution.design):
         return ()
-    return Slopes(state.solution, now.analyses), FlightSlopes(state.solution)
+    solution = state.solution
+
+    def of_flight(superseded: Callable[[], bool], tell: Tell) -> Mapping[str, SliderSensitivity] | None:
+        found = flight_sensitivities(solution, superseded)
+        return None if superseded() else found
+
+    of_twist = Work("slopes", (solution.design,), lambda superseded, tell: analyses.of(solution).gradient, soon=True)
+    return of_twist, Work("flight-slopes", (solution.design,), of_flight)
 
 
 def twist_slopes(now: Now) -> dict[str, float]:
@@ -35,13 +43,12 @@ def worth(now: Now) -> dict[str, Any]:
     state, asked, rows = now.state, slopes_asked(now), dict[str, Worth]()
     if state is None or not asked:
         return {"worth": rows}
-    gradient, of_now = now.latest(asked[0])
+    (gradient, of_now), (flight, flight_of_now) = map(now.latest, asked)
     if gradient is not None and state.solution.design == state.inputs.design():
         for name, one in twist_sensitivities(state.inputs, gradient).items():
             rows[name] = worth_row(state.inputs, one, now.units, stale=not of_now)
-    flight, of_now = now.latest(asked[1])
     for name, one in (flight or {}).items():
-        rows[name] = worth_row(state.inputs, one, now.units, stale=not of_now)
+        rows[name] = worth_row(state.inputs, one, now.units, stale=not flight_of_now)
     return {"worth": rows}
 
 

@@ -15,7 +15,7 @@ interface RxState {
   idle: number;
   inset: RxInsetPart;
   lecture: RxLecturePart | null;
-  lifted_labels: RxLiftedLabel[];
+  lifted_labels: RxSceneLabel[];
   notice: RxNoticePart | null;
   plan: RxPlanPart | null;
   power: RxPowerPart;
@@ -330,13 +330,6 @@ interface RxStepAnswer {
   answer: string;
   chart: RxDrawnChart;
   dots: [number, number, string][][];
-}
-
-interface RxLiftedLabel {
-  text: string;
-  node: string;
-  at: number[];
-  kind: string;
 }
 
 interface RxNoticePart {

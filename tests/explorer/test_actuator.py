@@ -31,7 +31,7 @@ from explorer.tabs.background import PoolAnswers
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, other_baseline, pull, reach_chart, table_panel
 from explorer.views.actuator_words import section_svg
-from explorer.views.now import SetActuator, SetHand
+from explorer.views.now import SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
@@ -418,12 +418,12 @@ def test_the_lifted_blade_is_pulled_from_where_it_was_taken():
     (taken,) = pull(now, None)
     assert isinstance(taken, SetHand)
     held = replace(now, hand=replace(now.hand, **taken.changes))
-    assert pull(held, 0.5) == (SetHand({"flown": None}), SetActuator({"drives": (-30.0,) * MOST_SEGMENTS}))
-    assert pull(held, 4.0)[1] == SetActuator({"drives": (-100.0,) * MOST_SEGMENTS})
+    for share, drive in ((0.5, -30.0), (4.0, -100.0)):
+        assert pull(held, share) == (SetHand({"flown": None}, {"drives": (drive,) * MOST_SEGMENTS}),)
     assert pull(actuate(with_rotor(INPUTS, "s61")), None) == ()
 
 
 def test_savings_count_from_the_other_blade():
     for one, other in (("best-fixed", "as-built"), ("as-built", "best-fixed")):
         now = actuate(INPUTS, actuator=replace(ActuatorInputs(), against=one))
-        assert other_baseline(now, None) == (SetActuator({"against": other}),)
+        assert other_baseline(now, None) == (SetHand(actuator={"against": other}),)

@@ -11,7 +11,7 @@ from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, Settled
 from explorer.views.dial import DIAL, act, take_dot
 from explorer.views.dial_answer import DialAnswer, FrontDot
-from explorer.views.now import Drag, Grab, Now, Put, Ui
+from explorer.views.now import Grab, Move, Now, Ui
 from rotor import Design
 from rotor.actuator import EffectInFlight
 from rotor.design.active_twist import Harmonic, read_harmonics
@@ -106,7 +106,8 @@ def test_it_says_what_is_set_that_it_does_not_show(asking: Now):
 def test_the_dot_is_taken_dragged_and_let_go(asking: Now):
     assert act(asking, "start") == (Grab(True),)
     (drag,) = act(asking, [WavePress(3, 0.75, 60.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
-    assert isinstance(drag, Drag)
+    assert isinstance(drag, Move)
+    assert drag.by_hand
     assert drag.inputs == replace(BENDING, twist_per_rev=(Harmonic(3, math.radians(0.75), math.radians(60.0)),))
     assert act(replace(asking, inputs=drag.inputs), [WavePress(3, 0.75, 60.0)]) == ()
     assert act(asking, "end") == (Grab(False),)
@@ -114,6 +115,7 @@ def test_the_dot_is_taken_dragged_and_let_go(asking: Now):
 
 def test_a_dot_of_the_front_is_put_with_the_digits_shown(answered: Now, asking: Now):
     (put,) = take_dot(answered, 1)
-    assert isinstance(put, Put)
+    assert isinstance(put, Move)
+    assert not put.by_hand
     assert [round(math.degrees(wave.amplitude), 6) for wave in put.inputs.twist_per_rev] == [0.8, 0.5]
     assert take_dot(answered, 2) == take_dot(asking, 0) == ()

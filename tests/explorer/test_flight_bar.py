@@ -182,10 +182,10 @@ def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: No
     flown = done(ready, fly(ready, 3))
     stopped = done(flown, stop_here(flown, True))
     for one in (flown, stopped):
-        back = done(one, landed(one.hand))
+        back = done(one, (landed(one.hand),))
         assert (tip(back), back.hand.lifted, back.hand.stopped, back.hand.flown) == (0.0, False, False, None)
     by_hand = replace(flown, hand=replace(flown.hand, flown=None))
-    assert tip(done(by_hand, landed(by_hand.hand))) == tip(flown) != 0.0
+    assert tip(done(by_hand, (landed(by_hand.hand),))) == tip(flown) != 0.0
 
 
 def test_both_are_gone_where_the_blade_is_in_the_rotor(ready: Now):

@@ -1,7 +1,7 @@
 """Panels on their way to a page, without one: asked, viewed, sent and pressed."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
@@ -11,7 +11,7 @@ import pytest
 from explorer.model.inputs import OPENING
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.follower import Follower
-from explorer.views.now import Asked, Drag, Effect, Grab, Now, Panel, Put, Tell, Ui
+from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel, Tell, Ui, Work
 from explorer.workers.call import Call
 
 NOW = Now(OPENING, None, None)
@@ -24,7 +24,7 @@ def shown(now: Now) -> Mapping[str, Any]:
 
 
 def pressed(now: Now, value: Any) -> tuple[Effect, ...]:
-    return Grab(False), Drag(replace(now.inputs, advance_ratio=value)), Put(now.inputs)
+    return Grab(False), Move(replace(now.inputs, advance_ratio=value)), Move(now.inputs, by_hand=False)
 
 
 class Page:
@@ -81,7 +81,7 @@ def test_only_panels_that_are_seen_are_called(asked: list[Any]):
 def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
     page = Page(Panel(shown, presses={"speed": pressed}))
     page.presses["speed"](0.2)
-    assert page.done == [Grab(False), Drag(replace(OPENING, advance_ratio=0.2)), Put(OPENING)]
+    assert page.done == [Grab(False), Move(replace(OPENING, advance_ratio=0.2)), Move(OPENING, by_hand=False)]
     page.done.clear()
     page.now = replace(NOW, ui=Ui(held=True))
     page.presses["speed"](0.2)
@@ -99,26 +99,18 @@ def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypa
     page.follower.stop()
 
 
-@dataclass(frozen=True)
-class Counting:
+def counting(name: str, of: float, soon: bool, steps: list[str]) -> Work:
     """Work of three steps, each of which is written down."""
 
-    name: str
-    of: float
-    soon: bool
-    steps: list[str]
-
-    @property
-    def key(self) -> tuple[str, float]:
-        return self.name, self.of
-
-    def run(self, superseded: Callable[[], bool], tell: Tell) -> float | None:
-        while sum(step == self.name for step in self.steps) < 3:
+    def run(superseded: Callable[[], bool], tell: Tell) -> float | None:
+        while sum(step == name for step in steps) < 3:
             if superseded():
                 return None
-            self.steps.append(self.name)
+            steps.append(name)
             tell()
-        return self.of
+        return of
+
+    return Work(name, (of,), run, soon)
 
 
 class TestWork:
@@ -131,8 +123,8 @@ class TestWork:
         """Of two panels: one whose work comes late, one in a drawer, whose work comes soon."""
 
         def panel(name: str, soon: bool, seen: Callable[[Ui], bool] = lambda ui: True) -> Panel:
-            def works(now: Now) -> tuple[Counting, ...]:
-                return (Counting(name, now.inputs.advance_ratio, soon, steps),)
+            def works(now: Now) -> tuple[Work, ...]:
+                return (counting(name, now.inputs.advance_ratio, soon, steps),)
 
             def view(now: Now) -> Mapping[str, Any]:
                 (asked,) = works(now)
@@ -156,7 +148,7 @@ class TestWork:
         assert page.sent == [{name: value} for name in ("power", "strip") for value in told]
 
     def test_every_panel_that_wants_it_shows_what_was_done_once(self, steps: list[str]):
-        work = Counting("power", 1.0, True, steps)
+        work = counting("power", 1.0, True, steps)
         views = [partial(lambda name, now: {name: work.key in now.answers}, name) for name in ("power", "strip")]
         page = Page(*(Panel(view, works=lambda now: (work,)) for view in views))
         page.follower._now = lambda: replace(NOW, answers=page.follower.answers())

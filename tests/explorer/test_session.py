@@ -32,6 +32,7 @@ class RecordingPage:
         self.moves_sliders = False
         self.pin = None
         self.context = SimpleNamespace(analyses=Analyses())
+        self.optimise = SimpleNamespace(preview=lambda design: self.found)
 
     def __getattr__(self, name: str) -> Any:
         return lambda *_, **__: self.calls.append(name)
@@ -42,9 +43,6 @@ class RecordingPage:
 
     def driven(self, design: Design) -> Design:
         return design
-
-    def preview(self, design: Design) -> Design | None:
-        return self.found
 
     def pin_or_swap(self, *_: Any) -> bool:
         self.calls.append("pin_or_swap")
@@ -121,7 +119,7 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
 def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
     assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
-    assert page.calls[3:7] == ["solve_pinned", "take", "write_address", "show_results"]
+    assert page.calls[3:7] == ["solve_pinned", "take", "show_results", "follow"]
     assert page.calls[-1] == "solve_deferred"
     assert page.calls.index("follow") < page.calls.index("solve_deferred")
     assert page.frames[-1].solution is page.states[-1].solution
@@ -186,7 +184,7 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
     session._update()
-    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "take", "write_address"]
+    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "take"]
 
 
 def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -212,8 +210,7 @@ def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, mon
     monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3))
     page: Any = session.page
     session._update()
-    before = ["read", "pin_or_swap", "show_frame", "solve_pinned", "take"]
-    assert page.calls == [*before, "show_power_number", "write_address"]
+    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "take", "show_power_number"]
 
 
 def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):

@@ -64,11 +64,11 @@ class ActuatorControls:
         with gui.add_folder("All actuators on this blade", expand_by_default=False):
             text("table")
         self.stopped = gui.add_checkbox("Actuator stops here", False, hint=hint("stops_here"))
-        self.texts: dict[str, Callable[[Any], None]] = {
-            f"actuator.{name}": partial(_put, texts[name]) for name in texts
-        }
+        self._chart = texts.pop("chart")
+        shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
+        self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
-        self.texts |= {"actuator.form": self._arrange, "actuator.chart": partial(_draw, texts["chart"])}
+        self.texts = {**shows, "actuator.form": self._arrange, "actuator.chart": self._draw}
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
@@ -96,10 +96,5 @@ class ActuatorControls:
             self._driven()
         self._moved()
 
-
-def _put(place: viser.GuiHtmlHandle, content: str) -> None:
-    place.content = content
-
-
-def _draw(place: viser.GuiHtmlHandle, chart: DrawnChart) -> None:
-    place.content = tag("div.rx", chart_box(chart))
+    def _draw(self, chart: DrawnChart) -> None:
+        self._chart.content = tag("div.rx", chart_box(chart))

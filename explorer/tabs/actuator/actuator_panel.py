@@ -12,7 +12,7 @@ from explorer.tabs.actuator.lifted_scene import LiftedScene
 from explorer.tabs.background import all_known
 from explorer.tabs.context import TabContext
 from explorer.views.flight import AT_REST, landed
-from explorer.views.now import Hand, SetActuator, SetAddress, SetHand
+from explorer.views.now import Hand, SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, place_of
 from explorer.workers import solver
 from rotor import Design, Solution
@@ -48,15 +48,15 @@ class ActuatorPanel:
         """What the hand has set by now."""
         return replace(self._hand, actuator=self.inputs())
 
-    def perform(self, effect: SetHand | SetActuator | SetAddress) -> None:
+    def perform(self, effect: SetHand | SetAddress) -> None:
         """Do what a press said."""
-        match effect:
-            case SetHand(changes):
-                self._set(**changes)
-            case SetActuator(changes):
-                self.controls.place(changes)
-            case SetAddress(name, value):
-                self._address[name] = value
+        if isinstance(effect, SetAddress):
+            self._address[effect.name] = effect.value
+            return
+        if effect.changes:
+            self._set(**effect.changes)
+        if effect.actuator:
+            self.controls.place(effect.actuator)
 
     def _set(self, **changes: Any) -> None:
         with self._lock:  # Widgets and presses have threads of their own.
@@ -95,8 +95,7 @@ class ActuatorPanel:
             self._set(lifted=True)
             return
         self._release()
-        for effect in landed(self._hand):
-            self.perform(effect)
+        self.perform(landed(self._hand))
 
     def draw(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """The lifted blade as it flies: `design` is without the actuator's twist, `solution` with it."""

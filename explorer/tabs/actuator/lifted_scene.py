@@ -4,14 +4,14 @@ import threading
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from explorer.colours import Rgb, css
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
-from explorer.parts.actuate import LiftedLabel
+from explorer.parts.stage import SceneLabel
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, GHOST, LEAD, LEADER, LiftedPicture, mixed
+from explorer.scene.overlays import even_colours
 
 NODE = "/lifted"
 """Name of the lifted blade in the scene."""
@@ -25,13 +25,6 @@ _LINES: dict[str, tuple[Rgb, float]] = {
     "leaders": (LEADER, 1.2),
 }
 """Colours and widths [px] by name."""
-
-
-def _even(colour: Rgb, segments: int) -> NDArray[np.uint8]:
-    """For each point, since the page cannot change from one colour for all to one for each."""
-    return np.tile(np.array(colour, dtype=np.uint8), (segments, 2, 1))
-
-
 FLIES = 0.9
 """How long the blade flies out of the rotor or back [s]."""
 
@@ -46,7 +39,12 @@ class LiftedScene:
         self._solids: dict[str, viser.MeshHandle] = {}
         self._lines = {
             name: self._api.add_line_segments(
-                f"{NODE}/{name}", _NOTHING, _even(colour, 1), thickness=pixels, thickness_units="screen", visible=False
+                f"{NODE}/{name}",
+                _NOTHING,
+                even_colours(colour, 1),
+                thickness=pixels,
+                thickness_units="screen",
+                visible=False,
             )
             for name, (colour, pixels) in _LINES.items()
         }
@@ -95,12 +93,11 @@ class LiftedScene:
             handle.visible = len(segments) > 0
             if len(segments):
                 colour = mixed(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
-                handle.points, handle.colors = segments.astype(np.float32), _even(colour, len(segments))
-        lit = {f"{NODE}/{name}": solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
-        call(
-            self._client, "rotorScene.glow", {name: [css(colour), strength] for name, (colour, strength) in lit.items()}
-        )
-        labels = [LiftedLabel(text, NODE, np.round(at, 3).tolist(), kind) for kind, text, at in picture.labels]
+                handle.points, handle.colors = segments.astype(np.float32), even_colours(colour, len(segments))
+        lit = {name: solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
+        glow = {f"{NODE}/{name}": [css(colour), strength] for name, (colour, strength) in lit.items()}
+        call(self._client, "rotorScene.glow", glow)
+        labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
         self._bridge.set(lifted_labels=labels)
 
     def release(self, radius: float) -> None:
