@@ -107,7 +107,8 @@ class Page:
             analyses,
             pinboard,
             shared.pool,
-            callbacks,
+            callbacks.wake,
+            callbacks.state,
         )
         with banner:
             secret = facts.kept.get(PRESENT, "")
@@ -154,7 +155,7 @@ class Page:
             PANELS, bridge, texts, shared.pool, callbacks.wake, self.now, self._pressed, self._perform
         )
         by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here, FLIGHT.seen))
-        following = self.top, self.probe, settings, self.history, self.file
+        following = self.probe, settings, self.history, self.file
         self.tabs: tuple[Tab, ...] = (*following, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))

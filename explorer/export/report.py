@@ -14,7 +14,7 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.contents import DesignReport, ReportEntry, colours_of, report_of
+from explorer.export.contents import DesignReport, ReportEntry, colours_of
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
@@ -160,7 +160,7 @@ def _run(options: argparse.Namespace) -> int:
     first = entries[0].solution.design
     baseline = ReportEntry(baseline_title(first), solve(baseline_of(first)))
     try:
-        report = report_of(baseline, entries, view)
+        report = DesignReport(baseline, entries, view)
     except ValueError as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1

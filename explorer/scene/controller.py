@@ -289,7 +289,7 @@ class SceneController:
     def scale(self) -> tuple[Field, Range] | None:
         """The quantity on the disk of the scene and the ends of its colours; None where no such disk is in sight."""
         drawn = self._drawn
-        if drawn is None or not self.scene.shows_disk:
+        if drawn is None or self.scene.behind:
             return None
         return _field(drawn.view, drawn.pinned), drawn.colour_range
 

@@ -169,9 +169,7 @@ class Probe:
     @property
     def stall_margin(self) -> float | None:
         """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing."""
-        if self.u_t < 0.0:
-            return None
-        return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+        return None if self.u_t < 0.0 else min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
 
     @property
     def region(self) -> FlowRegion:

@@ -10,7 +10,7 @@ import viser
 
 from explorer.charts.plots import PowerCurves
 from explorer.export.blade import blade_stl
-from explorer.export.contents import ReportEntry, report_of
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
 from explorer.export.view_picture import view_png
@@ -141,7 +141,7 @@ class ExportPanel(Tab):
         entries = [ReportEntry("Now", solution)]
         entries += [ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)]
         field = FIELDS[view.field]
-        report = report_of(
+        report = DesignReport(
             reference,
             entries,
             state.view,

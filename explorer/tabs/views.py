@@ -25,7 +25,7 @@ from rotor import Design, Solution
 from rotor.markup import tag
 
 
-class TopBar(Tab):
+class TopBar:
     def __init__(self, context: TabContext) -> None:
         self._context, self._board = context, context.pinboard
         self._along = True
@@ -61,12 +61,6 @@ class TopBar(Tab):
     def show_design(self, inputs: Inputs, steps: tuple[bool, bool]) -> None:
         """What is on the sliders, and whether there is a step to undo and one to redo."""
         self._inputs, self._steps = inputs, steps
-        self.refresh()
-
-    def show(self, state: SessionState) -> None:
-        self.refresh()
-
-    def show_failure(self) -> None:
         self.refresh()
 
     def refresh(self) -> None:

@@ -46,14 +46,18 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
     rows = [_row(name, title, power, reference, units) for name, title in titles.items()]
-    ideal = ideal_induced(solution)
-    against = f"vs. {baseline_title(solution.design)}"
+    words = tag("span", "total power"), tag("span", f"vs. {baseline_title(solution.design)}")
+    return _panel(solution, reference, words, tag("table", rows), units)
+
+
+def _panel(solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units) -> Markup:
+    """`words`: below the total, what it is and what it is compared with."""
     return tag(
         "div.rx",
-        total_line(power, reference, units),
-        tag("div.rx-line.rx-dim", tag("span", "total power"), tag("span", against), title=tip("change")),
-        tag("table", rows),
-        ideal_line(solution, ideal, units),
+        total_line(solution.power, reference, units),
+        tag("div.rx-line.rx-dim", words, title=tip("change")),
+        table,
+        ideal_line(solution, ideal_induced(solution), units),
         data_explorer="power",
     )
 
@@ -224,26 +228,15 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     power = solution.power
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
-    ideal = ideal_induced(solution)
     rows = [
         _compared_row(title, name, power, reference, units)
         for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
     ]
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
-    return tag(
-        "div.rx",
-        total_line(power, reference, units),
-        tag(
-            "div.rx-line.rx-dim",
-            tag("span", "total power of ", _name("B")),
-            tag("span", "vs. " if reference else None, _name("A"), against),
-            title=tip("change"),
-        ),
-        tag("table.rx-ab", head, rows, data_explorer="ab"),
-        ideal_line(solution, ideal, units),
-        data_explorer="power",
-    )
+    compared = tag("span", "vs. " if reference else None, _name("A"), against)
+    words = tag("span", "total power of ", _name("B")), compared
+    return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units)
 
 
 def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:

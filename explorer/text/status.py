@@ -4,7 +4,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.model.stand import airload_cases, as_measured, flight_powers
+from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers
 from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import SECTIONS, tip
@@ -220,7 +220,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
         low, high = min(values), max(values)
         margin = 0.05 * max(abs(high), abs(low))
         if not low - margin <= value <= high + margin:
-            return f"{_SHORT[name]} {value:.3g}, compared {low:.3g}…{high:.3g}"
+            return f"{SHORT[name]} {value:.3g}, compared {low:.3g}…{high:.3g}"
     return ""
 
 
@@ -230,6 +230,3 @@ def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     if measured.name == _DIGITISED:
         return rows[0] if inflow == "annulus" else None
     return next((row for row in rows if row.what.endswith(f", inflow {inflow}")), None)
-
-
-_SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ"}
