@@ -28,7 +28,7 @@ from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
-from explorer.tabs.design_files import FilePanel, RotorUpload
+from explorer.tabs.design_files import FilePanel, add_rotor_upload
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.follower import Follower
@@ -116,7 +116,7 @@ class Page:
         self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
         self.camera = FittedCamera(client, rotor.radius)
-        self.scene = SceneController(client, self.camera, rotor, self.display, facts.dark)
+        self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
@@ -138,7 +138,7 @@ class Page:
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
-                RotorUpload(context)
+                add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self.rival = Rival(context, address, problems)

@@ -169,6 +169,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     low, high = placement.span
     where = f"{count(verdict)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
+    cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Balance of power"), unit),
@@ -182,7 +183,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
         tag("p.lead", verdict_sentence(verdict), class_="less" if verdict.pays else "more", data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
         parts,
-        _cares(verdict),
+        tag("ul.care", [tag("li", sentence) for sentence in cares]) if cares else None,
     )
 
 
@@ -215,9 +216,3 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     said = ", ".join(f"{name} {signed(power, units)}" for name, power in rows)
     label, box = f"{said} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
     return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)
-
-
-def _cares(verdict: Verdict) -> Markup:
-    """Limits that are exceeded, then caveats."""
-    sentences = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
-    return tag("ul.care", [tag("li", sentence) for sentence in sentences]) if sentences else Markup()

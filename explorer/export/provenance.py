@@ -175,10 +175,5 @@ def _disk_fields(disk: DiskFields) -> list[str]:
 def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:
     heading = "".join(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
     table = np.stack([np.asarray(values, dtype=float).ravel() for _, values in columns], axis=1)
-    rows = ([_number(value) for value in row] for row in table.tolist())
+    rows = ([f"{value + 0.0:.9g}" if math.isfinite(value) else "" for value in row] for row in table.tolist())
     return csv_text([[name for name, _ in columns], *rows], heading).encode("utf-8")
-
-
-def _number(value: float) -> str:
-    """Nine digits; empty for NaN."""
-    return f"{value + 0.0:.9g}" if math.isfinite(value) else ""

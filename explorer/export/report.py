@@ -23,7 +23,7 @@ from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
-from rotor import Design, Solution, load_design, solve
+from rotor import Solution, load_design, solve
 from rotor.markup import Markup, group, tag
 from rotor.terminal import called, help_formatter, run_command
 from rotor.user_input import write_whole
@@ -105,10 +105,10 @@ def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> Markup:
 
 
 def _section(report: DesignReport, k: int) -> Markup:
-    """Everything about one design."""
     entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution
     design, active = solution.design, wave_words(solution.design)
+    text = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)
     return tag(
         "section.design",
         tag("h2", entry.title),
@@ -127,16 +127,10 @@ def _section(report: DesignReport, k: int) -> Markup:
         tables.blade(design),
         figures.disks(report, entry, k),
         figures.along(solution),
-        _design_file(design),
+        tag("details", tag("summary", "Design file"), tag("pre", text)),
         id=f"design-{k}",
         style=f"--mark:{colour}",
     )
-
-
-def _design_file(design: Design) -> Markup:
-    """The design as its file, which the page, the command line and Python open."""
-    text = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)
-    return tag("details", tag("summary", "Design file"), tag("pre", text))
 
 
 def _caveats(solution: Solution) -> Markup:

@@ -53,17 +53,18 @@ def comparison(report: DesignReport) -> Markup:
             for entry in report.all
         ]
 
+    designs = [entry.solution.design for entry in report.all]
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
     width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
-        _row("Twist", [twist_words(entry.solution.design.twist) for entry in report.all], "words"),
-        _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
-        _row("Mass, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
-        _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
+        _row("Twist", [twist_words(design.twist) for design in designs], "words"),
+        _row("Speed", [_speed(design, report.units) for design in designs]),
+        _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
+        _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
         _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
         *(
             _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
-            for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
+            for name, title in part_titles(*designs).items()
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
@@ -256,10 +257,6 @@ def _weight(design: Design, units: Units) -> Content:
         return stand_words(stand)
     mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
     return _below(mass, units.altitude.text(design.condition.altitude))
-
-
-def _model(design: Design) -> Markup:
-    return _below(inflow_words(design), f"{design.preset}, {physics_words(design)}")
 
 
 def _efficiency_number(solution: Solution, merit: str = "", ratio: str = "") -> str:

@@ -26,7 +26,6 @@ LOAD_TITLES = {name: row.title for name, row in STAND.items() if name in LOAD_KE
 _ROUND = 9
 """Decimals of angles that were radians."""
 
-
 _FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
 """Field of `StandInputs` by key of a record, but for what is given and flapping."""
 _GIVEN_WITH: dict[Flapping, tuple[str, ...]] = {

@@ -89,18 +89,13 @@ def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
 def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None, segments: int = 14) -> Mesh:
     """A round bar between two points, conical where `end_radius` is given."""
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
-    across = _perpendicular(b - a)
-    up = np.cross((b - a) / np.linalg.norm(b - a), across)
+    along = (b - a) / np.linalg.norm(b - a)
+    across = np.cross(b - a, np.eye(3)[int(np.argmin(np.abs(b - a)))])
+    across /= np.linalg.norm(across)
+    up = np.cross(along, across)
     angle = 2.0 * math.pi * np.arange(segments)[:, None] / segments
     ring = np.cos(angle) * across + np.sin(angle) * up
     return loft([a + radius * ring, b + (radius if end_radius is None else end_radius) * ring])
-
-
-def _perpendicular(direction: Array) -> Array:
-    """A unit vector across a direction."""
-    helper = np.eye(3)[int(np.argmin(np.abs(direction)))]
-    across = np.cross(direction, helper)
-    return np.asarray(across / np.linalg.norm(across), dtype=np.float64)
 
 
 @lru_cache(maxsize=32)

@@ -37,7 +37,6 @@ _ELEVATION = {"disk": math.radians(89.9), "top": math.radians(89.9), "side": mat
 _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
 
-
 _STAND = math.radians(34.0), math.radians(24.0)
 """Where the camera of "3d" stands, which is not fitted but composed: azimuth from behind the tail, and elevation."""
 _STAND_LOOKS_AT, _STAND_DISTANCE = (0.9, 0.3, -2.35), 33.5
@@ -122,7 +121,8 @@ def fit(
         backward = direction(_STAND[0], _STAND[1] + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
         return _standing(size(radius), aspect, backward, cover)
     else:
-        points = _outline(radius)
+        psi = np.linspace(0.0, 2.0 * math.pi, 73)  # The rim with the words round it.
+        points = 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
         backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
         if view == "side":  # The airframe, coning and tilt need height where the disk has none.
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
@@ -177,12 +177,6 @@ def framed(points: Array, backward: Array, aspect: float, margin: float = _MARGI
         shift = 0.5 * (seen.max(axis=0) + seen.min(axis=0)) * distance
         middle = middle + 0.7 * (shift[0] * right + shift[1] * up)
     return Camera(middle + distance * backward, middle)
-
-
-def _outline(radius: float) -> Array:
-    """The rim with the words round it."""
-    psi = np.linspace(0.0, 2.0 * math.pi, 73)
-    return 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
 
 
 def _blade(radius: float, azimuth: float) -> Array:

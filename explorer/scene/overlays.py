@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from explorer import colours
 from explorer.colours import SceneTheme
@@ -89,7 +88,8 @@ class Ghost:
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
-                self._lines.points, self._lines.colors = segments, _even(dark, len(segments))
+                even = np.tile(np.array(dark, dtype=np.uint8), (len(segments), 2, 1))
+                self._lines.points, self._lines.colors = segments, even
 
 
 class AirLines:
@@ -119,8 +119,3 @@ def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSeg
     """Lines to be assigned later. Each point has a colour: the page cannot change from one for all to one for each."""
     nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
     return api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
-
-
-def _even(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
-    """One colour for every end of `count` segments."""
-    return np.tile(np.array(colour, dtype=np.uint8), (count, 2, 1))

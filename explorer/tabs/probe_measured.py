@@ -76,10 +76,6 @@ def lift_chart(probe: Probe) -> Chart:
     )
 
 
-def _title(words: str) -> Markup:
-    return tag("span", tag("b", words))
-
-
 def with_indices(words: str) -> Markup:
     """Text with the index of C_l and the like set low."""
     return group(tag("sub", part) if k % 2 else part for k, part in enumerate(re.split(r"_(\w)", words)))
@@ -135,7 +131,7 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
         "div",
         tag(
             "div.rx-line.rx-probe-title",
-            _title("Measured"),
+            tag("span", tag("b", "Measured")),
             tag("span.rx-dim", name, title=report),
             tag("span", dash(THIS), "ours"),
             title=tip("probe_measured"),

@@ -194,7 +194,6 @@ class LecturePanel(Tab):
         self._show()
 
     def stop(self) -> None:
-        """The browser has left."""
         self._told.stop()
 
     def _write_file(self) -> None:

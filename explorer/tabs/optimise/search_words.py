@@ -243,9 +243,3 @@ def frame_line(run: SearchRun, units: Units = SI) -> Markup:
     what = "starting design" if run.cursor == 0 else f"design {frame.evaluation}"
     line = tag("span", what), tag("span", units.watts(power, 1))
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")
-
-
-def moved_on() -> Markup:
-    """The sliders no longer hold the starting design of the search."""
-    words = "The sliders have changed. Apply takes the optimum."
-    return tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
