@@ -220,7 +220,7 @@ class Page:
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
         """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
-        return self.top.solve(present, hurried)
+        return self.context.pinboard.solve(present, hurried)
 
     def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
         """Draw a converged solution and send it. Nothing else belongs here: it is the delay that the user feels.
