@@ -13,11 +13,12 @@ import viser
 
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import Bridge, set_query
-from explorer.hosting.messages import IdlePress, PageFacts
+from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
+from explorer.parts.presses import IdlePress
 from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
@@ -28,7 +29,7 @@ from explorer.sharing.share import VIEW, Address, view_from
 from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.context import SharedServices, Tab, TabContext
 from explorer.tabs.controls import DesignControls, SessionCallbacks
-from explorer.tabs.design_files import FilePanel, RotorUpload
+from explorer.tabs.design_files import FilePanel, add_rotor_upload
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.follower import Follower
@@ -97,7 +98,18 @@ class Page:
         analyses = Analyses()
         pinboard, controls, pool = Pinboard(analyses.solve), self.controls, shared.pool
         context = self.context = TabContext(
-            client, bridge, keyboard, layout, self.display, controls, tracker, analyses, pinboard, pool, callbacks
+            client,
+            bridge,
+            keyboard,
+            layout,
+            self.display,
+            controls,
+            tracker,
+            analyses,
+            pinboard,
+            pool,
+            callbacks.wake,
+            callbacks.state,
         )
         with banner:
             secret = facts.kept.get(PRESENT, "")
@@ -105,7 +117,7 @@ class Page:
         self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
         self.camera = FittedCamera(client, rotor.radius)
-        self.scene = SceneController(client, self.camera, rotor, self.display, facts.dark)
+        self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
@@ -127,7 +139,7 @@ class Page:
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
-                RotorUpload(context)
+                add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self.rival = Rival(context, address, problems)
@@ -142,7 +154,7 @@ class Page:
             settings = SettingsPanel(context)
         self.follower = Follower(PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform)
         by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here, FLIGHT.seen))
-        following = self.top, self.probe, settings, self.history, self.file, export, self.lecture, self._presence
+        following = self.probe, settings, self.history, self.file, export, self.lecture, self._presence
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
@@ -202,7 +214,7 @@ class Page:
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
         """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
-        return self.top.solve(present, hurried)
+        return self.context.pinboard.solve(present, hurried)
 
     def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
         """Draw a converged solution and send it. Nothing else belongs here: it is the delay that the user feels.

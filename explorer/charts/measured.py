@@ -50,7 +50,36 @@ class MeasuredChart:
             return None
         known = self._points.get(_key(measured, solution.design), ())
         now = self._present(measured, solution, measured.quantity in _AT_ONCE)
-        return _drawn(measured, solution, known, now, previous)
+        along = measured.varied[0]
+        title, unit, size = _QUANTITIES[measured.quantity]
+        axis, wide = _AXES.get(along, (along, 1.0))
+        places = [wide * point[along] for point in measured.points]
+        values = [size * point[measured.quantity] for point in measured.points]
+        scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
+        ours = [(wide * point.given[along], size * point.ours[measured.quantity]) for point in known if point.ours]
+        ours.sort()
+        x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
+        y = size * now
+        seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
+        low, high = min(places), max(places)
+        words = [
+            _words(measured, value, point)
+            for value, point in zip(values, (*known, *[None] * len(values)), strict=False)
+        ]
+        value, note = _summary(measured, known, solution)
+        both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
+        return Chart(
+            title,
+            Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
+            Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
+            (
+                role_line("saving", [place for place, _ in ours], [value_here for _, value_here in ours]),
+                Points("", places, values, INK, "ring", scatter, words, size=2.6),
+                now_dot(x, y),
+            ),
+            value=value,
+            note=note,
+        )
 
     def _present(self, measured: MeasuredSet, solution: Solution, compute: bool) -> float:
         """The quantity of the present solution; NaN where it is not known and not to be computed."""
@@ -91,41 +120,6 @@ def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
     return measured.name, replace(design, condition=any_test, models=replace(design.models, trim="wind-tunnel"))
 
 
-def _drawn(
-    measured: MeasuredSet, solution: Solution, known: tuple[ComparedPoint, ...], now: float, previous: Range | None
-) -> Chart:
-    """`now`: the quantity of the present solution, NaN where it is not known."""
-    along = measured.varied[0]
-    title, unit, size = _QUANTITIES[measured.quantity]
-    axis, wide = _AXES.get(along, (along, 1.0))
-    places = [wide * point[along] for point in measured.points]
-    values = [size * point[measured.quantity] for point in measured.points]
-    scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
-    ours = [(wide * point.given[along], size * point.ours[measured.quantity]) for point in known if point.ours]
-    ours.sort()
-    x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
-    y = size * now
-    seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
-    low, high = min(places), max(places)
-    words = [
-        _words(measured, value, point) for value, point in zip(values, (*known, *[None] * len(values)), strict=False)
-    ]
-    value, note = _summary(measured, known, solution)
-    both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
-    return Chart(
-        title,
-        Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
-        Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
-        (
-            role_line("saving", [place for place, _ in ours], [value_here for _, value_here in ours]),
-            Points("", places, values, INK, "ring", scatter, words, size=2.6),
-            now_dot(x, y),
-        ),
-        value=value,
-        note=note,
-    )
-
-
 def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> str:
     """A measured value in words, with ours and the error where it is known."""
     _, unit, size = _QUANTITIES[measured.quantity]
@@ -156,10 +150,12 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 @dataclass(frozen=True)
 class OurPower:
-    """Our main-rotor power in a flight [W], and between the drag areas of the sources; None without trim or band."""
+    """Our main-rotor power in a measured flight [W]."""
 
     power: float | None
+    """None where it does not trim."""
     band: tuple[float, float] | None
+    """With the lowest and the highest drag area of the sources; None where they give one value."""
 
 
 class FlownPowers:

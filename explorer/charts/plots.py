@@ -185,7 +185,10 @@ class PowerCurves:
                 self._tried = time.monotonic()
                 if values is None:
                     return False
-                self._keep(family, values, coarse)
+                if len(self._curves) >= _KEPT:
+                    del self._curves[next(iter(self._curves))]
+                self._curves[family] = values
+                self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
             if family == _family(design):
                 self._last = family
             known()
@@ -226,12 +229,6 @@ class PowerCurves:
                 end = k  # Faster flight does not trim either, and each failed trim takes long.
         self._starts, self._fine = points, (family, values)
         return values, False
-
-    def _keep(self, family: Design, values: Array, coarse: bool) -> None:
-        if len(self._curves) >= _KEPT:
-            del self._curves[next(iter(self._curves))]
-        self._curves[family] = values
-        self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
 
 
 def _family(design: Design) -> Design:

@@ -21,6 +21,7 @@ Point = tuple[float, float]
 
 BODY = "var(--mantine-color-body)"
 """The page's ground, for the halo that keeps words readable on lines."""
+_HALO: dict[str, Attribute] = {"stroke": BODY, "stroke_width": 3, "paint_order": "stroke", "stroke_linejoin": "round"}
 
 
 def line(
@@ -86,14 +87,8 @@ def words(
 ) -> Markup:
     """Text with a halo, so that it reads on whatever it crosses; `low` is its subscript."""
     subscript = tag("tspan", low, font_size=10, dy=2.5) if low else None
-    halo: dict[str, Attribute] = {
-        "stroke": BODY,
-        "stroke_width": 3,
-        "paint_order": "stroke",
-        "stroke_linejoin": "round",
-    }
     look: dict[str, Attribute] = {"font_size": 12, "font_weight": weight, "opacity": opacity}
-    return tag("text", text, subscript, x=at[0], y=at[1], text_anchor=anchor, fill=colour, **look, **halo)
+    return tag("text", text, subscript, x=at[0], y=at[1], text_anchor=anchor, fill=colour, **look, **_HALO)
 
 
 def spread(wanted: list[float], apart: float) -> list[float]:
@@ -116,10 +111,9 @@ def _on(centre: Point, radius: float, angle: float) -> Point:
     return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
 
 
-def text(x: float, y: float, words: str, size: float, *, anchor: str = "start", weight: int | None = None) -> Markup:
+def text(x: float, y: float, words: str, size: float, *, anchor: str = "start") -> Markup:
     """Text whose baseline starts, is centred or ends at a point."""
-    look: dict[str, Attribute] = {"font_size": size, "text_anchor": anchor, "font_weight": weight}
-    return tag("text", words, x=x, y=y, fill="currentColor", **look)
+    return tag("text", words, x=x, y=y, fill="currentColor", font_size=size, text_anchor=anchor)
 
 
 def image(x: float, y: float, wide: float, high: float, png: bytes) -> Markup:

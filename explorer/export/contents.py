@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import cached_property
 
 import numpy as np
 
@@ -23,36 +24,53 @@ _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr"
 
 @dataclass(frozen=True, eq=False)
 class ReportEntry:
-    """A design of the report: the name that the user knows, for example Now, and a converged solution."""
+    """A design of the report."""
 
     title: str
+    """The name that the user knows, for example Now."""
     solution: Solution
+    """Converged."""
 
 
 @dataclass(frozen=True, eq=False)
 class DesignReport:
-    """The content of a report: designs, the present one first, and what all changes are counted from.
-
-    `ranges`: colour range by title of the field, where it is not the default; the same for all designs. `own_section`:
-    the reference is the user's own design, which is shown like the others. `actuator`: the verdict on that chosen for
-    the first design, or why there is none; empty where none was chosen.
-    """
+    """The content of a report; ValueError where there is no design, or where one did not converge."""
 
     reference: ReportEntry
-    entries: tuple[ReportEntry, ...]
+    """The reference of all changes: the pinned design, or the baseline twist."""
+    entries: Sequence[ReportEntry]
+    """The designs, the present one first; the reference is not among them."""
     view: ViewState
-    when: datetime
     ranges: Mapping[str, Range] = field(default_factory=dict)
+    """Colour range by title of the field, where the page has another."""
     own_section: bool = False
+    """Whether the reference is the user's own design, which is shown like the others."""
     actuator: Verdict | str = ""
+    """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
+    when: datetime = field(default_factory=lambda: datetime.now().astimezone())
+
+    def __post_init__(self) -> None:
+        if not self.entries:
+            raise ValueError("There is no design to report on: wait for the first solution.")
+        for entry in self.all:
+            if not entry.solution.converged:
+                raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
 
     @property
     def units(self) -> Units:
+        """Units of power, speed and weight."""
         return UNITS[self.view.units]
 
     def colour_range(self, shown: Field) -> Range:
-        """The colour range of a field."""
-        return self.ranges.get(shown.title, (shown.low, shown.high))
+        """The colour range of a field, the same for all designs."""
+        return self.ranges.get(shown.title) or self._fitted.get(shown.title, (shown.low, shown.high))
+
+    @cached_property
+    def _fitted(self) -> dict[str, Range]:
+        """Colour ranges that cover all entries, so that their pictures can be compared."""
+        shown = [FIELDS[name] for name in _USUAL if not FIELDS[name].void_in_reverse_flow]
+        values = [[field_values(entry.solution, one).ravel() for entry in self.entries] for one in shown]
+        return {one.title: fitted_range(one, np.concatenate(each)) for one, each in zip(shown, values, strict=True)}
 
     def comparable(self, entry: ReportEntry) -> bool:
         """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
@@ -66,7 +84,7 @@ class DesignReport:
     @property
     def shown(self) -> tuple[ReportEntry, ...]:
         """The designs with a section and a 3D scene: the first of `all`."""
-        return self.all if self.own_section else self.entries
+        return self.all if self.own_section else tuple(self.entries)
 
 
 def colours_of(report: DesignReport) -> list[str]:
@@ -78,34 +96,3 @@ def fields_of(report: DesignReport) -> list[Field]:
     """The field on the page, then the default ones."""
     names = dict.fromkeys((report.view.field, *_USUAL))
     return [FIELDS[name] for name in list(names)[:FIELDS_SHOWN]]
-
-
-def report_of(
-    reference: ReportEntry,
-    entries: Sequence[ReportEntry],
-    view: ViewState,
-    ranges: Mapping[str, Range] | None = None,
-    *,
-    own_section: bool = False,
-    actuator: Verdict | str = "",
-) -> DesignReport:
-    """A report of these designs; ValueError where there is none, or where one did not converge."""
-    if not entries:
-        raise ValueError("There is no design to report on: wait for the first solution.")
-    for entry in (*entries, reference):
-        if not entry.solution.converged:
-            raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    installed = dict[str, Range]()
-    for name in _USUAL:
-        if not (shown := FIELDS[name]).void_in_reverse_flow:  # One range for all designs, so that they can be compared.
-            values = [field_values(entry.solution, shown).ravel() for entry in entries]
-            installed[name] = fitted_range(shown, np.concatenate(values))
-    return DesignReport(
-        reference=reference,
-        entries=tuple(entries),
-        view=view,
-        when=datetime.now().astimezone(),
-        ranges={**installed, **(ranges or {})},
-        own_section=own_section,
-        actuator=actuator,
-    )

@@ -169,7 +169,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     low, high = placement.span
     where = f"{count(verdict)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
-    sentences = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
+    cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Balance of power"), unit),
@@ -183,7 +183,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
         tag("p.lead", verdict_sentence(verdict), class_="less" if verdict.pays else "more", data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
         parts,
-        tag("ul.care", [tag("li", sentence) for sentence in sentences]) if sentences else None,
+        tag("ul.care", [tag("li", sentence) for sentence in cares]) if cares else None,
     )
 
 

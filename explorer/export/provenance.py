@@ -14,6 +14,7 @@ from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.picture import flown_twist
 from explorer.text.design_words import inflow_words, physics_words
+from explorer.text.glossary import COLUMNS
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.arrays import Array
@@ -89,22 +90,6 @@ def file_stem(design: Design, *parts: str) -> str:
 
 _ANGLES = {"theta", "alpha", "stall_margin", "elastic_twist"}
 """Fields in radians that are written in degrees."""
-_MEANINGS = {
-    "theta": "pitch with twist",
-    "u_t": "in-plane velocity across the blade over tip speed",
-    "u_p": "velocity down through the blade over tip speed",
-    "induced": "induced inflow over tip speed",
-    "inflow": "total inflow over tip speed",
-    "alpha": "angle of attack at the blade's reference line",
-    "mach": "section Mach number",
-    "cl": "section lift coefficient",
-    "cd": "section drag coefficient",
-    "cd_mach": "change of cd with Mach number; 0.1 marks drag divergence",
-    "stall_margin": "margin to the stall angle; 90 in reverse flow",
-    "dct": "dCT/dr of all blades, smeared",
-    "elastic_twist": "elastic twist, part of theta",
-    "dcq": "dCQ/dr / r of all blades, smeared",
-}
 
 
 def disk_csv(solution: Solution) -> bytes:
@@ -125,7 +110,7 @@ def disk_csv(solution: Solution) -> bytes:
     notes = [
         f"{len(disk.r)} elements of {_widths(disk.dr)}; {len(disk.psi)} azimuths",
         "psi = 0 over the tail, 90 on the advancing side",
-        *(f"{name}: {_MEANINGS[name]}" for name in _disk_fields(disk) if name in _MEANINGS),
+        *(f"{name}: {COLUMNS[name]}" for name in _disk_fields(disk) if name in COLUMNS),
     ]
     return _table(solution, notes, columns)
 
@@ -190,10 +175,5 @@ def _disk_fields(disk: DiskFields) -> list[str]:
 def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:
     heading = "".join(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
     table = np.stack([np.asarray(values, dtype=float).ravel() for _, values in columns], axis=1)
-    rows = ([_number(value) for value in row] for row in table.tolist())
+    rows = ([f"{value + 0.0:.9g}" if math.isfinite(value) else "" for value in row] for row in table.tolist())
     return csv_text([[name for name, _ in columns], *rows], heading).encode("utf-8")
-
-
-def _number(value: float) -> str:
-    """Nine digits; empty for NaN."""
-    return f"{value + 0.0:.9g}" if math.isfinite(value) else ""

@@ -14,7 +14,7 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.contents import DesignReport, ReportEntry, colours_of, report_of
+from explorer.export.contents import DesignReport, ReportEntry, colours_of
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
@@ -108,7 +108,7 @@ def _section(report: DesignReport, k: int) -> Markup:
     entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution
     design, active = solution.design, wave_words(solution.design)
-    file = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)  # Page, command line and Python open it.
+    text = json.dumps(design.to_dict(), indent=1, ensure_ascii=False)
     return tag(
         "section.design",
         tag("h2", entry.title),
@@ -127,7 +127,7 @@ def _section(report: DesignReport, k: int) -> Markup:
         tables.blade(design),
         figures.disks(report, entry, k),
         figures.along(solution),
-        tag("details", tag("summary", "Design file"), tag("pre", file)),
+        tag("details", tag("summary", "Design file"), tag("pre", text)),
         id=f"design-{k}",
         style=f"--mark:{colour}",
     )
@@ -154,7 +154,7 @@ def _run(options: argparse.Namespace) -> int:
     first = entries[0].solution.design
     baseline = ReportEntry(baseline_title(first), solve(baseline_of(first)))
     try:
-        report = report_of(baseline, entries, view)
+        report = DesignReport(baseline, entries, view)
     except ValueError as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1

@@ -60,7 +60,7 @@ def comparison(report: DesignReport) -> Markup:
         _row("Twist", [twist_words(design.twist) for design in designs], "words"),
         _row("Speed", [_speed(design, report.units) for design in designs]),
         _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
-        _row("Model", [_below(inflow_words(one), f"{one.preset}, {physics_words(one)}") for one in designs], "words"),
+        _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
         _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
         *(
             _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
@@ -116,11 +116,10 @@ def parts(report: DesignReport, entry: ReportEntry) -> Markup:
     """Power by parts with shares and the change against the reference."""
     power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)
-    rows = list[Row]()
-    for name, title in part_titles(entry.solution.design).items():
-        part = getattr(power, name)
-        share = tag("small", f"{number(100.0 * part / power.total)} %")
-        rows.append((_named(name, title), (units.watts(part, 1), " ", share)))
+    rows: list[Row] = [
+        (_named(name, title), _share(getattr(power, name), power.total, units))
+        for name, title in part_titles(entry.solution.design).items()
+    ]
     rows += [
         ("Main rotor", units.watts(power.main_rotor, 1)),
         (tag("b", "Total"), tag("b", units.watts(power.total, 1))),
@@ -213,6 +212,7 @@ def blade(design: Design) -> Markup:
 
 
 def _table(title: str, rows: Iterable[Row]) -> Markup:
+    """Two columns under a title."""
     body = [tag("tr", tag("td", name), tag("td", value)) for name, value in rows]
     return tag("div", tag("h3", title), tag("table", body))
 
@@ -222,6 +222,7 @@ def _row(name: Content, cells: Iterable[Content], kind: str = "") -> Markup:
 
 
 def _named(part: str, title: str) -> Markup:
+    """The name of a part of the power behind its colour."""
     return tag("i", style=f"background:{PARTS[part]}") + title
 
 
@@ -237,6 +238,10 @@ def _with_change(solution: Solution, reference: Solution, value: Callable[[Solut
         return units.watts(here, 1)
     per_cent = f" · {number(100.0 * (here / there - 1.0), 1, sign=True)} %" if abs(there) > 1.0 else ""
     return _below(units.watts(here, 1), f"{units.watts(here - there, 1, sign=True)}{per_cent}")
+
+
+def _share(part: float, total: float, units: Units) -> Content:
+    return units.watts(part, 1), " ", tag("small", f"{number(100.0 * part / total)} %")
 
 
 def _speed(design: Design, units: Units) -> Content:

@@ -11,9 +11,10 @@ from typing import Any, Unpack
 import msgspec
 import viser
 
-from explorer.hosting.messages import PRESSES, PageFacts, checked_press, read_facts
+from explorer.hosting.messages import PageFacts, checked_press, read_facts
 from explorer.hosting.viser_compat import run_in_page, widget_id
 from explorer.parts import Parts
+from explorer.parts.presses import PRESSES
 
 _log = logging.getLogger(__name__)
 
@@ -71,12 +72,12 @@ class Bridge:
         call(client, "RX.begin", widget_id(self._heard))
 
     def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
-        """Call `action` with the value that comes with each press of `name`, which `messages.PRESSES` lists.
+        """Call `action` with the value that comes with each press of `name`, which `presses.PRESSES` lists.
 
         ValueError for a name that is taken, or not listed.
         """
         if name in self._actions or name not in PRESSES:
-            raise ValueError(f"the frame's {name!r} has an action already, or no row in messages.PRESSES")
+            raise ValueError(f"the frame's {name!r} has an action already, or no row in presses.PRESSES")
         self._actions[name] = action
         if at_once:
             self._at_once.add(name)

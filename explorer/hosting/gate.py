@@ -37,12 +37,12 @@ def few_pools() -> None:
         ctypes.CDLL(None).mallopt(_M_ARENA_MAX, 2)
 
 
-def give_back_soon(pause: float = _PAUSE) -> None:
-    """Call `give_back` after `pause` [s], once for all calls until then."""
+def give_back_soon() -> None:
+    """Call `give_back` after a pause, once for all calls until then."""
     global _due
     with _lock:
         if _due is None:
-            _due = threading.Timer(pause, give_back)
+            _due = threading.Timer(_PAUSE, give_back)
             _due.name, _due.daemon = "give-back", True
             _due.start()
 

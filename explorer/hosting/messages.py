@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, get_args, get_type_hints
 import msgspec
 from msgspec import Meta, Struct
 
+from explorer.parts.presses import PRESSES
 from rotor.user_input import brief
 
 LONGEST_HEAD = 2**16
@@ -166,101 +167,6 @@ def _words(kind: Any) -> list[str]:
 
 def _shown(value: object) -> str:
     return brief(repr(value)[:200])
-
-
-_Label = Annotated[str, Meta(max_length=100)]
-_Index = Annotated[int, Meta(ge=0, lt=10**6)]
-_Radius = Annotated[float, Meta(ge=0.0, le=1.0)]
-_Azimuth = Annotated[float, Meta(ge=-3600.0, le=3600.0)]
-_Amplitude = Annotated[float, Meta(ge=0.0, le=90.0)]
-_Share = Annotated[float, Meta(ge=-10.0, le=10.0)]
-_Pull = _Share | None
-_Hand = Literal["start", "end"]
-_Switch = Literal["on", "off"]
-
-
-class _Fields(Struct, array_like=True, forbid_unknown_fields=True):
-    """A value with several fields, which comes as an array of them."""
-
-
-class RidePress(_Fields):
-    r: _Radius
-    psi: _Azimuth
-    """[°]"""
-
-
-class SupposePress(_Fields):
-    tip: _Amplitude
-    """Change of twist at the tip [°]."""
-    mass: Annotated[float, Meta(ge=0.001, le=1e4)]
-    """[kg] of all blades."""
-
-
-class MapPress(_Fields):
-    x: _Radius
-    y: _Radius
-    """Shares of the map's edges, from the lower left."""
-
-
-class CoveredPress(_Fields):
-    above: _Share
-    below: _Share
-    """Shares of the canvas that cards cover."""
-
-
-class IdlePress(_Fields):
-    serial: _Index
-    wholly: bool
-    """Whether nothing more may be computed for the page, searches apart."""
-
-
-class KnotMove(_Fields):
-    r: Annotated[float, Meta(ge=-2.0, le=2.0)] | None
-    """None: it stays where it is along the blade."""
-    theta: Annotated[float, Meta(ge=-360.0, le=360.0)]
-    """Twist less that at 0.75 R [°]."""
-
-
-class KnotPress(_Fields):
-    name: _Label
-    change: Literal["start", "end", "undo"] | KnotMove
-
-
-class WavePress(_Fields):
-    per_rev: _Index
-    amplitude: _Amplitude
-    phase: _Azimuth
-    """Both [°]."""
-
-
-_ALONE = (
-    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard"),
-    *("halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
-)
-"""Presses whose names say it all: what comes with them is not read."""
-PRESSES: dict[str, Any] = {
-    **dict.fromkeys(_ALONE),
-    **dict.fromkeys(("along", "hold"), bool),
-    **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
-    **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
-    **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
-    **dict.fromkeys(("difference", "more"), _Switch),
-    "ride": Literal["off"] | RidePress | None,
-    "azimuth": _Azimuth,
-    "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
-    "suppose": _Switch | SupposePress,
-    "map_at": MapPress,
-    "pull": _Pull,
-    "wiped": Annotated[float, Meta(ge=-1.0, le=2.0)],
-    "covered": CoveredPress,
-    "view": Literal["actuator", "3d", "disk", "blade", "top", "side"],
-    "colours": Literal["Rescale", "Default"],
-    "lecture": Literal["back", "next", "end"],
-    "idle": IdlePress,
-    "knot": KnotPress,
-    "dial": _Hand | Annotated[list[WavePress], Meta(min_length=1, max_length=9)],
-}
-"""Every press of the page's scripts, and what its value must be."""
 
 
 class Press(Struct, array_like=True, forbid_unknown_fields=True):

@@ -106,7 +106,6 @@ def _add_plain_html(gui: viser.GuiApi, content: str, **options: Any) -> viser.Gu
 
 setattr(viser.GuiApi, "add_html", _add_plain_html)  # noqa: B010 - as above
 
-
 websockets.http11.MAX_LINE_LENGTH = LONGEST_HEAD
 
 

@@ -270,7 +270,6 @@ LAWS: dict[str, Law] = {
 NOT_ALWAYS = ("given", "optimised")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
-
 TWIST_SHOWN = 1.0, 6.0
 """Least and most times its twist that a blade is drawn with."""
 
@@ -364,7 +363,8 @@ def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
             name, angles, breaks = "ideal", (), ()
         case _:
             return None
-    values = dict(zip(LAWS[name].inputs, (*map(_degrees, angles), *breaks), strict=True))
+    degrees = [round(math.degrees(angle), 4) for angle in angles]
+    values = dict(zip(LAWS[name].inputs, (*degrees, *breaks), strict=True))
     return replace(inputs, law=name, **values)
 
 
@@ -388,7 +388,3 @@ def baseline_of(design: Design) -> Design:
 def baseline_title(design: Design) -> str:
     """What the change of power is measured against, in the user's words."""
     return design.aircraft.twist_title(design.preset)
-
-
-def _degrees(angle: float) -> float:
-    return round(math.degrees(angle), 4)

@@ -90,6 +90,8 @@ class Pinboard:
         self.pinned: Pinned | None = None
         self.answer: Solution | None = None
         """A's, as last compared; it may not have converged."""
+        self.along = True
+        """Whether A flies in the present condition."""
         self._asked: deque[Order] = deque()
         self._put: deque[Inputs | None] = deque()
         self._by, self._known = by, BaselineCache(by=by)
@@ -102,7 +104,7 @@ class Pinboard:
         """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
 
-    def act(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
+    def act(self, inputs: Inputs, solution: Solution | None) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
 
         Requests after a button that moves the sliders wait for the update in which they have moved.
@@ -113,7 +115,7 @@ class Pinboard:
             answer = None if given is None else self._by(given.design(), None)
             self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
         while self._asked and (outcome is None or outcome.inputs is None):
-            outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
+            outcome = act(self._asked.popleft(), self.pinned, inputs, solution, self.along)
             self.pin(outcome.pinned)
         return outcome
 
@@ -125,13 +127,13 @@ class Pinboard:
             design, solution = (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
             self._known = BaselineCache(design, solution, self._by)
 
-    def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
+    def solve(self, present: Design, hurried: bool = False) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.
 
         A of another rotor keeps its own solution, because its weight differs. A trim that fails takes half a second, so
         it is not repeated when `hurried`: a newer update waits.
         """
-        along = along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
+        along = self.along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
         if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
             return self.answer
         self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution

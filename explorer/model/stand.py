@@ -26,7 +26,6 @@ LOAD_TITLES = {name: row.title for name, row in STAND.items() if name in LOAD_KE
 _ROUND = 9
 """Decimals of angles that were radians."""
 
-
 _FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
 """Field of `StandInputs` by key of a record, but for what is given and flapping."""
 _GIVEN_WITH: dict[Flapping, tuple[str, ...]] = {
@@ -194,7 +193,7 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         names = [name for name in measured.given if name != "tip_mach"]
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):
-            words = ", ".join(f"{_SHORT[name]} {point[name]:.4g}" for name in several)
+            words = ", ".join(f"{SHORT[name]} {point[name]:.4g}" for name in several)
             title = _TITLES[measured.name]
             conditions.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
     if rotor == inflow.ROTOR:
@@ -249,7 +248,7 @@ def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
     return condition.advance_ratio, condition.stand
 
 
-_SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
+SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
 _TITLES = {
     "xv15-hover": "Hover (OARF)",
     "xv15-forward-15deg": "Tunnel, 15° forward",

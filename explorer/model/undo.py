@@ -126,25 +126,19 @@ class PowerTracker:
     def _clear(self) -> None:
         self._inputs: Inputs | None = None
         self._power: float | None = None
-        self._reference: float | None = None
+        self.reference: float | None = None
+        """Total power before the grab [W]; None when nothing has been moved yet."""
         self._moving: frozenset[str] = frozenset()
         self._held = False
 
     @property
-    def reference(self) -> float | None:
-        """Total power before the grab [W]; None when nothing has been moved yet."""
-        return self._reference
-
-    @property
     def change(self) -> float | None:
         """Total power now less that before the grab [W]; None when nothing has been moved yet."""
-        if self._reference is None or self._power is None:
-            return None
-        return self._power - self._reference
+        return None if self.reference is None or self._power is None else self._power - self.reference
 
     def grab(self) -> None:
         """A pointer went down: what follows is one grab until `release`, however long it rests."""
-        self._reference, self._moving, self._held, self._by_hand = self._power, frozenset(), True, True
+        self.reference, self._moving, self._held, self._by_hand = self._power, frozenset(), True, True
 
     def release(self) -> None:
         """The pointer went up; the change stays until the next grab."""
@@ -160,14 +154,14 @@ class PowerTracker:
         if self._inputs is None:
             self._inputs, self._power = inputs, power
             if self._held:  # Grabbed before the new design had a power: it counts from the first one known.
-                self._reference = power
+                self.reference = power
             return self.change
         if not self._by_hand:
             self._inputs, self._power = inputs, self._power if power is None else power
             return None
         moved = differing(self._inputs, inputs)
         if moved and not self._held and (pause >= PAUSE or not moved <= self._moving):
-            self._reference, self._moving = self._power, moved
+            self.reference, self._moving = self._power, moved
         elif moved:
             self._moving |= moved
         self._inputs = inputs

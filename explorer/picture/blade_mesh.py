@@ -24,10 +24,10 @@ Faces = NDArray[np.uint32]
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Vertices (n, 3) and faces (m, 3), counter-clockwise seen from outside."""
-
     vertices: Array
+    """Shape (n, 3)."""
     faces: Faces
+    """Shape (m, 3), counter-clockwise seen from outside."""
 
     def scaled(self, factor: float) -> "Mesh":
         """This shape, `factor` times as large about the origin."""
@@ -61,9 +61,7 @@ def loft(rings: ArrayLike) -> Mesh:
         )
     ).astype(np.uint32)
     vertices = np.concatenate((rings.reshape(-1, 3), rings[[0, -1]].mean(axis=1)))
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    volume = float(np.einsum("ij,ij->", a, np.cross(b, c)))  # Negative where the faces look inward.
-    return Mesh(vertices, faces if volume > 0.0 else faces[:, ::-1])
+    return Mesh(vertices, faces if _volume(vertices, faces) > 0.0 else faces[:, ::-1])
 
 
 def sides(rings: int, points: int) -> NDArray[np.intp]:
@@ -72,6 +70,12 @@ def sides(rings: int, points: int) -> NDArray[np.intp]:
     a = (start + np.arange(points)).ravel()
     b = (start + (np.arange(points) + 1) % points).ravel()
     return np.concatenate((np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1)))
+
+
+def _volume(vertices: Array, faces: Faces) -> float:
+    """Volume of a closed surface [m³]; negative when its faces look inward."""
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
 
 def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
@@ -85,9 +89,10 @@ def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
 def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None, segments: int = 14) -> Mesh:
     """A round bar between two points, conical where `end_radius` is given."""
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    along = (b - a) / np.linalg.norm(b - a)
     across = np.cross(b - a, np.eye(3)[int(np.argmin(np.abs(b - a)))])
     across /= np.linalg.norm(across)
-    up = np.cross((b - a) / np.linalg.norm(b - a), across)
+    up = np.cross(along, across)
     angle = 2.0 * math.pi * np.arange(segments)[:, None] / segments
     ring = np.cos(angle) * across + np.sin(angle) * up
     return loft([a + radius * ring, b + (radius if end_radius is None else end_radius) * ring])

@@ -37,7 +37,6 @@ _ELEVATION = {"disk": math.radians(89.9), "top": math.radians(89.9), "side": mat
 _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
 
-
 _STAND = math.radians(34.0), math.radians(24.0)
 """Where the camera of "3d" stands, which is not fitted but composed: azimuth from behind the tail, and elevation."""
 _STAND_LOOKS_AT, _STAND_DISTANCE = (0.9, 0.3, -2.35), 33.5

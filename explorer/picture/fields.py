@@ -134,9 +134,7 @@ def _drag(drawn: Drawn, grid: PolarGrid) -> Array:
 
 def _elastic_deg(drawn: Drawn, grid: PolarGrid) -> Array:
     elastic = drawn.disk.elastic_twist
-    if elastic is None:
-        return np.zeros(grid.shape)
-    return np.degrees(grid.refine(elastic))
+    return np.zeros(grid.shape) if elastic is None else np.degrees(grid.refine(elastic))
 
 
 def _unsteady(name: str) -> Callable[[Drawn, PolarGrid], Array]:

@@ -113,9 +113,7 @@ def lifted_picture(
         return jig if flown is None else jig + np.interp(r, flown.r, flown.still)
 
     def moved(r: Array) -> Array:
-        if flown is not None:
-            return np.interp(r, flown.r, flown.moved)
-        return inputs.change(installed, r)
+        return inputs.change(installed, r) if flown is None else np.interp(r, flown.r, flown.moved)
 
     def twist(r: Array) -> Array:
         return still(r) + TIMES * moved(r)

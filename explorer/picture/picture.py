@@ -67,11 +67,6 @@ def rotor_pose(controls: TrimState) -> Pose:
     return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
 
 
-def airframe_pose(controls: TrimState) -> Pose:
-    """The airframe in level flight: nose down by what the shaft tilt is more than its lean in the airframe."""
-    return Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3))
-
-
 def pitch_series(controls: TrimState, design: Design | None = None) -> list[float]:
     """Root pitch [rad] in harmonics 1, cos ψ, sin ψ, cos 2ψ, …: collective, cyclic and n/rev of the design."""
     series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
@@ -284,7 +279,8 @@ def make_picture(
     shape = blade_shape(rotor)
     return Picture(
         rotor=rotor_pose(controls),
-        airframe=airframe_pose(controls),
+        # In level flight: nose down by what the shaft tilt is more than its lean in the airframe.
+        airframe=Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3)),
         disk=tip_path_pose(controls, disk_drop(rotor)),
         blades=turned_blades(solution, view, pixels != disk_image.MOVING, bent),
         blade_vertices=flown_vertices(solution, view, math.radians(view.azimuth_deg), bent),
@@ -294,17 +290,12 @@ def make_picture(
     )
 
 
-def marks_of(view: ViewState) -> Marks:
-    """The regions a view marks."""
-    return Marks(view.stall, view.reverse_flow, view.drag_divergence)
-
-
 def page_disk_png(
     solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
-    ink = scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
+    marks, ink = Marks(view.stall, view.reverse_flow, view.drag_divergence), scene_theme(view.dark).ink
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks, ink=ink)
 
 
 def disk_png(

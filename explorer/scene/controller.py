@@ -10,7 +10,7 @@ moves blades and tip vortices by the formula of `explorer.picture.wake`. It lean
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import viser
@@ -29,6 +29,8 @@ from explorer.scene.scene import COMPARED, ROTOR, Scene
 from rotor import Rotor, Solution
 
 Range = tuple[float, float]
+_WITHIN = False, False
+"""No values beyond the colour range, as far as is known."""
 TURN_RATES = {"slow": math.radians(18.0), "normal": math.radians(54.0), "fast": math.radians(162.0)}
 """[rad/s] at which a played rotor turns; at the normal one flapping and pitching of one blade can be followed."""
 SURFACES = {
@@ -106,14 +108,8 @@ class PageScene:
         call(self._client, "rotorScene.move", motion_of(solution))
 
 
-class RangeDisplay(Protocol):
-    """The widgets that show the colour range of the disk."""
-
-    def show_range(
-        self, field: Field, colour_range: Range, faded: bool, beyond: tuple[bool, bool] = (False, False)
-    ) -> None:
-        """Show the colour bar of a field; `faded`: the disk no longer holds."""
-        ...
+ShowRange = Callable[[Field, Range, bool, tuple[bool, bool]], None]
+"""Shows the colour bar of a field: whether the disk no longer holds; whether values lie below the range, and above."""
 
 
 @dataclass(frozen=True)
@@ -138,11 +134,11 @@ class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
     def __init__(
-        self, client: viser.ClientHandle, camera: FittedCamera, rotor: Rotor, display: RangeDisplay, dark: bool = False
+        self, client: viser.ClientHandle, camera: FittedCamera, rotor: Rotor, show_range: ShowRange, dark: bool = False
     ) -> None:
         """`camera`: follows the shaft tilt."""
         self._client = client
-        self._display = display
+        self._show_range = show_range
         theme = scene_theme(dark)
         self.scene = Scene(client.scene, rotor, theme)
         self._ghost = Ghost(client.scene, rotor, theme)
@@ -208,7 +204,7 @@ class SceneController:
             self._ghost.show(ghost, solution, view, at_rest=False)
             self._page.move(solution)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
-        self._display.show_range(field, colour_range, faded=False)
+        self._show_range(field, colour_range, False, _WITHIN)
         self.camera.follow(solution.controls.shaft_tilt)
         self._drawn, self._fine = wanted, False
 
@@ -226,7 +222,7 @@ class SceneController:
         if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
             fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
-        self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
+        self._show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
         picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
         compared = drawn.pinned if view.wipe and drawn.pinned is not None and drawn.pinned.converged else None
         other = None if compared is None else make_picture(compared, view, drawn.colour_range, field, AT_REST)
@@ -256,7 +252,7 @@ class SceneController:
         png = disk_png(good, field, colour_range, faded=True, size=MOVING)
         with self._client.atomic():
             self.scene.rotor.show_disk(png, MOVING)
-        self._display.show_range(field, colour_range, faded=True)
+        self._show_range(field, colour_range, True, _WITHIN)
 
     def play(self, playing: bool) -> None:
         """Whether the azimuth walks on by itself: the page then turns the rotor smoothly between its steps."""
@@ -281,15 +277,10 @@ class SceneController:
         self.camera.aim(view)
 
     @property
-    def covered(self) -> tuple[float, float]:
-        """Parts of the canvas behind cards, above and below."""
-        return self.camera.covered
-
-    @property
     def scale(self) -> tuple[Field, Range] | None:
         """The quantity on the disk of the scene and the ends of its colours; None where no such disk is in sight."""
         drawn = self._drawn
-        if drawn is None or not self.scene.shows_disk:
+        if drawn is None or self.scene.behind:
             return None
         return _field(drawn.view, drawn.pinned), drawn.colour_range
 

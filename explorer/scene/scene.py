@@ -115,7 +115,9 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._behind, self._close, self._fitted = False, False, rotor
+        self._close, self._fitted = False, rotor
+        self.behind = False
+        """Whether the aircraft flies far behind something else: then the coloured disk is not in sight."""
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -164,13 +166,8 @@ class Scene:
 
     def set_behind(self, behind: bool) -> None:
         """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
-        self._behind = behind
+        self.behind = behind
         self._set_visible()
-
-    @property
-    def shows_disk(self) -> bool:
-        """Whether the coloured disk is in sight."""
-        return not self._behind
 
     def set_alone(self, alone: bool) -> None:
         """Whether the rotor is tested alone, without an airframe."""
@@ -220,10 +217,10 @@ class Scene:
         viser_compat.set_png(self._shadow, disk_image.tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
 
     def _set_visible(self) -> None:
-        self.rotor.words.visible = not (self._close or self._behind)
-        self.rotor.image.visible = not self._behind
+        self.rotor.words.visible = not (self._close or self.behind)
+        self.rotor.image.visible = not self.behind
         self._airframe.visible = not (self._close or self._alone)
-        self._shadow.visible = self._airframe.visible and not self._behind
+        self._shadow.visible = self._airframe.visible and not self.behind
         if self._compared is not None:
             self._compared.frame.visible = self._comparing
             self._compared.words.visible = not self._close

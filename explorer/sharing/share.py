@@ -295,7 +295,8 @@ class Address:
     def __init__(self, query: str | None, write: Callable[[str], None], pause: float = _PAUSE) -> None:
         """`query`: that of the opened page; None, not known, is never written over. `write` puts another into the
         address, at least `pause` [s] apart."""
-        self._query, self._pause = query or "", pause
+        self.query, self._pause = query or "", pause
+        """As it is or is about to be written."""
         self._write = write if query is not None else lambda query: None
         self._lock = threading.Lock()
         self._written = -math.inf
@@ -304,7 +305,7 @@ class Address:
         """Names whose value could not be read, with what the page opened with instead, once that is known."""
 
     def __getitem__(self, name: str) -> str | None:
-        return parameter(self._query, name)
+        return parameter(self.query, name)
 
     def read(
         self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
@@ -333,9 +334,9 @@ class Address:
                 if opened == [value]:
                     return
                 del self._unread[name]
-            if value == parameter(self._query, name):
+            if value == parameter(self.query, name):
                 return
-            self._query = with_parameter(self._query, name, value)
+            self.query = with_parameter(self.query, name, value)
             wait = self._pause - (time.monotonic() - self._written)
             if self._waiting is not None:
                 return  # The waiting write will take the newest value.
@@ -345,11 +346,6 @@ class Address:
                 self._waiting.start()
                 return
         self._put()
-
-    @property
-    def query(self) -> str:
-        """The query as it is or is about to be written."""
-        return self._query
 
     def write_over(self) -> None:
         """What could not be read need not stay any longer."""
@@ -364,4 +360,4 @@ class Address:
     def _put(self) -> None:
         with self._lock:
             self._waiting, self._written = None, time.monotonic()
-            self._write(self._query)
+            self._write(self.query)

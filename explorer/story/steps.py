@@ -1,13 +1,15 @@
 """The lecture: steps that each set the page, ask for a guess, and answer it with computed numbers.
 
-What is said at a step is in its file in the folder `text`; every number in it is a name in braces, which `facts` finds.
+`steps.toml` says what each sets, moves and shows. What is said at it is in its file in the folder `text`; every number
+in it is a name in braces, which `facts` finds.
 """
 
 import re
-from collections.abc import Callable
+import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from explorer.model.inputs import LAWS, Inputs, ViewState
 from explorer.model.undo import differing
@@ -76,14 +78,29 @@ class Control:
     """What is moved at a step, through designs that can be computed beforehand."""
 
     label: str
+    moves: str
+    """Field of `Inputs`; empty where the designs are found otherwise."""
     values: tuple[float, ...]
     """A switch has two."""
-    apply: Callable[[Inputs, float], Inputs]
-    words: Callable[[float], str]
-    """What stands beside it."""
     start: int
     """Place in `values` at which the step begins."""
     kind: Literal["slider", "switch"] = "slider"
+
+    def apply(self, inputs: Inputs, value: float) -> Inputs:
+        """The inputs with the control at a value."""
+        if not self.moves:
+            return inputs
+        moved: dict[str, Any] = {self.moves: value > 0.5 if self.kind == "switch" else value}
+        return replace(inputs, **moved)
+
+    def words(self, value: float) -> str:
+        """What stands beside it."""
+        if self.kind == "switch":
+            return "as it is" if value > 0.5 else "none"
+        if not self.moves:
+            ends = {self.values[0]: "least power", self.values[-1]: "least vibration"}
+            return ends.get(value, "between")
+        return speed_words(value) if self.moves == "advance_ratio" else angle_words(value)
 
 
 @dataclass(frozen=True)
@@ -96,7 +113,7 @@ class LectureStep:
     inputs: Inputs
     control: Control
     shot: Shot
-    figures: tuple[tuple[str, str], tuple[str, str], tuple[str, str]]
+    figures: tuple[tuple[str, str], ...]
     """Three large numbers: name of the quantity, caption."""
     bounds: tuple[float, ...]
     """Between the answers of the guess; there is one more answer than bounds."""
@@ -176,101 +193,41 @@ def speed_words(advance_ratio: float) -> str:
     return f"µ\u00a0{advance_ratio:.3f}".rstrip("0").ljust(6, "0") if advance_ratio else "hover"
 
 
-def _steps(low: float, high: float, step: float) -> tuple[float, ...]:
-    count = round((high - low) / step) + 1
-    return tuple(round(low + k * step, 4) for k in range(count))
+def _control(label: str, start: float, moves: str = "", ends: Sequence[float] = (), **kind: Any) -> Control:
+    """`ends`: both, and the step between values; without them the speeds."""
+    values = SPEEDS
+    if ends:
+        first, last, by = ends
+        values = tuple(round(first + k * by, 4) for k in range(round((last - first) / by) + 1))
+    return Control(label, moves, values, values.index(start), **kind)
 
 
-def _fly(values: tuple[float, ...], start: float, label: str = "Advance ratio") -> Control:
-    return Control(
-        label, values, lambda inputs, mu: replace(inputs, advance_ratio=mu), speed_words, values.index(start)
+def _step(
+    name: str,
+    inputs: dict[str, Any],
+    control: dict[str, Any],
+    shot: tuple[float, float, str],
+    figures: dict[str, str],
+    bounds: Sequence[float],
+    against: dict[str, Any] | None = None,
+    **shown: Any,
+) -> LectureStep:
+    """A step as its table in `steps.toml` has it."""
+    return LectureStep(
+        name,
+        step_text(name),
+        Inputs(**inputs),
+        _control(**control),
+        Shot(*shot[:2], *map(tuple, _FILE["boxes"][shot[2]])),
+        tuple(figures.items()),
+        tuple(bounds),
+        None if against is None else Inputs(**against),
+        **shown,
     )
 
 
-def _twist(start: float) -> Control:
-    values = _steps(-24.0, 0.0, 2.0)[::-1]
-    return Control("Twist", values, lambda inputs, rate: replace(inputs, linear=rate), angle_words, values.index(start))
-
-
-SPEEDS = (0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
-"""Advance ratios of the steps whose twist follows the speed: those of `rotor.reproduce.ladder`."""
-FRONT = 5
+_FILE = tomllib.loads(Path(__file__).with_name("steps.toml").read_text(encoding="utf-8"))
+SPEEDS: tuple[float, ...] = tuple(_FILE["speeds"])
+STEPS = tuple(_step(name, **row) for name, row in _FILE["steps"].items())
+FRONT = next(len(step.control.values) for step in STEPS if step.name == "power_or_vibration")
 """Points of the front of power and vibration, after the blade without active twist."""
-_LINEAR, _UH60A = Inputs(law="linear"), Inputs(law="builtin")
-_POWERS = (("total_a", "total power, A"), ("total_b", "total power, B"), ("total_percent", "change from A to B"))
-_CHANGES = (
-    ("induced_change", "induced power, B − A"),
-    ("profile_change", "profile power, B − A"),
-    ("total_change", "total power, B − A"),
-)
-_CRAFT = ((0.16, 0.0, -0.16), (1.0, 0.72, 0.2))
-_LONG = ((0.24, 0.0, -0.1), (1.3, 0.4, 0.3))
-_DISK = ((0.0, 0.0, -0.05), (1.12, 1.12, 0.06))
-_BLADE = ((0.3, 0.55, -0.02), (0.3, 0.42, 0.06))
-"""Centre and half size of what a camera holds, in radii."""
-
-STEPS: tuple[LectureStep, ...] = (
-    LectureStep(
-        "trim", step_text("trim"), _UH60A, _fly(_steps(0.0, 0.35, 0.025), 0.2), Shot(48.0, 20.0, *_CRAFT),
-        (("total_b", "total power"), ("induced_share", "induced share"), ("parasite_share", "parasite share")),
-        bounds=(0.5, 1.0),
-    ),
-    LectureStep(
-        "hover_twist", step_text("hover_twist"), replace(_LINEAR, advance_ratio=0.0), _twist(-16.0),
-        Shot(30.0, 33.0, *_DISK),
-        (("induced_a", "induced power, A"), ("induced_b", "induced power, B"), ("induced_percent", "from A to B")),
-        bounds=(0.02, 0.12), against=replace(_LINEAR, linear=0.0, advance_ratio=0.0), field="Total inflow λ",
-    ),
-    LectureStep(
-        "linear_inflow", step_text("linear_inflow"), replace(_LINEAR, inflow="pitt-peters"), _twist(-12.0),
-        Shot(-24.0, 36.0, *_DISK), _CHANGES, bounds=(0.1,),
-        against=replace(_LINEAR, linear=0.0, inflow="pitt-peters"),
-    ),
-    LectureStep(
-        "responding_wake", step_text("responding_wake"), _LINEAR, _twist(-12.0), Shot(-24.0, 36.0, *_DISK), _CHANGES,
-        bounds=(0.5,), against=replace(_LINEAR, linear=0.0),
-    ),
-    LectureStep(
-        "fast_twist", step_text("fast_twist"), replace(_LINEAR, linear=-11.6, advance_ratio=0.35),
-        Control(
-            "Fuselage drag", (1.0, 0.0), lambda inputs, on: replace(inputs, fuselage=on > 0.5),
-            lambda on: "as it is" if on > 0.5 else "none", 0, "switch",
-        ),
-        Shot(70.0, 24.0, *_LONG), (*_POWERS[1:], ("tilt", "shaft tilt, forward")),
-        bounds=(-0.005, 0.005), against=replace(_LINEAR, linear=-4.0, advance_ratio=0.35), field="Thrust dT/dr",
-    ),
-    LectureStep(
-        "reverse_flow", step_text("reverse_flow"), _UH60A, _fly(_steps(0.17, 0.41, 0.02), 0.37),
-        Shot(0.0, 74.0, *_DISK),
-        (("reverse_area", "of the disk in reverse flow"), ("profile_change", "profile power it costs"),
-         ("total_change", "total power it costs")),
-        bounds=(0.0, 0.01), against=replace(_UH60A, reverse_flow=False), field="Power dP/dr",
-    ),
-    LectureStep(
-        "two_segments", step_text("two_segments"),
-        replace(Inputs(), law="two", two_inner=-4.0, two_outer=-15.6, two_division=0.7, advance_ratio=0.3),
-        Control("Inboard twist", _steps(-16.0, 4.0, 2.0), lambda inputs, rate: replace(inputs, two_inner=rate),
-                angle_words, 6),
-        Shot(20.0, 20.0, *_BLADE), _POWERS, bounds=(0.002, 0.02),
-        against=replace(_LINEAR, linear=-10.6, advance_ratio=0.3), field="Thrust dT/dr",
-    ),
-    LectureStep(
-        "fixed_or_moving", step_text("fixed_or_moving"), _LINEAR, _fly(SPEEDS, 0.0, "Speed"),
-        Shot(24.0, 18.0, *_BLADE), _POWERS, bounds=(0.01, 0.05), against=replace(_LINEAR, linear=-12.0),
-        field="Total inflow λ",
-    ),
-    LectureStep(
-        "power_or_vibration", step_text("power_or_vibration"), replace(_UH60A, advance_ratio=0.3, bending=True),
-        Control("Compromise", tuple(map(float, range(FRONT))), lambda inputs, _: inputs,
-                lambda at: "least power" if at == 0.0 else "least vibration" if at == FRONT - 1 else "between", 0),
-        Shot(64.0, 20.0, *_LONG),
-        (("total_percent", "power, from A to B"), ("index_b", "vibration index"), ("index_change", "from A to B")),
-        bounds=(0.0,), against=replace(_UH60A, advance_ratio=0.3, bending=True), field="Angle of attack",
-    ),
-    LectureStep(
-        "piezoelectric_ply", step_text("piezoelectric_ply"), _UH60A, _fly(SPEEDS, 0.3, "Speed"),
-        Shot(20.0, 20.0, *_BLADE),
-        (("required", "twist wanted"), ("attainable", "twist in reach"), ("net", "power, on balance")),
-        bounds=(0.0,), mode="actuate",
-    ),
-)  # fmt: skip

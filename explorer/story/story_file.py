@@ -30,7 +30,7 @@ from explorer.scene.scene import COMPARED, ROTOR
 from explorer.scene.still_scene import embedded_viewer, point_record, shape_record, still_page
 from explorer.story.facts import Facts, StepChart, facts_of
 from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
-from rotor import Rotor, Solution, solve
+from rotor import Solution, solve
 from rotor.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
 from rotor.markup import end_of, with_title
 from rotor.terminal import called, help_formatter, run_command
@@ -192,30 +192,23 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         values = {**facts.words(units), **quantities(before, reference, units)}
         stops.append({"b": b, "a": a, "figures": [(caption, values[name]) for name, caption in step.figures]})
     rotor = points.solutions[stops[0]["b"]].design.rotor
+    cameras = [
+        (aspect, between_cards(step.shot.fit(rotor.radius, aspect / _COVER.free), _COVER)) for aspect in _ASPECTS
+    ]
     return {
         **vars(step_record(step, facts, units)),
         **vars(answer_record(step, facts, units)),
         "start": step.control.start,
         "stops": stops,
-        "scale": _scale(field, rotor),
-        "cameras": _cameras(step, rotor.radius),
+        "scale": {
+            "title": field.title,
+            "unit": field.unit,
+            "ticks": bar_ticks(*usual_range(field, rotor)),
+            "colours": [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()],
+        },
+        # By width over height of the canvas: position and the point looked at [m].
+        "cameras": [(aspect, at.position.round(3).tolist(), at.look_at.round(3).tolist()) for aspect, at in cameras],
     }
-
-
-def _scale(field: Field, rotor: Rotor) -> dict[str, Any]:
-    colours = [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()]
-    return {
-        "title": field.title,
-        "unit": field.unit,
-        "ticks": bar_ticks(*usual_range(field, rotor)),
-        "colours": colours,
-    }
-
-
-def _cameras(step: LectureStep, radius: float) -> list[tuple[float, list[float], list[float]]]:
-    """By width over height of the canvas: position and the point looked at [m]."""
-    fitted = [(aspect, between_cards(step.shot.fit(radius, aspect / _COVER.free), _COVER)) for aspect in _ASPECTS]
-    return [(aspect, camera.position.round(3).tolist(), camera.look_at.round(3).tolist()) for aspect, camera in fitted]
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from explorer.model.session_state import Analyses, Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import UNITS, Units
 from explorer.sharing.presentation import Presentations
-from explorer.tabs.controls import DesignControls, SessionCallbacks
+from explorer.tabs.controls import DesignControls
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
 from rotor.processes import Processes
@@ -61,23 +61,16 @@ class TabContext:
     analyses: Analyses
     pinboard: Pinboard
     pool: Processes
-    callbacks: SessionCallbacks
+    wake: Callable[[], None]
+    """Have the page follow."""
+    state: Callable[[], SessionState | None]
+    """The last converged state; None before the first."""
     held: bool = False
     """Whether a presenter moves the page."""
 
     @property
     def gui(self) -> viser.GuiApi:
         return self.client.gui
-
-    @property
-    def wake(self) -> Callable[[], None]:
-        """Have the page follow."""
-        return self.callbacks.wake
-
-    @property
-    def state(self) -> Callable[[], SessionState | None]:
-        """The last converged state; None before the first."""
-        return self.callbacks.state
 
     def inputs(self) -> Inputs:
         return self.controls.inputs()

@@ -76,7 +76,8 @@ class DesignControls:
         self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
-                self._menu(name)
+                titles = INFLOW_MENUS.get(name, PRESET_TITLES)
+                form.menu(name, ROWS[name].title, titles, getattr(start, name))
                 if name == "inflow":
                     self._explanation = gui.add_html("")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
@@ -188,10 +189,6 @@ class DesignControls:
             form, below = slider(name, SI, self._start.aircraft), tag("div.rxp-worth", data_worth=name)
             value = float(getattr(self._start, name))
             self._form.slider(name, form, value, visible=name in seen, below=below)
-
-    def _menu(self, name: str) -> None:
-        titles = INFLOW_MENUS.get(name, PRESET_TITLES)
-        self._form.menu(name, ROWS[name].title, titles, getattr(self._start, name))
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name == "preset":

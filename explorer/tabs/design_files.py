@@ -89,31 +89,26 @@ class UploadedFiles:
         return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
 
 
-class RotorUpload:
-    """The files of one session, and what they lead to."""
+def add_rotor_upload(context: TabContext) -> None:
+    """The button for the files of a rotor of one's own, and what they lead to."""
+    files, kinds, said = UploadedFiles(), ",".join(SUFFIXES), hint("rotor_file")
+    button = context.gui.add_upload_button(
+        "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type=kinds, hint=said
+    )
 
-    def __init__(self, context: TabContext) -> None:
-        self._context, self._files = context, UploadedFiles()
-        button = context.gui.add_upload_button(
-            "Load rotor file …",
-            icon=viser.Icon.UPLOAD,
-            color="gray",
-            mime_type=",".join(SUFFIXES),
-            hint=hint("rotor_file"),
-        )
-        button.on_upload(self._uploaded)
-
-    def _uploaded(self, event: viser.GuiEvent[Any]) -> None:
+    def uploaded(event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
         try:
             with refusing(f"{shorten(file.name)!r}", "check its values, see docs/rotor_file.md"):
-                result = self._files.add(file.name, file.content)
+                result = files.add(file.name, file.content)
                 if result.aircraft is not None:
-                    self._context.set_inputs(with_rotor(self._context.inputs(), OWN, result.aircraft))
+                    context.set_inputs(with_rotor(context.inputs(), OWN, result.aircraft))
         except ValueError as error:
-            self._context.notify("Not loaded", str(error))
+            context.notify("Not loaded", str(error))
             return
-        self._context.notify("Rotor" if result.aircraft else "Kept", result.sentence)
+        context.notify("Rotor" if result.aircraft else "Kept", result.sentence)
+
+    button.on_upload(uploaded)
 
 
 MOST_BYTES = 1_000_000

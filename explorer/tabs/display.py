@@ -85,7 +85,7 @@ class Display:
         self._fitted = order == "Rescale"
 
     def show_range(
-        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool] = (False, False)
+        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
     ) -> None:
         """The colour bar of a field; `beyond`: whether values lie below its range, and above."""
         self._range, self._faded, self._beyond = (field, colour_range), faded, beyond

@@ -169,9 +169,7 @@ class Probe:
     @property
     def stall_margin(self) -> float | None:
         """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing."""
-        if self.u_t < 0.0:
-            return None
-        return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+        return None if self.u_t < 0.0 else min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
 
     @property
     def region(self) -> FlowRegion:
@@ -349,8 +347,10 @@ class Ride:
 def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
     """A section around the disk, with the lift curve at each Mach number."""
     around = [probe(solution, r, 2.0 * math.pi * k / AZIMUTHS) for k in range(AZIMUTHS)]
-    alpha = np.array([_from_the_edge_that_meets_the_flow(here) for here in around])
     ahead = np.array([here.u_t >= 0.0 for here in around])
+    # From the edge that meets the flow.
+    angle = [here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi) for here in around]
+    alpha = np.degrees(angle)
     cl = np.array([here.cl for here in around])
     reach = max(_LEAST_REACH, 1.15 * float(np.abs(alpha[ahead]).max(initial=0.0)))
     angles = np.linspace(-reach, reach, _ANGLES)
@@ -387,10 +387,6 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         curves=[_rounded(curve, 3) for curve in curves],
         chart=drawn_chart(chart),
     )
-
-
-def _from_the_edge_that_meets_the_flow(here: Probe) -> float:
-    return math.degrees(here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi))
 
 
 def _rounded(values: Any, digits: int = 2) -> list[float]:

@@ -10,7 +10,7 @@ import viser
 
 from explorer.charts.plots import PowerCurves
 from explorer.export.blade import blade_stl
-from explorer.export.contents import ReportEntry, report_of
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report import report_html
 from explorer.export.view_picture import view_png
@@ -58,7 +58,6 @@ def jig_file(state: SessionState) -> File:
 
 
 def _disk_table(state: SessionState) -> File:
-    """Every field over the disk as CSV."""
     return _file(state.solution.design, "csv", disk_csv(state.solution), "disk")
 
 
@@ -110,7 +109,6 @@ class ExportPanel(Tab):
         self._stale = True
 
     def _power_table(self, state: SessionState) -> File:
-        """Power over advance ratio as CSV."""
         design, reference = state.solution.design, state.reference.design
         self._curves.sweep(design, reference, lambda: False)
         return _file(
@@ -122,7 +120,7 @@ class ExportPanel(Tab):
         client, view = self._context.client, state.view
         height = round(_WIDTH / client.camera.aspect)
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
-        above, below = self._scene.covered
+        above, below = self._scene.camera.covered
         seen = pixels[round(above * height) : height - round(below * height)]
         png = view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark)
         return _file(state.solution.design, "png", png, "view")
@@ -141,7 +139,7 @@ class ExportPanel(Tab):
         entries = [ReportEntry("Now", solution)]
         entries += [ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)]
         field = FIELDS[view.field]
-        report = report_of(
+        report = DesignReport(
             reference,
             entries,
             state.view,

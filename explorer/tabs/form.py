@@ -246,7 +246,8 @@ class StandControls:
         conditions = [
             condition for condition in measured_conditions(inputs.rotor) if (condition.stand is None) == flown
         ]
-        now = next((condition for condition in conditions if _is_at(inputs, condition)), None)
+        here = (one for one in conditions if all(getattr(inputs, name) == at for name, at in one.inputs.items()))
+        now = next(here, None)
         tests = [_NONE, *dict.fromkeys(condition.test for condition in conditions)]
         self.form.show({_TEST: bool(conditions), _POINT: now is not None})
         self.form.offer(_TEST, {name: name for name in tests}, _NONE if now is None else now.test)
@@ -311,10 +312,6 @@ class StandControls:
     def set_measured(self, condition: MeasuredCondition) -> None:
         """Fly or test the rotor there, its blade unchanged."""
         self._set_inputs(replace(self._inputs(), **condition.inputs))
-
-
-def _is_at(inputs: Inputs, condition: MeasuredCondition) -> bool:
-    return all(getattr(inputs, name) == value for name, value in condition.inputs.items())
 
 
 def _seen(stand: StandInputs) -> tuple[str, ...]:

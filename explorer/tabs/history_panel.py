@@ -51,12 +51,6 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
     return tag("table.rx-kept-table", rows, data_explorer="kept")
 
 
-def _asked(text: str) -> tuple[str, int] | None:
-    """What a click on the rows asks for; None for a text that asks for nothing."""
-    verb, _, digits = text.strip().partition(" ")
-    return (verb, int(digits)) if verb in ("take", "drop") and digits.isdigit() else None
-
-
 def _spark(solution: Solution) -> Markup:
     """The twist along the blade, ±12° high."""
     width, height = _SPARK
@@ -185,11 +179,11 @@ class HistoryPanel(Tab):
             self._context.set_inputs(inputs)
 
     def _clicked(self, text: str) -> None:
-        asked = _asked(text)
         self._field.value = ""  # The same click again is a change again.
-        if asked is None:
+        verb, _, digits = text.strip().partition(" ")
+        if verb not in ("take", "drop") or not digits.isdigit():
             return
-        verb, which = asked
+        which = int(digits)
         with self._lock:
             kept = self._kept[which].inputs if which < len(self._kept) else None
             if kept is not None and verb == "drop":

@@ -5,8 +5,10 @@ key.
 """
 
 import threading
+import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import viser
@@ -16,15 +18,8 @@ from rotor.markup import Markup, tag
 
 Mode = Literal["explore", "optimise", "actuate"]
 MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
-DRAWERS = {
-    "open": "Open",
-    "share": "Share and export",
-    "details": "Power and trim",
-    "probe": "Blade element",
-    "trust": "How far to trust this",
-    "lecture": "Lecture",
-    "settings": "Settings",
-}
+_FILE = tomllib.loads(Path(__file__).with_name("keys.toml").read_text(encoding="utf-8"))
+DRAWERS: dict[str, str] = _FILE["drawers"]
 RAIL, DRAWER = 332, 348
 """Widths [px]."""
 _WIDER = 1.22
@@ -137,21 +132,8 @@ class Sections:
         self._row.content = tag("div.rxp-sections", buttons, role="group")
 
 
-SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 COARSE = 10
 """Steps that Shift and an arrow, or Page up and down, move a slider or the probe at once."""
-
-_SHOWN = {
-    "arrowup": "↑",
-    "arrowdown": "↓",
-    "arrowleft": "←",
-    "arrowright": "→",
-    "space": "Space",
-    "pageup": "Page up",
-    "pagedown": "Page down",
-    "shift": "Shift",
-    "cmd/ctrl": "Ctrl",
-}
 
 
 @dataclass(frozen=True)
@@ -161,7 +143,7 @@ class Key:
     key: str = ""
     """The key as the page names it; empty: in the palette only."""
     modifier: str = ""
-    """`SHIFT`, `CTRL`, `CTRL_SHIFT`, or empty."""
+    """As the page names what is held with it; empty: nothing."""
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -170,69 +152,15 @@ class Key:
             return ()
         # A question mark is typed with Shift, which it need not be told.
         held = () if self.key == "?" or not self.modifier else self.modifier.split("+")
-        return tuple(_SHOWN.get(part, part) for part in (*held, self.key))
+        return tuple(_FILE["printed"].get(part, part) for part in (*held, self.key))
 
 
-_DESIGN, _FLIGHT, _VIEW, _PROBE, _PAGE = "Design", "Flight", "View", "Blade and probe", "Page"
-KEYS: dict[str, Key] = {
-    "undo": Key(_DESIGN, "Undo", "Z", CTRL),
-    "redo": Key(_DESIGN, "Redo", "Z", CTRL_SHIFT),
-    "keep": Key(_DESIGN, "Keep this design (bookmark)", "M"),
-    "twist": Key(_DESIGN, "Twist the blade by hand", "G"),
-    "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
-    "pin": Key(_DESIGN, "Pin as A, or unpin", "P"),
-    "swap": Key(_DESIGN, "Swap A and B"),
-    "back": Key(_DESIGN, "Back to A"),
-    "reset": Key(_DESIGN, "Reset design", "R"),
-    "hover": Key(_FLIGHT, "Hover", "H"),
-    "mu_015": Key(_FLIGHT, "Advance ratio 0.15", "J"),
-    "mu_024": Key(_FLIGHT, "Advance ratio 0.24", "K"),
-    "mu_037": Key(_FLIGHT, "Advance ratio 0.37", "L"),
-    "view_3d": Key(_VIEW, "View: 3D", "1"),
-    "view_top": Key(_VIEW, "View: from above", "2"),
-    "view_blade": Key(_VIEW, "View: reference blade", "3"),
-    "view_side": Key(_VIEW, "View: advancing side", "4"),
-    "field_next": Key(_VIEW, "Next quantity on the disk", "F"),
-    "field_previous": Key(_VIEW, "Previous quantity on the disk", "F", SHIFT),
-    "rescale": Key(_VIEW, "Fit colour range to the data", "C"),
-    "rescale_default": Key(_VIEW, "Default colour range", "C", SHIFT),
-    "units": Key(_VIEW, "SI or aviation units", "U"),
-    "dark": Key(_VIEW, "Dark or light page", "N"),
-    "play": Key(_PROBE, "Play or pause the rotor", "space"),
-    "probe_out": Key(_PROBE, "Probe one step outboard", "arrowup"),
-    "probe_in": Key(_PROBE, "Probe one step inboard", "arrowdown"),
-    "probe_on": Key(_PROBE, "Probe one step forward in azimuth", "arrowright"),
-    "probe_back": Key(_PROBE, "Probe one step back in azimuth", "arrowleft"),
-    "probe_far_out": Key(_PROBE, "Probe ten steps outboard", "arrowup", SHIFT),
-    "probe_far_in": Key(_PROBE, "Probe ten steps inboard", "arrowdown", SHIFT),
-    "probe_far_on": Key(_PROBE, "Probe ten steps forward in azimuth", "arrowright", SHIFT),
-    "probe_far_back": Key(_PROBE, "Probe ten steps back in azimuth", "arrowleft", SHIFT),
-    "probe_hide": Key(_PROBE, "Show or hide the probe on the disk", "B"),
-    "lecture": Key(_PAGE, "Lecture mode", "T"),
-    "lecture_next": Key(_PAGE, "Next step of the lecture", "pagedown"),
-    "lecture_previous": Key(_PAGE, "Previous step of the lecture", "pageup"),
-    "share": Key(_PAGE, "Copy a link to this design", "Y"),
-    "export": Key(_PAGE, "Export", "X"),
-    "keys": Key(_PAGE, "Keys", "?", SHIFT),
-}
+KEYS = {name: Key(*row) for name, row in _FILE["commands"].items()}
 
 
 def leads(name: str) -> bool:
     """Whether a command is the presenter's while the page follows one: it moves the design, the disk or the lecture."""
-    return KEYS[name].group in (_DESIGN, _FLIGHT) or name.startswith(("field", "lecture"))
-
-
-_ALWAYS = (
-    ("Sliders", "One step", ("←", "→")),
-    ("Sliders", "Ten steps", ("Shift", "←", "→")),
-    ("Sliders", "Ten steps", ("Page up", "Page down")),
-    ("Sliders", "To either end", ("Home", "End")),
-    ("Camera", "Orbit, pan, zoom", ("mouse left", "right", "wheel")),
-    ("Camera", "Fly", ("W", "A", "S", "D", "Q", "E")),
-    (_PAGE, "Find a command", ("Ctrl", "K")),
-    (_PAGE, "Leave a field, so that keys work", ("Esc",)),
-)
-"""What works without being a command."""
+    return KEYS[name].group in ("Design", "Flight") or name.startswith(("field", "lecture"))
 
 
 def keys_help(bound: Iterable[str]) -> Markup:
@@ -242,13 +170,13 @@ def keys_help(bound: Iterable[str]) -> Markup:
     for name, key in KEYS.items():
         if name in known and key.key:
             groups.setdefault(key.group, []).append(_row(key.title, key.parts))
-    for group, title, parts in _ALWAYS:
+    for group, title, *parts in _FILE["always"]:
         groups.setdefault(group, []).append(_row(title, parts))
     lists = [tag("section", tag("h4", group), rows) for group, rows in groups.items()]
     return tag("div.rx.rx-keys", lists, data_explorer="keys")
 
 
-def _row(title: str, parts: tuple[str, ...]) -> Markup:
+def _row(title: str, parts: Iterable[str]) -> Markup:
     return tag("div.rx-line", tag("span", title), tag("span", [tag("kbd", part) for part in parts]))
 
 

@@ -11,7 +11,7 @@ from explorer.model.stand import airload_curves, as_measured, condition_of, is_a
 from explorer.model.units import number
 from explorer.tabs.element import Probe
 from explorer.tabs.live_charts import chart_box
-from explorer.text.glossary import READOUTS, tip
+from explorer.text.glossary import MEASURED, tip
 from explorer.text.readout import dash
 from rotor import Solution
 from rotor.airfoil.public_points import SOURCES, points_near
@@ -24,16 +24,6 @@ from rotor.validation.airloads import REPORTS, harmonics
 LIFT = THIS
 HEIGHT = 92.0
 """Height of the charts [px]."""
-_TITLES = {
-    "cn_m2": ("C_nM²", "normal force coefficient times Mach number squared"),
-    "cm_m2": ("C_mM²", "moment coefficient times Mach number squared, nose up"),
-    "cl_u2": ("C_l(r + µ sin ψ)²", "lift coefficient times the square of the speed over tip speed"),
-    "cl": ("C_l", "lift coefficient of the section"),
-    "tip_twist_deg": ("Tip twist [°]", "elastic twist of the tip, nose up"),
-    "tip_flap": ("Tip flapping/R", "deflection of the tip up from the precone"),
-    "pitch_link": ("Pitch link [N]", "load of one pitch link without its mean, by a nose-up moment of the blade"),
-}
-"""Symbol and meaning of what is drawn."""
 
 
 def lift_chart(probe: Probe) -> Chart:
@@ -82,12 +72,8 @@ def lift_chart(probe: Probe) -> Chart:
         Axis(f"C_l at Mach {number(probe.table_mach, 2)}; dashed: stall", (bottom, top), (-1.0, 0.0, 1.0)),
         tuple(series),
         tuple(Rule(end, colour=LIMIT, dashes="4 3") for end in ends if low < end < high),
-        note=READOUTS["chart_lift_curve"].text,
+        note=tip("chart_lift_curve"),
     )
-
-
-def _title(words: str) -> Markup:
-    return tag("span", tag("b", words))
 
 
 def with_indices(words: str) -> Markup:
@@ -117,7 +103,7 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
     case = None if design.hovering else nearest_case(design)
     if case is None:
         return None
-    curves = [curve for curve in airload_curves(case.rotor) if curve.case == case and curve.quantity in _TITLES]
+    curves = [curve for curve in airload_curves(case.rotor) if curve.case == case and curve.quantity in MEASURED]
     if solution.elastic is None:
         curves = [curve for curve in curves if curve.quantity not in ("tip_twist_deg", "pitch_link")]
     if not curves:
@@ -145,7 +131,7 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
         "div",
         tag(
             "div.rx-line.rx-probe-title",
-            _title("Measured"),
+            tag("span", tag("b", "Measured")),
             tag("span.rx-dim", name, title=report),
             tag("span", dash(THIS), "ours"),
             title=tip("probe_measured"),
@@ -166,7 +152,7 @@ def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
 
 
 def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> Markup:
-    title, meaning = _TITLES[measured.quantity]
+    title, meaning = MEASURED[measured.quantity]
     where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
     seen = *measured.values.tolist(), *ours.tolist()
     margin = 0.05 * (max(seen) - min(seen))

@@ -11,9 +11,9 @@ import viser
 
 from explorer import colours
 from explorer.hosting.browser import Bridge
-from explorer.hosting.messages import RidePress
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
+from explorer.parts.presses import RidePress
 from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
@@ -261,17 +261,15 @@ class ProbePanel(Tab):
 
     def _walk(self, seconds: float) -> None:
         with self._hand:
-            if self._player.playing:
-                self._walk_on(seconds)
-
-    def _walk_on(self, seconds: float) -> None:
-        now = self._context.view().azimuth_deg
-        self._left -= seconds
-        if (self._walked is not None and now != self._walked) or self._left <= 0.0:
-            self._pause()  # The user has taken the blade, or gone.
-            return
-        self._walked = (now + math.degrees(self._context.display.turn_rate) * seconds) % 360.0
-        self._context.display.turn(self._walked)
+            if not self._player.playing:
+                return
+            now = self._context.view().azimuth_deg
+            self._left -= seconds
+            if (self._walked is not None and now != self._walked) or self._left <= 0.0:
+                self._pause()  # The user has taken the blade, or gone.
+                return
+            self._walked = (now + math.degrees(self._context.display.turn_rate) * seconds) % 360.0
+            self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
         return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import LOOKS, Role, role_line
-from explorer.hosting.messages import KnotMove, KnotPress
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
 from explorer.model.units import SI
+from explorer.parts.presses import KnotMove, KnotPress
 from explorer.parts.results import Best
 from explorer.parts.stage import Knot, RoleLines, RubberPart, TwistPart
 from explorer.tabs.context import TabContext

@@ -43,7 +43,8 @@ class VibrationPanel:
         self._state = state
         self._say_at_switch(state)
         if not state.solution.design.models.bending:
-            self._clear()
+            self._loads, self.chart = {}, None
+            self._context.bridge.set(vibration=None, hub_labels=[])
             return
         known = self._loads
         self._loads = {solution: known[solution] for solution in (state.solution, state.reference) if solution in known}
@@ -110,15 +111,10 @@ class VibrationPanel:
                 words = f"{UNITS[state.view.units].watts(added, 1, sign=True)} here"
         self._context.controls.show_bending(words[:1].upper() + words[1:])
 
-    def _clear(self) -> None:
-        self._loads = {}
-        self.chart = None
-        self._context.bridge.set(vibration=None, hub_labels=[])
-
     def _draw(self) -> None:
         if self._state is not None:
-            self._context.bridge.set(vibration=self._card(self._state))
-            self._say_how_bent()
+            labels = _how_bent(self._state.solution)
+            self._context.bridge.set(vibration=self._card(self._state), hub_labels=labels)
             self._draw_chart()
 
     def _draw_chart(self) -> None:
@@ -128,16 +124,6 @@ class VibrationPanel:
             compared: Role = "reference" if state.pinned is None else "pinned"
             self.chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
             self._drawn()
-
-    def _say_how_bent(self) -> None:
-        """The words in the scene: bending is drawn larger."""
-        state, labels = self._state, list[SceneLabel]()
-        if state is not None and state.solution.deflections is not None:
-            rotor = state.solution.design.rotor
-            tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
-            title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
-            labels.append(SceneLabel(f"bending × {BENDING_SHOWN:g}", f"{ROTOR}/blade_0", tip, title))
-        self._context.bridge.set(hub_labels=labels)
 
     def _card(self, state: SessionState) -> VibrationPart | None:
         """The row of the power card; None without bending."""
@@ -171,6 +157,16 @@ class VibrationPanel:
         kind = "" if abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad"
         against = "A" if state.pinned is not None else "as built"
         return f"{number(percent, 0, sign=True)} % vs. {against} ({number(reference.index, 1)})", kind
+
+
+def _how_bent(solution: Solution) -> list[SceneLabel]:
+    """The words in the scene: bending is drawn larger."""
+    if solution.deflections is None:
+        return []
+    rotor = solution.design.rotor
+    tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
+    title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
+    return [SceneLabel(f"bending × {BENDING_SHOWN:g}", f"{ROTOR}/blade_0", tip, title)]
 
 
 def _title(loads: HubLoads) -> str:

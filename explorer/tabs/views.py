@@ -21,15 +21,13 @@ from explorer.tabs.layout import by_hand
 from explorer.tabs.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, pinned_name
 from explorer.text.glossary import hint
-from rotor import Design, Solution
+from rotor import Solution
 from rotor.markup import tag
 
 
-class TopBar(Tab):
+class TopBar:
     def __init__(self, context: TabContext) -> None:
         self._context, self._board = context, context.pinboard
-        self._along = True
-        """Whether A flies in the present condition."""
         self._inputs = Inputs()
         self._steps = (False, False)
         bridge, bind = context.bridge, context.keyboard.bind
@@ -42,14 +40,10 @@ class TopBar(Tab):
         bind("back", lambda: self._ask("back"))
         context.layout.watchers.append(self.refresh)
 
-    def solve(self, present: Design, hurried: bool = False) -> Solution | None:
-        """A's answer beside the present design; None when nothing is pinned. `hurried`: newer input waits."""
-        return self._board.solve(present, self._along, hurried)
-
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""
         able = solution if solution is not None and solution.converged else None
-        outcome = self._board.act(inputs, able, self._along)
+        outcome = self._board.act(inputs, able)
         if outcome is None:
             return False
         if outcome.sentence:
@@ -61,12 +55,6 @@ class TopBar(Tab):
     def show_design(self, inputs: Inputs, steps: tuple[bool, bool]) -> None:
         """What is on the sliders, and whether there is a step to undo and one to redo."""
         self._inputs, self._steps = inputs, steps
-        self.refresh()
-
-    def show(self, state: SessionState) -> None:
-        self.refresh()
-
-    def show_failure(self) -> None:
         self.refresh()
 
     def refresh(self) -> None:
@@ -94,14 +82,14 @@ class TopBar(Tab):
             if answer is None or not answer.converged
             else self._context.units.watts(answer.power.total)
         )
-        where = "" if self._along else f" at {flight_name(pinned.inputs)}"
-        return PinnedRow(pinned_name(pinned), power + where, self._along)
+        where = "" if self._board.along else f" at {flight_name(pinned.inputs)}"
+        return PinnedRow(pinned_name(pinned), power + where, self._board.along)
 
     def _pin_or_release(self) -> None:
         self._ask("pin" if self._board.pinned is None else "unpin")
 
     def _set_along(self, along: bool) -> None:
-        self._along = bool(along)
+        self._board.along = bool(along)
         self._context.wake()
 
     def _ask(self, order: Order) -> None:

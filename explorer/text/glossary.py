@@ -44,6 +44,10 @@ _FILE = tomllib.loads((Path(__file__).parent / "glossary.toml").read_text(encodi
 CONTROLS: dict[str, Term] = _terms({name: row.tooltip for name, row in BY_INPUT.items()}) | _terms(_FILE["controls"])
 """By the field of `Inputs` or `ViewState`, or a name of the widget's own."""
 READOUTS: dict[str, Term] = _terms(_FILE["readouts"])
+SECTIONS: dict[str, str] = _FILE["sections"]
+COLUMNS: dict[str, str] = _FILE["columns"]
+MEASURED: dict[str, tuple[str, str]] = _FILE["measured"]
+"""Symbol and meaning."""
 
 
 def hint(name: str) -> str:

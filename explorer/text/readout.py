@@ -18,6 +18,7 @@ from rotor.actuator.installation import MassBreakdown
 from rotor.markup import Content, Markup, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.trim.doubt import sureness
+from rotor.trim.solution import ElasticTwist
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 _ON_A_STAND = {"induced": "Induced", "profile": "Profile", "parasite": "Propulsive"}
@@ -46,15 +47,19 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     titles = part_titles(solution.design)
     rows = [_row(name, title, power, reference, units) for name, title in titles.items()]
     words = tag("span", "total power"), tag("span", f"vs. {baseline_title(solution.design)}")
-    return _power_panel(solution, reference, words, tag("table", rows), units)
+    return _panel(solution, reference, words, tag("table", rows), units)
 
 
-def _power_panel(
-    solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units
-) -> Markup:
-    line = tag("div.rx-line.rx-dim", words, title=tip("change"))
-    ideal = ideal_line(solution, ideal_induced(solution), units)
-    return tag("div.rx", total_line(solution.power, reference, units), line, table, ideal, data_explorer="power")
+def _panel(solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units) -> Markup:
+    """`words`: below the total, what it is and what it is compared with."""
+    return tag(
+        "div.rx",
+        total_line(solution.power, reference, units),
+        tag("div.rx-line.rx-dim", words, title=tip("change")),
+        table,
+        ideal_line(solution, ideal_induced(solution), units),
+        data_explorer="power",
+    )
 
 
 def open_drag_area(design: Design) -> tuple[float, float] | None:
@@ -136,61 +141,66 @@ def patch(colour: str) -> Markup:
     return tag("span.rx-patch", style=f"background:{colour}")
 
 
-_TRIM: dict[str, tuple[Callable[[Solution], float | None], int, str]] = {
-    "collective": (lambda s: math.degrees(s.controls.collective), 2, "°"),
-    "shaft_tilt": (lambda s: math.degrees(s.controls.shaft_tilt), 2, "°"),
-    "cyclic_1c": (lambda s: math.degrees(s.controls.cyclic_1c), 2, "°"),
-    "cyclic_1s": (lambda s: math.degrees(s.controls.cyclic_1s), 2, "°"),
-    "coning": (lambda s: math.degrees(s.controls.coning), 2, "°"),
-    "flap_1c": (lambda s: math.degrees(s.controls.flap_1c), 2, "°"),
-    "flap_1s": (lambda s: math.degrees(s.controls.flap_1s), 2, "°"),
-    "ct_over_sigma": (lambda s: s.ct_over_sigma, 4, ""),
-    "kappa": (lambda s: s.induced_power_factor, 2, ""),
-    "lift_to_drag": (lambda s: s.lift_to_drag, 2, ""),
-    "figure_of_merit": (lambda s: s.figure_of_merit, 3, ""),
-    "reverse_flow_area": (lambda s: 100.0 * s.reverse_flow_area, 1, " %"),
-    "stalled_area": (lambda s: 100.0 * s.stalled_area, 1, " %"),
-    "elastic_tip": (lambda s: math.degrees(float(s.elastic.tip.mean())) if s.elastic else None, 2, "°"),
-    "elastic_wave": (lambda s: math.degrees(s.elastic.first_harmonic) if s.elastic else None, 2, "°"),
-    "pitch_link": (lambda s: float(s.elastic.pitch_link_load.mean()) / 1e3 if s.elastic else None, 2, " kN"),
-    "pitch_link_wave": (lambda s: 0.5e-3 * float(np.ptp(s.elastic.pitch_link_load)) if s.elastic else None, 2, " kN"),
+_TrimRow = tuple[str, str, int, str, Callable[[Solution], float | None]]
+_TRIM: dict[str, _TrimRow] = {
+    "collective": ("Collective θ0", "θ0 [°]", 2, "°", lambda s: math.degrees(s.controls.collective)),
+    "shaft_tilt": ("Shaft tilt α", "α [°]", 2, "°", lambda s: math.degrees(s.controls.shaft_tilt)),
+    "cyclic_1c": ("Cyclic θ1c", "θ1c [°]", 2, "°", lambda s: math.degrees(s.controls.cyclic_1c)),
+    "coning": ("Coning β0", "β0 [°]", 2, "°", lambda s: math.degrees(s.controls.coning)),
+    "cyclic_1s": ("Cyclic θ1s", "θ1s [°]", 2, "°", lambda s: math.degrees(s.controls.cyclic_1s)),
+    "flap_1c": ("Flap β1c, β1s", "β1c [°]", 2, "°", lambda s: math.degrees(s.controls.flap_1c)),
+    "ct_over_sigma": ("CT/σ", "CT/σ", 4, "", lambda s: s.ct_over_sigma),
+    "flap_1s": ("", "β1s [°]", 2, "°", lambda s: math.degrees(s.controls.flap_1s)),
+    "kappa": ("", "κ", 2, "", lambda s: s.induced_power_factor),
+    "figure_of_merit": ("Figure of merit", "FM", 3, "", lambda s: s.figure_of_merit),
+    "lift_to_drag": ("Rotor L/De", "L/De", 2, "", lambda s: s.lift_to_drag),
+    "reverse_flow_area": ("Reverse flow", "rev. [%]", 1, " %", lambda s: 100.0 * s.reverse_flow_area),
+    "stalled_area": ("Stalled area", "stall [%]", 1, " %", lambda s: 100.0 * s.stalled_area),
+    "elastic_tip": ("Elastic tip", "φ tip [°]", 2, "°", lambda s: _elastic(s, lambda e: np.degrees(e.tip.mean()))),
+    "elastic_wave": ("Elastic 1/rev", "", 2, "°", lambda s: _elastic(s, lambda e: math.degrees(e.first_harmonic))),
+    "pitch_link": (
+        "Pitch link",
+        "link [kN]",
+        2,
+        " kN",
+        lambda s: _elastic(s, lambda e: e.pitch_link_load.mean() / 1e3),
+    ),
+    "pitch_link_wave": (
+        "Pitch link ±",
+        "",
+        2,
+        " kN",
+        lambda s: _elastic(s, lambda e: 0.5e-3 * np.ptp(e.pitch_link_load)),
+    ),
 }
-"""Value, digits and unit of a trim quantity, by its name in the glossary."""
+"""Title, short title beside A (empty: not there), digits, unit and value of a trim quantity, by its name in the
+glossary."""
+
+
+def _elastic(solution: Solution, read: Callable[[ElasticTwist], float]) -> float | None:
+    return float(read(solution.elastic)) if solution.elastic else None
+
+
+def _trim_rows(solution: Solution) -> list[tuple[str, _TrimRow]]:
+    """With the measure of efficiency that the flight has."""
+    other = "lift_to_drag" if solution.design.hovering else "figure_of_merit"
+    return [(key, row) for key, row in _TRIM.items() if key != other]
 
 
 def trim_panel(solution: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas, in two columns."""
-    flapping = [math.degrees(angle) for angle in (solution.controls.flap_1c, solution.controls.flap_1s)]
-    titles = {
-        "collective": "Collective θ0",
-        "shaft_tilt": "Shaft tilt α",
-        "cyclic_1c": "Cyclic θ1c",
-        "coning": "Coning β0",
-        "cyclic_1s": "Cyclic θ1s",
-        "flapping_1": "Flap β1c, β1s",
-        "ct_over_sigma": "CT/σ",
-        **({"figure_of_merit": "Figure of merit"} if solution.design.hovering else {"lift_to_drag": "Rotor L/De"}),
-        "reverse_flow_area": "Reverse flow",
-        "stalled_area": "Stalled area",
-        "elastic_tip": "Elastic tip",
-        **({"elastic_wave": "Elastic 1/rev"} if solution.elastic else {}),
-        "pitch_link": "Pitch link",
-        **({"pitch_link_wave": "Pitch link ±"} if solution.elastic else {}),
-    }
-
-    def value(key: str) -> str:
-        if key == "flapping_1":
-            return f"{number(flapping[0], 1)}, {number(flapping[1], 1)}°"
-        read, digits, unit = _TRIM[key]
-        quantity = read(solution)
-        if quantity is None:
-            return "rigid" if key == "elastic_tip" else BLANK
-        return f"{number(quantity, digits)}{unit}"
-
-    cells = [
-        tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value(key)), title=tip(key))
-        for key, name in titles.items()
-    ]
+    flapping = (number(math.degrees(angle), 1) for angle in (solution.controls.flap_1c, solution.controls.flap_1s))
+    cells: list[Markup] = []
+    for key, (title, _, digits, unit, read) in _trim_rows(solution):
+        value = read(solution)
+        if not title or (value is None and key.endswith("_wave")):
+            continue
+        words, entry = f"{number(value, digits)}{unit}", key
+        if key == "flap_1c":
+            words, entry = f"{', '.join(flapping)}°", "flapping_1"
+        elif value is None:
+            words = "rigid" if key == "elastic_tip" else BLANK
+        cells.append(tag("div.rx-line", tag("span.rx-dim", title), tag("span.rx-num", words), title=tip(entry)))
     return tag("div.rx.rx-grid", cells, data_explorer="trim")
 
 
@@ -224,33 +234,18 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     ]
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
-    of_a = tag("span", "vs. " if reference else None, _name("A"), against)
-    words = tag("span", "total power of ", _name("B")), of_a
-    return _power_panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units)
+    compared = tag("span", "vs. " if reference else None, _name("A"), against)
+    words = tag("span", "total power of ", _name("B")), compared
+    return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units)
 
 
 def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas of A and B, in two columns."""
-    titles = {
-        "collective": "θ0 [°]",
-        "shaft_tilt": "α [°]",
-        "cyclic_1c": "θ1c [°]",
-        "coning": "β0 [°]",
-        "cyclic_1s": "θ1s [°]",
-        "flap_1c": "β1c [°]",
-        "ct_over_sigma": "CT/σ",
-        "flap_1s": "β1s [°]",
-        "kappa": "κ",
-        **({"figure_of_merit": "FM"} if solution.design.hovering else {"lift_to_drag": "L/De"}),
-        "reverse_flow_area": "rev. [%]",
-        "stalled_area": "stall [%]",
-        "elastic_tip": "φ tip [°]",
-        "pitch_link": "link [kN]",
-    }
     head = tag("div.rx-four.rx-dim.rx-small", tag("span"), tag("span", _name("A")), tag("span", _name("B")))
     cells = [head, head]
-    for key, short in titles.items():
-        read, digits, _ = _TRIM[key]
+    for key, (_, short, digits, _, read) in _trim_rows(solution):
+        if not short:
+            continue
         a, b = number(read(pinned) if pinned.converged else None, digits), number(read(solution), digits)
         cells.append(tag("div.rx-four", tag("span.rx-dim", short), tag("span", a), tag("span", b), title=tip(key)))
     return tag("div.rx.rx-grid", cells, data_explorer="trim")

@@ -4,10 +4,10 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.model.stand import airload_cases, as_measured, flight_powers
+from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers
 from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
-from explorer.text.glossary import tip
+from explorer.text.glossary import SECTIONS, tip
 from explorer.text.readout import open_drag_area
 from rotor import Solution
 from rotor.aero.problem import grid_of
@@ -97,22 +97,7 @@ def provenance(solution: Solution) -> Markup:
 
 def section_title(section: str) -> str:
     """The usual name of a section."""
-    titles = {
-        "sc1095": "SC1095",
-        "sc1094r8": "SC1094 R8",
-        "naca0012": "NACA 0012",
-        "naca63a015": "NACA 63-015A",
-        "naca64935": "NACA 64-935",
-        "naca64528": "NACA 64-528",
-        "naca64118": "NACA 64-118",
-        "naca64208": "NACA 64-208",
-        "naca0015re242k": "NACA 0015",
-        "goe429": "Göttingen 429",
-        "oa209": "OA209",
-        "naca23012tab": "NACA 23012 tab",
-        "naca23012tab-model": "23012 tab, model",
-    }
-    return titles.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
+    return SECTIONS.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
 
 
 def _status(kind: str, *content: Content) -> Markup:
@@ -235,7 +220,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
         low, high = min(values), max(values)
         margin = 0.05 * max(abs(high), abs(low))
         if not low - margin <= value <= high + margin:
-            return f"{_SHORT[name]} {value:.3g}, compared {low:.3g}…{high:.3g}"
+            return f"{SHORT[name]} {value:.3g}, compared {low:.3g}…{high:.3g}"
     return ""
 
 
@@ -245,6 +230,3 @@ def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     if measured.name == _DIGITISED:
         return rows[0] if inflow == "annulus" else None
     return next((row for row in rows if row.what.endswith(f", inflow {inflow}")), None)
-
-
-_SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ"}

@@ -162,29 +162,25 @@ def _reason(before: Solution, after: Solution) -> str:
 
 def _stall(before: Solution, after: Solution) -> str:
     a, b = before.disk.stalled, after.disk.stalled
-    place = _place(after, a, b)
-    area = _area_change(100.0 * before.stalled_area, 100.0 * after.stalled_area, 0.5)
-    if not area:
-        return ""
-    verb, amount = area
+    verb, amount = _area_change(100.0 * before.stalled_area, 100.0 * after.stalled_area, 0.5)
     fresh = _fresh(a, b)
     negative = fresh.any() and float((after.disk.alpha[fresh] < 0.0).mean()) > 0.5
     kind = "negative stall" if negative and verb in ("appeared", "grew") else "stall"
-    return _region(kind, verb, place, amount)
+    return _region(kind, verb, _place(after, a, b), amount)
 
 
 def _divergence(before: Solution, after: Solution) -> str:
     a, b = (_divergent(solution) for solution in (before, after))
-    area = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
-    if not area:
-        return ""
+    verb, amount = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
     place = _place(after, a, b)
     # On the retreating side the Mach number is low: there it is the lift that makes drag rise.
     kind = "drag rise at high lift" if place.endswith("retreating side") else "drag divergence"
-    return _region(kind, area[0], place, area[1])
+    return _region(kind, verb, place, amount)
 
 
 def _region(kind: str, verb: str, place: str, amount: str) -> str:
+    if not verb:
+        return ""
     if verb == "disappeared":
         return f"{kind} disappeared"
     if verb == "shrank":
@@ -192,15 +188,15 @@ def _region(kind: str, verb: str, place: str, amount: str) -> str:
     return f"{kind} {verb} {place} ({amount} of the disk)"
 
 
-def _area_change(a: float, b: float, least: float) -> tuple[str, str] | None:
-    """What a region of the disk did, and its size now; None where it hardly changed. `a`, `b`, `least`: % of πR²."""
+def _area_change(a: float, b: float, least: float) -> tuple[str, str]:
+    """What a region of the disk did, empty where it hardly changed, and its size now. `a`, `b`, `least`: % of πR²."""
     amount = f"{number(b, 1)} %"
     if a < 0.05 and b >= 0.5 * least:
         return "appeared", amount
     if b < 0.05 and a >= 0.5 * least:
         return "disappeared", amount
     if abs(b - a) < max(least, 0.2 * max(a, b)):
-        return None
+        return "", amount
     return "grew" if b > a else "shrank", amount
 
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from explorer.hosting.messages import WavePress
 from explorer.model.actuator_inputs import AGAINST
 from explorer.model.units import number
 from explorer.parts.actuate import DialPart, Settled
+from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import built, in_actuate
 from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer

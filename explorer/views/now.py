@@ -231,4 +231,4 @@ class Panel:
     reacts: Callable[[Now], tuple[Effect, ...]] = lambda now: ()
     """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
-    """By name in `messages.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""
+    """By name in `presses.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from explorer.hosting.messages import SupposePress
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
+from explorer.parts.presses import SupposePress
 from explorer.text.readout import fuel_words, needs, needs_words
 from explorer.views.actuated import built, in_actuate
 from explorer.views.now import Asked, Effect, Now, Panel, SetAddress, SetHand

@@ -1,4 +1,4 @@
-// Made by `python -m tests.tools.page_types` from explorer/parts and messages.PRESSES: change those.
+// Made by `python -m tests.tools.page_types` from explorer/parts and presses.PRESSES: change those.
 
 interface RxState {
   bar: RxBarPart;

@@ -87,7 +87,7 @@ def test_the_view_is_a_picture_of_the_scene_between_the_cards(watched: Watched, 
         assert size is not None
         assert picture.width == 1920
         # Title and scale stand above and below; what cards cover is not in it.
-        above, below = app.sessions[-1].page.scene.covered
+        above, below = app.sessions[-1].page.scene.camera.covered
         assert above > 0.0
         whole = picture.width * size["height"] / size["width"]
         assert picture.height - 2 * 112 == pytest.approx((1.0 - above - below) * whole, rel=0.02)

@@ -105,40 +105,43 @@ class TestPinboard:
     def board(self, a: Solution) -> Pinboard:
         """With A pinned."""
         board = Pinboard()
-        assert board.act(A_INPUTS, a, True) is None  # Nothing asked, nothing done.
+        assert board.act(A_INPUTS, a) is None  # Nothing asked, nothing done.
         board.ask("pin")
-        assert board.act(A_INPUTS, a, True) is not None
+        assert board.act(A_INPUTS, a) is not None
         return board
 
     def test_a_is_solved_only_where_it_flies_along_elsewhere(
         self, board: Pinboard, a: Solution, b: Solution, along: Solution
     ):
-        assert board.solve(b.design, False) is board.solve(a.design, True) is a
-        answer = board.solve(b.design, True)
+        board.along = False
+        assert board.solve(b.design) is a
+        board.along = True
+        assert board.solve(a.design) is a
+        answer = board.solve(b.design)
         assert answer is not None
         assert answer.design.condition == b.design.condition
         assert answer.design.twist == a.design.twist
         assert_allclose(answer.power.total, along.power.total, rtol=1e-7)
-        assert board.solve(b.design, True) is answer
+        assert board.solve(b.design) is answer
 
     def test_no_trim_there_is_an_answer_too_and_is_survived(self, board: Pinboard, a: Solution):
         heavy = quick(replace(A_INPUTS, mass_t=11.0, altitude_m=4000.0, advance_ratio=0.44))
-        answer = board.solve(heavy, True)
+        answer = board.solve(heavy)
         assert answer is not None
         assert not answer.converged
-        assert board.solve(a.design, True, hurried=True) is answer
-        back = board.solve(a.design, True)
+        assert board.solve(a.design, hurried=True) is answer
+        back = board.solve(a.design)
         assert back is not None
         assert back.converged
 
     def test_what_follows_a_swap_waits_until_the_sliders_have_moved(self, board: Pinboard, a: Solution, b: Solution):
         board.ask("swap")
         board.ask("unpin")
-        outcome = board.act(B_INPUTS, b, True)
+        outcome = board.act(B_INPUTS, b)
         assert outcome is not None
         assert outcome.inputs is not None
         assert board.pinned is not None
-        assert board.act(outcome.inputs, a, True) is not None
+        assert board.act(outcome.inputs, a) is not None
         assert board.pinned is None
 
 

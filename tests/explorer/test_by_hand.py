@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from explorer.app import App
-from explorer.hosting.messages import PRESSES
 from explorer.model import undo
 from explorer.model.inputs import OPENING
 from explorer.page import Page
+from explorer.parts.presses import PRESSES
 from explorer.sharing.presentation import follow_name
 from explorer.sharing.share import code_of
 from tests.tools.visitor import Visitor, ran

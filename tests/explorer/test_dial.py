@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from explorer.hosting.messages import WavePress
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, Settled
+from explorer.parts.presses import WavePress
 from explorer.views.dial import DIAL, act, take_dot
 from explorer.views.dial_answer import DialAnswer, FrontDot
 from explorer.views.now import Grab, Move, Now, Ui

@@ -12,8 +12,9 @@ import viser
 from fake_bridge import Bridge
 from viser import _messages
 
-from explorer.tabs.layout import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, keys_help, leads
+from explorer.tabs.layout import KEYS, Keyboard, keys_help, leads
 
+SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (
     {(key, CTRL) for key in "CVXANTWRLDFPSQ"} | {(key, CTRL_SHIFT) for key in "NTWPIJCR"} | {("K", CTRL)}

@@ -17,7 +17,7 @@ from explorer import __main__ as command
 from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
 from explorer.charts.svg import key_entries
 from explorer.export import report as document
-from explorer.export.contents import DesignReport, ReportEntry, report_of
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import versions
 from explorer.export.report import report_html
 from explorer.export.tables import vibration
@@ -69,7 +69,7 @@ class TestDrawing:
 
 @pytest.fixture(scope="module")
 def report() -> DesignReport:
-    return report_of(
+    return DesignReport(
         ReportEntry("UH-60A as built", BASELINE), [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)], VIEW
     )
 
@@ -130,9 +130,9 @@ class TestReport:
     def test_a_design_that_is_not_trimmed_is_refused_in_a_sentence(self):
         heavy = replace(NOW, status=Status.NOT_CONVERGED, message="Too heavy.")
         with pytest.raises(ValueError, match="Now is not trimmed, so it cannot be reported: Too heavy"):
-            report_of(ReportEntry("A", BASELINE), [ReportEntry("Now", heavy)], VIEW)
+            DesignReport(ReportEntry("A", BASELINE), [ReportEntry("Now", heavy)], VIEW)
         with pytest.raises(ValueError, match="no design to report on"):
-            report_of(ReportEntry("A", BASELINE), [], VIEW)
+            DesignReport(ReportEntry("A", BASELINE), [], VIEW)
 
 
 class TestStage:

@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from explorer.export.contents import ReportEntry, report_of
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.figures import actuator_section
 from explorer.export.report import report_html
 from explorer.model.inputs import ViewState, baseline_of
@@ -74,5 +74,5 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
     entries = [ReportEntry("Now", solve(DESIGN))]
     baseline = ReportEntry("Baseline", solve(baseline_of(DESIGN)))
     for actuator, found in ((verdict(), 1), ("", 0)):
-        report = report_of(baseline, entries, ViewState(), actuator=actuator)
+        report = DesignReport(baseline, entries, ViewState(), actuator=actuator)
         assert report_html(report, None).count('<section class="actuator">') == found

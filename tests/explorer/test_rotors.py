@@ -161,7 +161,7 @@ def test_a_pinned_design_of_another_rotor_keeps_its_own_flight(r22: Solution):
     board = Pinboard()
     other = Inputs(law="builtin")
     board.pin(Pinned(other, solve(other.design()).require()))
-    answer = board.solve(r22.design, along=True)
+    answer = board.solve(r22.design)
     assert answer is not None
     assert answer.design.condition.mass == pytest.approx(8320.0)
     assert board.pinned is not None

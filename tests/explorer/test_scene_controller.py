@@ -37,7 +37,7 @@ class Shown:
         self.calls: list[tuple[str, tuple[float, float], bool, tuple[bool, bool]]] = []
 
     def show_range(
-        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool] = (False, False)
+        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
     ) -> None:
         self.calls.append((field.title, colour_range, faded, beyond))
 
@@ -52,9 +52,8 @@ class Page:
             scene=server.scene, atomic=nullcontext, flush=lambda: None, _websock_connection=queue
         )
         self.shown = Shown()
-        display: Any = self.shown
         camera: Any = SimpleNamespace(follow=lambda tilt: None)
-        self.controller = SceneController(client, camera, ROTOR, display)
+        self.controller = SceneController(client, camera, ROTOR, self.shown.show_range)
         self._nodes = server.scene._handle_from_node_name
 
     def __getitem__(self, name: str) -> Any:

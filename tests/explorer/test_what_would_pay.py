@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.hosting.messages import SupposePress
 from explorer.model.inputs import Inputs, with_rotor
+from explorer.parts.presses import SupposePress
 from explorer.views.now import SetAddress, Ui
 from explorer.views.pay import PAY, mass_chart, place_it, place_of
 from rotor.actuator.catalogue import find_actuator

@@ -1,5 +1,5 @@
 """Types of what Python and the page's scripts tell each other: `python -m tests.tools.page_types` writes
-`explorer/web/parts.d.ts` from `explorer.parts` and `messages.PRESSES`.
+`explorer/web/parts.d.ts` from `explorer.parts` and `presses.PRESSES`.
 
 With `--check` it only says whether the file is out of date, as `make lint` asks. All names begin with `Rx`: an
 interface that has a name of the browser's, such as `Response`, would be merged with it without a word.
@@ -14,12 +14,12 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import msgspec
 
-from explorer.hosting.messages import PRESSES
 from explorer.parts import Parts
+from explorer.parts.presses import PRESSES
 
 FILE = Path(__file__).parents[2] / "explorer" / "web" / "parts.d.ts"
 _PLAIN = {str: "string", int: "number", float: "number", bool: "boolean", types.NoneType: "null", Any: "any"}
-_HEAD = "// Made by `python -m tests.tools.page_types` from explorer/parts and messages.PRESSES: change those."
+_HEAD = "// Made by `python -m tests.tools.page_types` from explorer/parts and presses.PRESSES: change those."
 _PAGE = """\
 declare const RX: {
   state: RxState;

@@ -90,7 +90,8 @@ class LecturePanel(Tab):
 
     def __init__(self, context: TabContext, camera: FittedCamera) -> None:
         self._context, self._camera, gui = context, camera, context.gui
-        self._place: StoryPlace | None = None
+        self.place: StoryPlace | None = None
+        """Where the lecture is; None outside it."""
         self._guesses: dict[int, int] = {}
         """Answers chosen, by step."""
         self._before: PageSnapshot | None = None
@@ -123,21 +124,16 @@ class LecturePanel(Tab):
         for name, advance_ratio in zip(("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True):
             bind(name, partial(self._fly, advance_ratio))
 
-    @property
-    def place(self) -> StoryPlace | None:
-        """Where the lecture is; None outside it."""
-        return self._place
-
     def toggle(self) -> None:
         """Begin with the first step, or end."""
-        if self._place is None:
+        if self.place is None:
             self.set(0)
         else:
             self.end()
 
     def go(self, by: int) -> None:
         """To another step; beyond the last the lecture ends, in Actuate."""
-        step = 0 if self._place is None else self._place.step + by
+        step = 0 if self.place is None else self.place.step + by
         if step >= len(STEPS):
             self._fly_on()
         else:
@@ -156,9 +152,9 @@ class LecturePanel(Tab):
 
     def follow(self, place: StoryPlace | None) -> None:
         """Show the place of another page, which sets the rest."""
-        if place == self._place:
+        if place == self.place:
             return
-        before, self._against = self._place, None
+        before, self._against = self.place, None
         self._stand_at(place)
         self._context.bridge.set(wiped=0.5 if place is None else place.wipe)
         if before is None or place is None or before.step != place.step:
@@ -182,7 +178,7 @@ class LecturePanel(Tab):
         """Say what is seen now."""
         self._state = state
         self._name_case(state.inputs)
-        if self._place is None:
+        if self.place is None:
             return
         self._show()
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
@@ -198,7 +194,6 @@ class LecturePanel(Tab):
         self._show()
 
     def stop(self) -> None:
-        """The browser has left."""
         self._told.stop()
 
     def _write_file(self) -> None:
@@ -234,7 +229,7 @@ class LecturePanel(Tab):
     def _stage(self, step: LectureStep | None, aim: bool = True, mode: str = "explore") -> None:
         """The mode and the camera of a step, without a drawer; `mode`: once the lecture has ended."""
         layout = self._context.layout
-        layout.drawers_locked = self._place is not None
+        layout.drawers_locked = self.place is not None
         if step is None:
             layout.show_mode(mode)
             if mode == "explore" and aim:
@@ -246,9 +241,9 @@ class LecturePanel(Tab):
             self._camera.hold_shot(step.shot)
 
     def _stand_at(self, place: StoryPlace | None) -> None:
-        if place is not None and self._place is None:
+        if place is not None and self.place is None:
             self._told.ask(tuple(map(_task, range(len(STEPS)))), 0.0)
-        self._place, self._state = place, None
+        self.place, self._state = place, None
         self._begin.label = "Start the lecture" if place is None else "End the lecture"
         self._show()
         self._context.wake()
@@ -260,7 +255,7 @@ class LecturePanel(Tab):
 
     def _facts_came(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
-        place = self._place
+        place = self.place
         if place is not None and not self._context.held and self._facts(place.step) is not None:
             step = STEPS[place.step]
             if place.stop == step.control.start and self._context.inputs() == self._kept(step.begin()):
@@ -269,7 +264,7 @@ class LecturePanel(Tab):
 
     def _move(self) -> None:
         """The design where the control is."""
-        place, context = self._place, self._context
+        place, context = self.place, self._context
         if place is None:
             return
         facts, step = self._facts(place.step), STEPS[place.step]
@@ -280,17 +275,17 @@ class LecturePanel(Tab):
 
     def _beside(self, inputs: Inputs) -> Inputs | None:
         """A of the step for these inputs."""
-        if self._place is None:
+        if self.place is None:
             return None
-        facts, step = self._facts(self._place.step), STEPS[self._place.step]
+        facts, step = self._facts(self.place.step), STEPS[self.place.step]
         if facts is None:
             return beside(step.against, step.inputs, inputs)
-        stop = facts.stops[self._place.stop]
+        stop = facts.stops[self.place.stop]
         return beside(stop.against, stop.inputs, inputs)
 
     def _show(self) -> None:
         """The steps in the frame."""
-        place, bridge, units = self._place, self._context.bridge, UNITS[self._context.view().units]
+        place, bridge, units = self.place, self._context.bridge, UNITS[self._context.view().units]
         if place is None:
             bridge.set(lecture=None)
             return
@@ -333,7 +328,7 @@ class LecturePanel(Tab):
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
     def _pressed(self, which: Any) -> None:
-        if self._context.held or self._place is None:
+        if self._context.held or self.place is None:
             return
         match which:
             case "back":
@@ -345,11 +340,11 @@ class LecturePanel(Tab):
 
     def _step_asked(self, step: Any) -> None:
         """A dot was pressed, or the steps were scrolled."""
-        if not self._context.held and self._place is not None and int(step) != self._place.step:
+        if not self._context.held and self.place is not None and int(step) != self.place.step:
             self.set(min(max(int(step), 0), len(STEPS) - 1))
 
     def _guessed(self, answer: Any) -> None:
-        place = self._place
+        place = self.place
         if self._context.held or place is None or place.guess is not None:
             return
         if 0 <= int(answer) <= len(STEPS[place.step].bounds):
@@ -358,22 +353,22 @@ class LecturePanel(Tab):
 
     def _stop_asked(self, stop: Any) -> None:
         """The control was moved."""
-        place = self._place
+        place = self.place
         facts = None if place is None else self._facts(place.step)
         if self._context.held or place is None or facts is None:
             return
         place = replace(place, stop=min(max(int(stop), 0), len(facts.stops) - 1))
-        if place != self._place:
+        if place != self.place:
             self._change(place)
             self._move()
 
     def _wiped(self, share: Any) -> None:
-        if not self._context.held and self._place is not None:
-            self._change(replace(self._place, wipe=float(share)))
+        if not self._context.held and self.place is not None:
+            self._change(replace(self.place, wipe=float(share)))
 
     def _change(self, place: StoryPlace) -> None:
         """Another place within the step."""
-        self._place = place
+        self.place = place
         self._show()
         self._context.wake()
 

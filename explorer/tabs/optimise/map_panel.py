@@ -6,8 +6,8 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.hosting.messages import MapPress
 from explorer.model.inputs import with_optimum
+from explorer.parts.presses import MapPress
 from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel

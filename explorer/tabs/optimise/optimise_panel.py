@@ -40,7 +40,6 @@ _LIMITS = {"limit_stall": "stalled", "limit_change": "change", "limit_index": "i
 _NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
 """Sliders that only some searches have."""
 
-
 RIVAL = "o"
 """Name in the address of the optimum to be beaten by hand."""
 
@@ -129,7 +128,6 @@ class OptimisePanel(BackgroundWork):
         return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
 
     def halt(self) -> None:
-        """Stop the search under way; what it found stays."""
         if self.running and self.run is not None:
             self.run.stopping()
         super().halt()
@@ -191,7 +189,8 @@ class OptimisePanel(BackgroundWork):
             self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
             self._frame.content = text.frame_line(run, units)
         elif on_offer:
-            self._frame.content = text.moved_on()
+            words = "The sliders have changed. Apply takes the optimum."
+            self._frame.content = tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
         self._headline.content = text.headline(run, units)
 
     def _show_ranges(self, design: Design | None) -> None:

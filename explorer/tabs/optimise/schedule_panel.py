@@ -71,7 +71,6 @@ class SchedulePanel(BackgroundWork):
         return ScheduleTask(plan), partial(self._hear, progress), "Starting a worker …"
 
     def halt(self) -> None:
-        """Stop; what was found stays."""
         if self.running:
             self.line = "Stopping …"
         super().halt()

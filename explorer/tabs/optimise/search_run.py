@@ -172,7 +172,8 @@ class SearchRun:
         self.progress: Progress | None = None
         self.optimum: Optimum | None = None
         self._lock = threading.Lock()
-        self._play = Playback()
+        self._cursor, self._plays, self._since = 0, True, 0.0
+        """Which frame is shown, whether it moves on by itself, and since when it is shown."""
 
     @property
     def concept(self) -> Concept:
@@ -252,44 +253,31 @@ class SearchRun:
         return design == self.search.design
 
     def shown(self) -> SearchFrame | None:
-        """The frame whose turn it is."""
-        return self._play.frame(self.frames)
+        """The frame whose turn it is: each for `FRAME`, never far behind."""
+        if not self.frames:
+            return None
+        last, now = len(self.frames) - 1, time.monotonic()
+        if self._since == 0.0:
+            self._since = now  # The first has its time as well.
+        if self._plays and self._cursor < last and now - self._since >= FRAME:
+            self._cursor += max(1, last - self._cursor - _CATCH_UP)
+            self._since = now
+        return self.frames[min(self._cursor, last)]
 
     @property
     def cursor(self) -> int:
-        return min(self._play.cursor, max(len(self.frames) - 1, 0))
+        return min(self._cursor, max(len(self.frames) - 1, 0))
 
     @property
     def chosen(self) -> SearchFrame:
         """What Apply takes: the frame that somebody scrubbed to, or else the best, even while the picture plays."""
-        return self.frames[-1 if self._play.running else self.cursor]
+        return self.frames[-1 if self._plays else self.cursor]
 
     @property
     def playing(self) -> bool:
         """Whether more frames wait to be shown."""
-        return self._play.running and self._play.cursor < len(self.frames) - 1
+        return self._plays and self._cursor < len(self.frames) - 1
 
     def scrub(self, cursor: int) -> None:
         """Show one frame and stay there."""
-        self._play = Playback(cursor=cursor, running=False)
-
-
-@dataclass
-class Playback:
-    """Which frame is shown: each for `FRAME`, never far behind."""
-
-    cursor: int = 0
-    running: bool = True
-    since: float = 0.0
-
-    def frame(self, frames: list[SearchFrame]) -> SearchFrame | None:
-        if not frames:
-            return None
-        last = len(frames) - 1
-        now = time.monotonic()
-        if self.since == 0.0:
-            self.since = now  # The first has its time as well.
-        if self.running and self.cursor < last and now - self.since >= FRAME:
-            self.cursor += max(1, last - self.cursor - _CATCH_UP)
-            self.since = now
-        return frames[min(self.cursor, last)]
+        self._cursor, self._plays = cursor, False

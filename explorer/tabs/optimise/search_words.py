@@ -198,7 +198,7 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
     doubts = {band.parameter: band for band in optimum.doubt_band}
-    rows: list[Content] = []
+    rows, notes = list[Content](), [optimum.message]
     if bands:
         ranges = f"range within 0.1 % of the least power{'; by what is uncertain' if doubts else ''}"
         rows.append(tag("tr.rx-dim.rx-small", tag("td.rx-num", ranges, colspan=4)))
@@ -209,6 +209,9 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
             reach = f"{number(parameter.shown(band.low), digits)} … {number(parameter.shown(band.high), digits)}"
         if (sure := doubts.get(parameter.name)) is not None:
             reach += f"; {number(parameter.shown(sure.low), digits)} … {number(parameter.shown(sure.high), digits)}"
+            unit = parameter.shown_unit
+            causes = (f"{words} {number(parameter.shown(by), digits, sign=True)} {unit}" for words, by in sure.causes)
+            notes.append(f"{parameter.title} is moved most by {', '.join(causes)}.")
         rows.append(
             tag(
                 "tr",
@@ -218,12 +221,6 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
                 tag("td.rx-num.rx-dim", reach),
             )
         )
-    notes = [optimum.message]
-    for parameter in concept.parameters:
-        if (sure := doubts.get(parameter.name)) is not None:
-            digits, unit = (1 if parameter.angular else 2), parameter.shown_unit
-            causes = (f"{words} {number(parameter.shown(by), digits, sign=True)} {unit}" for words, by in sure.causes)
-            notes.append(f"{parameter.title} is moved most by {', '.join(causes)}.")
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:
@@ -243,9 +240,3 @@ def frame_line(run: SearchRun, units: Units = SI) -> Markup:
     what = "starting design" if run.cursor == 0 else f"design {frame.evaluation}"
     line = tag("span", what), tag("span", units.watts(power, 1))
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")
-
-
-def moved_on() -> Markup:
-    """The sliders no longer hold the starting design of the search."""
-    words = "The sliders have changed. Apply takes the optimum."
-    return tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")

@@ -16,7 +16,8 @@ from viser import _messages
 
 from explorer import web
 from explorer.app import App
-from explorer.hosting.messages import LONGEST_TEXT, PRESSES, PageFacts, Sent, checked_press, message_fault, read_facts
+from explorer.hosting.messages import LONGEST_TEXT, PageFacts, Sent, checked_press, message_fault, read_facts
+from explorer.parts.presses import PRESSES
 from explorer.session import Session
 from tests.tools import wire
 from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
