@@ -161,6 +161,11 @@ class Visitor:
         else:
             self._facts["query"] = texts[0]
 
+    @property
+    def query(self) -> str:
+        """Of the page's address, as it stands."""
+        return self._facts["query"]
+
     def again(self) -> "Visitor":
         """The page as it is loaded again: with its address, and with what it was given to keep."""
         return Visitor(query=self._facts["query"], kept=self._facts["kept"])
