@@ -82,8 +82,14 @@ SCATTER = (MORE_LIFT, MORE_DRAG, MORE_MOMENT, EARLIER_RISE) = tuple(range(4))
 """Rows of `SectionData.scatter`: shares of C_l and C_d, an amount of C_m, and the Mach number by which drag rises
 earlier, to first order: partial derivatives leave out that of the last."""
 NO_SCATTER = np.zeros(0)
-NO_MOMENT = dict.fromkeys(("moment_gain", "damping", "lag", "moment_tables", "inertia"), np.zeros(0))
-NO_MOMENT |= {"moment_tables": np.zeros((0,) * 6)}
+_NONE = np.zeros(0)
+NO_MOMENT = {
+    "moment_gain": _NONE,
+    "damping": _NONE,
+    "lag": _NONE,
+    "moment_tables": np.zeros((0,) * 6),
+    "inertia": _NONE,
+}
 """The last five of `SectionData` for a rigid blade."""
 fix(NO_MOMENT)  # As those of a blade that twists: kernels are compiled for either kind of array.
 
