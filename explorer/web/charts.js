@@ -74,6 +74,10 @@
   RX.paint(['worth', 'strip'], worths => {
     for (const place of document.querySelectorAll('[data-worth]')) {
       const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
+      const row = place.parentElement?.previousElementSibling, thumb = row?.querySelector('.mantine-Slider-thumb');
+      const stands = [JSON.stringify(worth), thumb?.ariaValueNow, thumb?.ariaValueMax, innerWidth].join();
+      if (place.stands === stands && place.childElementCount) continue;  // To ask where things are costs a layout.
+      place.stands = stands;
       const number = way ? `<b ${way === 'up' ? 'class="rxf-good"' : ''}>${text(value)}</b>${text(unit)}` : text(value);
       write(place, worth ? `${arrow(worth, place)}<span>${number}</span>` : '');
       if (!worth) continue;
