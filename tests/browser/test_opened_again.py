@@ -54,16 +54,21 @@ class Rest:
     def __init__(self, watched: Watched) -> None:
         watched.answered()
         self._watched = watched
-        self._answers = [one for one in gc.get_objects() if isinstance(one, PoolAnswers) and not one._stopped]
 
     def __call__(self) -> None:
         self._watched.answered(wholly=True)
-        while self._asks():
-            self._watched.until(lambda: not self._asks())
+        while answers := self._answers():
+            self._watched.until(lambda answers=answers: not any(map(works, answers)))
             self._watched.answered(wholly=True)  # It may ask for more.
 
-    def _asks(self) -> bool:
-        return any(one.running or one._timer is not None for one in self._answers)
+    @staticmethod
+    def _answers() -> list[PoolAnswers]:
+        """Those that work; a panel has its own from its first question on."""
+        return [one for one in gc.get_objects() if isinstance(one, PoolAnswers) and not one._stopped and works(one)]
+
+
+def works(answers: PoolAnswers) -> bool:
+    return answers.running or answers._timer is not None
 
 
 def show(watched: Watched, panel: tuple[str, str]) -> None:
