@@ -63,6 +63,7 @@ def press(watched: Watched, name: str) -> None:
 
 def optimise(watched: Watched, session: Session) -> None:
     """Begin a search: what the page says from then on is not of the last one."""
+    watched.answered()  # Another concept has other rows: the button moves with them.
     before = session.page.optimise.run
     press(watched, "Optimise")
     watched.until(lambda: session.page.optimise.run is not before)
