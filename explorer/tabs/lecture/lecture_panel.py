@@ -3,6 +3,7 @@
 Also the flights and designs of the source document to begin from.
 """
 
+import threading
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -99,6 +100,8 @@ class LecturePanel(Tab):
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
         self._state: SessionState | None = None
+        self._showing = threading.Lock()
+        """Held from reading the place to sending it: an answer that comes as the lecture ends shows nothing."""
         self._told = PoolAnswers(context.pool, 4, self._facts_came)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
@@ -285,6 +288,10 @@ class LecturePanel(Tab):
 
     def _show(self) -> None:
         """The steps in the frame."""
+        with self._showing:
+            self._send()
+
+    def _send(self) -> None:
         place, bridge, units = self.place, self._context.bridge, UNITS[self._context.view().units]
         if place is None:
             bridge.set(lecture=None)
