@@ -38,12 +38,12 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    """Verdicts come behind searches, maps and schedules: the chosen actuator's first; modes behind all else."""
+    """Verdicts come behind searches and maps: the chosen actuator's first, then what is seen, then what is folded."""
     if (one := built(now)) is None:
         return ()
     first, *others = one.tasks.values()
     modes = () if one.modes_task is None else (one.modes_task,)
-    return Asked(5, (first,), _STILL), Asked(6, tuple(others), _IDLE), Asked(7, modes, _IDLE)
+    return Asked(3, (first,), _STILL), Asked(7, tuple(others), _IDLE), Asked(8, modes, _IDLE)
 
 
 def view(now: Now) -> dict[str, Any]:

@@ -13,11 +13,11 @@ import numpy as np
 
 from explorer.model.actuator_inputs import AGAINST
 from explorer.model.units import number
-from explorer.parts.actuate import DialPart, Settled
+from explorer.parts.actuate import DialMatrix, DialPart, Settled
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import built, in_actuate
-from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
+from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer, front_dots
 from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
@@ -27,6 +27,7 @@ from rotor.design import Harmonic
 from rotor.markup import tag
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim import why_no_hub_loads
+from rotor.trim.hub_loads import BAND
 
 _REACH = 1.5
 """Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
@@ -40,7 +41,7 @@ _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, t
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
 UNMEASURED = "Not validated: we found no measured power benefit of active twist. Published savings are computed."
-_URGENCY, _STILL = 3, 0.4
+_URGENCY, _LATER, _STILL = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
@@ -54,35 +55,54 @@ def _fitted(now: Now) -> Fitted | None:
     return Fitted(one.installed, inputs.volts(one.installed), twist, f"the {against[0].lower()}{against[1:]}")
 
 
-def _asked(now: Now) -> tuple[Call | None, Call | None]:
-    """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
+def _asked(now: Now) -> tuple[Call | None, tuple[Call, ...]]:
+    """The effect of what is trimmed, and what foresees with each inflow model, the design's own first; None and none
+    where not all of it is known, or can be."""
     state, fitted = now.state, now.of(_fitted)
     if state is None or now.sliders is None or now.problem:
-        return None, None
+        return None, ()
     pair = compared(state.solution.design, now.sliders, fitted)
     if pair is None:
-        return None, None
+        return None, ()
     trimmed = Call(effect, pair)
     if why_no_hub_loads(state.solution.design) is not None:
-        return trimmed, None
+        return trimmed, ()
     losses = (0.0,) * len(HARMONICS) if fitted is None else tuple(fitted.losses)
-    reach = 0.0 if fitted is None else round(fitted.whole, 2)
-    shaped = with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),))
-    return trimmed, Call(dial_answer, (shaped, pair[1], losses, reach or _FRONT_REACH))
+    reach = (0.0 if fitted is None else round(fitted.whole, 2)) or _FRONT_REACH
+    both, foresees = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
+    for inflow in dict.fromkeys((pair[0].models.inflow, *BAND)):
+        flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
+        foresees.append(Call(dial_answer, (flown, still, losses, 0.0 if foresees else reach)))
+    return trimmed, tuple(foresees)
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    return (Asked(_URGENCY, tuple(call for call in now.of(_asked) if call is not None), _STILL),)
+    """What is trimmed first; then two processes share the inflow models."""
+    trimmed, foresees = now.of(_asked)
+    first = Asked(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
+    return first, Asked(_LATER, foresees[::2], _STILL), Asked(_LATER + 1, foresees[1::2], _STILL)
 
 
-def _answer(now: Now) -> DialAnswer | str | None:
-    """What foresees, or why nothing does; None on its way."""
-    return now.answers.get(now.of(_asked)[1])
+def _answer(now: Now) -> DialMatrix | str | None:
+    """What foresees, with as many inflow models as are known, or why nothing does; None on its way."""
+    own, *others = (*map(now.answers.get, now.of(_asked)[1]), None)
+    if not isinstance(own, DialAnswer):
+        return own
+    found = tuple(other.numbers for other in others if isinstance(other, DialAnswer))
+    return DialMatrix(**vars(own.numbers), inflows=found)
+
+
+def _waits(now: Now) -> bool:
+    """Whether not every inflow model has answered yet: then nothing is said to be best."""
+    return any(now.answers.get(call) is None for call in now.of(_asked)[1])
 
 
 def _dots(now: Now) -> tuple[FrontDot, ...]:
-    answer = _answer(now)
-    return answer.front if isinstance(answer, DialAnswer) else ()
+    """Once all inflow models have answered."""
+    answer = now.of(_answer)
+    if not isinstance(answer, DialMatrix) or now.of(_waits):
+        return ()
+    return front_dots(now.answers[now.of(_asked)[1][0]], answer.inflows)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -90,16 +110,16 @@ def view(now: Now) -> dict[str, Any]:
     words = {"actuator.per_rev": _set_words(now)}
     if now.state is None or now.problem:
         return words
-    answer, dots = _answer(now), _dots(now)
+    answer = now.of(_answer)
     return {
         **words,
         "dial": _dial(now, now.state.solution.design, answer),
-        "dial_matrix": answer.numbers if isinstance(answer, DialAnswer) else None,
-        "dial_front": drawn_chart(front_chart(dots)),
+        "dial_matrix": answer if isinstance(answer, DialMatrix) else None,
+        "dial_front": drawn_chart(front_chart(now.of(_dots))),
     }
 
 
-def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
+def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart:
     fitted, waves, unit = now.of(_fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if fitted is None else fitted.whole
     losses = {} if fitted is None else dict(zip(HARMONICS, fitted.losses, strict=True))
@@ -120,14 +140,14 @@ def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart
         room=0.0 if fitted is None else round(steady_room(fitted.installed, fitted.volts), 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
-        computing=not words and not isinstance(answer, DialAnswer),
+        computing=not words and (answer is None or now.of(_waits)),
         settled=settled,
         problem=moved if isinstance(moved, str) else "",
         against="the same blade at rest" if fitted is None else fitted.against,
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),
-        front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in _dots(now)),
+        front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in now.of(_dots)),
         exaggerated=number(_SHAKE),
         shake=_SHAKE / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
         held=now.ui.held,
@@ -157,7 +177,7 @@ def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
 
 def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
     """Apply the twist of a dot of the front."""
-    dots = _dots(now)
+    dots = now.of(_dots)
     if not 0 <= number_of < len(dots):
         return ()
     twist = tuple(map(_on_sliders, dots[number_of].twist))

@@ -153,7 +153,7 @@
   }
   // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
   function drawField(size) {
-    const {power, least} = fieldOf(), {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
+    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all, {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
     const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
     const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
       const {path, points} = contour(power, level), free = points.map(([x, y]) => [EDGE + step * x, EDGE + step * y])
@@ -164,8 +164,9 @@
       return `<path transform="translate(${EDGE} ${EDGE}) scale(${step})" d="${path}"
         stroke-width="${(level ? .9 : 2) / step}" opacity="${level ? .55 : .9}"/>`;
     });
-    const marks = [['P', 'least power'], ['V', 'least vibration']].map(([mark, name], k) => {
-      const {point, over, agreed} = least[k], [x, y] = at(...point), [low, high] = ends(over);
+    const marks = least.map(({point, over, agreed}, k) => {
+      const [mark, name] = [['P', 'least power'], ['V', 'least vibration']][k];
+      const [x, y] = at(...point), [low, high] = ends(over);
       const band = `${signed(low)} to ${signed(high)} % over inflow models`;
       const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
       return `<g data-agreed="${agreed}"><title>${agreed ? `${name} on this dial, foreseen: ${where}, ${band}`
@@ -276,7 +277,8 @@
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
       <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
-    const wait = dial.computing || !now ? dim(dial.words || 'Response to n/rev twist: computing …') : '';
+    const wait = dial.computing || !now
+      ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
