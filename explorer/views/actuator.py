@@ -38,11 +38,13 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    """Verdicts come behind searches and maps: the chosen actuator's first, then what is seen, then what is folded."""
+    """The chosen actuator's verdict comes behind searches and maps; what is folded at first, behind its flight."""
     if (one := built(now)) is None:
         return ()
     first, *others = one.tasks.values()
-    modes = () if one.modes_task is None else (one.modes_task,)
+    if one.outcome is None or (one.flight_task is not None and one.flight is None):
+        others = []
+    modes = (one.modes_task,) if others and one.modes_task is not None else ()
     return Asked(3, (first,), _STILL), Asked(7, tuple(others), _IDLE), Asked(8, modes, _IDLE)
 
 
