@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AGAINST
 from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, Settled
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import built, in_actuate
-from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer, front_dots
+from explorer.views.actuated import in_actuate
+from explorer.views.assessed import effect_asked, fitted, here, pair_compared
+from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
 from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
-from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
+from rotor.actuator import EffectInFlight, Programme, programmes, steady_room
 from rotor.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.design import Harmonic
 from rotor.markup import tag
@@ -45,47 +45,30 @@ _URGENCY, _LATER, _STILL = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
-def _fitted(now: Now) -> Fitted | None:
-    if (one := built(now)) is None:
-        return None
-    inputs = now.hand.actuator
-    fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
-    twist = one.design.twist if inputs.against == "as-built" else fixed
-    against = AGAINST[inputs.against]
-    return Fitted(one.installed, inputs.volts(one.installed), twist, f"the {against[0].lower()}{against[1:]}")
-
-
-def _asked(now: Now) -> tuple[Call | None, tuple[Call, ...]]:
-    """The effect of what is trimmed, and what foresees with each inflow model, the design's own first; None and none
-    where not all of it is known, or can be."""
-    state, fitted = now.state, now.of(_fitted)
-    if state is None or now.sliders is None or now.problem:
-        return None, ()
-    pair = compared(state.solution.design, now.sliders, fitted)
-    if pair is None:
-        return None, ()
-    trimmed = Call(effect, pair)
-    if why_no_hub_loads(state.solution.design) is not None:
-        return trimmed, ()
-    losses = (0.0,) * len(HARMONICS) if fitted is None else tuple(fitted.losses)
-    reach = (0.0 if fitted is None else round(fitted.whole, 2)) or _FRONT_REACH
-    both, foresees = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
+def _asked(now: Now) -> tuple[Call, ...]:
+    """What foresees with each inflow model, the design's own first; none where not all of it is known, or can be."""
+    pair, on_blade = now.of(pair_compared), now.of(fitted)
+    if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
+        return ()
+    losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
+    reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH
+    both, calls = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
     for inflow in dict.fromkeys((pair[0].models.inflow, *BAND)):
         flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
-        foresees.append(Call(dial_answer, (flown, still, losses, 0.0 if foresees else reach)))
-    return trimmed, tuple(foresees)
+        calls.append(Call(dial_answer, (flown, still, losses, 0.0 if calls else reach)))
+    return tuple(calls)
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
     """What is trimmed first; then two processes share the inflow models."""
-    trimmed, foresees = now.of(_asked)
+    trimmed, calls = now.of(effect_asked), now.of(_asked)
     first = Asked(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
-    return first, Asked(_LATER, foresees[::2], _STILL), Asked(_LATER + 1, foresees[1::2], _STILL)
+    return first, Asked(_LATER, calls[::2], _STILL), Asked(_LATER + 1, calls[1::2], _STILL)
 
 
 def _answer(now: Now) -> DialMatrix | str | None:
     """What foresees, with as many inflow models as are known, or why nothing does; None on its way."""
-    own, *others = (*map(now.answers.get, now.of(_asked)[1]), None)
+    own, *others = (*map(now.answers.get, now.of(_asked)), None)
     if not isinstance(own, DialAnswer):
         return own
     found = tuple(other.numbers for other in others if isinstance(other, DialAnswer))
@@ -94,7 +77,7 @@ def _answer(now: Now) -> DialMatrix | str | None:
 
 def _waits(now: Now) -> bool:
     """Whether not every inflow model has answered yet: then nothing is said to be best."""
-    return any(now.answers.get(call) is None for call in now.of(_asked)[1])
+    return any(now.answers.get(call) is None for call in now.of(_asked))
 
 
 def _dots(now: Now) -> tuple[FrontDot, ...]:
@@ -102,7 +85,7 @@ def _dots(now: Now) -> tuple[FrontDot, ...]:
     answer = now.of(_answer)
     if not isinstance(answer, DialMatrix) or now.of(_waits):
         return ()
-    return front_dots(now.answers[now.of(_asked)[1][0]], answer.inflows)
+    return front_dots(now.answers[now.of(_asked)[0]], answer.inflows)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -120,14 +103,11 @@ def view(now: Now) -> dict[str, Any]:
 
 
 def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart:
-    fitted, waves, unit = now.of(_fitted), now.inputs.twist_per_rev, now.units.power[0]
-    whole = 0.0 if fitted is None else fitted.whole
-    losses = {} if fitted is None else dict(zip(HARMONICS, fitted.losses, strict=True))
-    drive = sum(losses.get(wave.per_rev, 0.0) * _polar(wave)[0] ** 2 for wave in waves)
-    moved, settled = now.answers.get(now.of(_asked)[0]), None
+    on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
+    whole = 0.0 if on_blade is None else on_blade.whole
+    moved, settled = now.of(here), None
     if isinstance(moved, EffectInFlight):
-        power = tuple(unit.of(change + drive) for change in moved.power)
-        settled = Settled(power, tuple(round(change, 2) for change in moved.index))
+        settled = Settled(tuple(map(unit.of, moved.power)), tuple(round(change, 2) for change in moved.index))
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -137,13 +117,13 @@ def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart
         now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
         reach=reach,
         whole=round(whole, 4),
-        room=0.0 if fitted is None else round(steady_room(fitted.installed, fitted.volts), 4),
+        room=0.0 if on_blade is None else round(steady_room(on_blade.installed, on_blade.volts), 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
         computing=not words and (answer is None or now.of(_waits)),
         settled=settled,
         problem=moved if isinstance(moved, str) else "",
-        against="the same blade at rest" if fitted is None else fitted.against,
+        against="the same blade at rest" if on_blade is None else on_blade.against,
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),
