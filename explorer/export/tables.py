@@ -11,7 +11,7 @@ from explorer.export.contents import DesignReport, ReportEntry
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
 from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number
-from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
+from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_name
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from rotor import Design, Solution, doubt, hub_loads
@@ -57,7 +57,7 @@ def comparison(report: DesignReport) -> Markup:
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
     width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
-        _row("Twist", [twist_words(design.twist) for design in designs], "words"),
+        _row("Twist", [twist_name(design) for design in designs], "words"),
         _row("Speed", [_speed(design, report.units) for design in designs]),
         _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
         _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
@@ -107,7 +107,6 @@ def conditions(solution: Solution) -> Markup:
         ("Inflow", inflow_words(design)),
         ("Physics", physics_words(design)),
         ("Grid", "{} elements × {} azimuths".format(*grid_of(design))),
-        ("Twist SPEC", design.twist.spec()),
     ]
     return _table("Condition and model", rows)
 

@@ -1,6 +1,7 @@
 """The view of the page as a picture, with title, flight, power and the scale of its disk."""
 
 import io
+import json
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
+from PIL.PngImagePlugin import PngInfo
 
 from explorer.colours import colour_map
 from explorer.model.units import Units
@@ -37,7 +39,8 @@ def view_png(
     dark: bool,
 ) -> bytes:
     """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
-    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk."""
+    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk.
+    The file says the numbers of the design under `Design`."""
     rows, columns = scene.shape[:2]
     below = 0 if scale is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
@@ -61,8 +64,10 @@ def view_png(
         for percent, words in bar_ticks(*ends):
             write(x + 0.01 * _WIDTH * float(percent), y + 30, words, 16, dim, "ms")
         write(x + _WIDTH // 2, y - 8, field.label, 18, ink, "ms")
+    numbers = PngInfo()
+    numbers.add_itxt("Design", json.dumps(solution.design.to_dict(), ensure_ascii=False))
     out = io.BytesIO()
-    picture.save(out, "PNG")
+    picture.save(out, "PNG", pnginfo=numbers)
     return out.getvalue()
 
 
