@@ -55,11 +55,11 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
         assert re.fullmatch(r"[a-z0-9][a-z0-9._-]*", file := file_name(design, ending))
         assert file.endswith(f"-mu0.200{ending}")
         assert len(file) <= 60
-    spec = json.dumps(design.to_dict()["twist"])
     report = DesignReport(ReportEntry("Baseline", solve(baseline_of(design))), [ReportEntry("Now", one)], ViewState())
     page = report_html(report, None)
-    assert spec in page
-    assert page.count(spec) == 1, "in the design file alone"
+    law = design.to_dict()["twist"]
+    assert f'"twist": "{law}"' in page
+    assert "segments:" not in law or page.count(law) == 1, "in the design file alone"
     curve = PowerCurve(*np.ones((3, len(SWEEP))))
     with zipfile.ZipFile(io.BytesIO(tables_zip(one, PLAIN, curve, 65.0))) as tables:
         assert tables.namelist() == ["disk.csv", "blade.csv", "power.csv"]
