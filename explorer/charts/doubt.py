@@ -76,7 +76,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         reach = f"{number(first, 1)} … {number(last, 1)}"
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))
-    title = f"Best linear twist of this flight: {number(rate, 1)} °/R"
+    title = f"Best linear jig twist of this flight: {number(rate, 1)} °/R"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

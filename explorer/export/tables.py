@@ -201,7 +201,7 @@ def blade(design: Design) -> Markup:
     places = [shape.section_at(r) for r in stations]
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [
-        _row("Twist [°]", [number(angle, 2, sign=True) for angle in angles]),
+        _row("Jig twist [°]", [number(angle, 2, sign=True) for angle in angles]),
         _row("Chord [m]", [number(chord, 3) for chord in chords]),
         _row("Section", sections, "words"),
     ]
