@@ -52,7 +52,8 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     page.locator("[data-pin]").wait_for(state="visible")
     place = page.locator("[data-pin] b").inner_text()
     page.wait_for_function(f"() => RX.state.bar.drawer === 'probe' && ({_READY})()")
-    watched.until(lambda: watched.value("Azimuth ψ [°]") == round(psi) and watched.value("Radius r/R") == round(r, 2))
+    fields = [watched.row(label).get_by_role("textbox") for label in ("Radius r/R", "Azimuth ψ [°]")]
+    watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) == place)
     assert page.locator("[data-pin] b").inner_text() == place
     page.get_by_role("button", name="Unpin this reading").click()
     assert page.locator("[data-pin]").count() == 0
