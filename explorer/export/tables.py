@@ -159,8 +159,8 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     band = doubt(solution, other if entry is not report.reference else None)
     unit = report.units.power[0]
     rows: list[Row] = [("Power", f"± {unit.text(band.band, decimals(unit.of(band.band)))}")]
-    if (percent := band.change_band_percent) is not None:
-        rows.append(("Change", f"± {number(percent, decimals(percent))} %: {band.sureness}"))
+    if band.change_words:
+        rows.append(("Change", band.change_words))
     for row in band.rows[:MOST_ROWS]:
         size = unit.of(abs(row.power if row.change is None else row.change))
         name = f"{row.words} ± {row.size:g} {row.unit}".rstrip()

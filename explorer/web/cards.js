@@ -34,7 +34,7 @@
         <small data-explorer="within">${text(power.within)}</small></div>
       ${compared ? WITHOUT_MASS : `${since ? '' : '<div class="rxf-sub">total power</div>'}${change}`}
       <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(power.doubt)}" ${power.sure ? '' : 'hidden'}>
-        ${text(power.change_within)} %: ${text(power.sure)}</div></div>
+        ${text(power.sure)}</div></div>
       <div class="rxf-rule"></div>${compared ? '' : problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
