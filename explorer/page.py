@@ -46,6 +46,7 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.views.actuator import ACTUATOR
+from explorer.views.assessed import ASSESSED
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT, stop_here
@@ -61,7 +62,8 @@ from rotor import Design, Solution, solve
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
-PANELS = (POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, ACTUATOR, FLIGHT, PAY, DIAL)
+_ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
+PANELS = POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 _NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 
 

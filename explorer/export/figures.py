@@ -15,10 +15,10 @@ from explorer.colours import BASELINE, IDEAL
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units
 from explorer.picture.fields import Field
-from explorer.text.readout import balance, fuel_words, pair_words, signed
+from explorer.text.readout import balance, fuel_words, mass_words, needs, pair_words
 from rotor import Solution
-from rotor.actuator import Verdict, verdict_details, verdict_sentence
-from rotor.actuator.verdict import count
+from rotor.actuator import Verdict, verdict_details
+from rotor.actuator.verdict import count, reference
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.chart_svg import svg
@@ -167,20 +167,21 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
         return tag("section.actuator", title, tag("ul.care", tag("li", verdict)))
     placement, first = verdict.installed.placement, verdict.installed.actuator.name
     low, high = placement.span
-    where = f"{count(verdict)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
+    where = f"{count(verdict.installed)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
+    said = f"Against {reference(verdict)} it {needs(verdict, units)} over the flight."
     parts = tag(
         "figure.chart",
-        tag("figcaption", tag("b", "Balance of power"), unit),
+        tag("figcaption", tag("b", "Power it needs"), unit),
         _balance_bars(verdict, units),
         tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
     )
     return tag(
         "section.actuator",
         title,
-        tag("p.lead", f"{first}, {where}"),
-        tag("p.lead", verdict_sentence(verdict), class_="less" if verdict.pays else "more", data_report="verdict"),
+        tag("p.lead", f"{first}, {where}; {mass_words(verdict.installed)}"),
+        tag("p.lead", said, class_="less" if verdict.pays else "more", data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
         parts,
         tag("ul.care", [tag("li", sentence) for sentence in cares]) if cares else None,
@@ -189,9 +190,9 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
 
 def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
-    rows = balance(verdict)
+    rows = balance(verdict, units)
     ends, reached = [], 0.0
-    for k, (_, power) in enumerate(rows):
+    for k, (_, power, _) in enumerate(rows):
         start = 0.0 if k == len(rows) - 1 else reached
         ends.append((start, start + power))
         reached += power
@@ -199,13 +200,12 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     room = _WIDE - _NAME - _NUMBER
 
     def at(power: float) -> float:
-        return _NAME + room * (power - low) / max(high - low, 1.0)
+        return _NAME + room * (power - low) / max(high - low, 1e-3)
 
     height = _ROW * len(rows)
     drawn: list[Content] = [tag("line.zero", x1=at(0.0), x2=at(0.0), y1=0, y2=height)]
-    for k, ((name, power), (start, end)) in enumerate(zip(rows, ends, strict=True)):
-        text, top = signed(power, units), _ROW * k
-        kind = {"−": "more", "+": "less"}.get(text[0], "dim")
+    for k, ((name, _, text), (start, end)) in enumerate(zip(rows, ends, strict=True)):
+        top, kind = _ROW * k, {"+": "more", "−": "less"}.get(text[0], "dim")
         left, width = min(at(start), at(end)), abs(at(end) - at(start))
         weight = 650 if k == len(rows) - 1 else None
         if kind != "dim":
@@ -213,6 +213,6 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
         drawn.append(tag("text", name, x=0, y=top + 20, font_weight=weight))
         look = {"text_anchor": "end", "class_": kind, "font_weight": weight, "data_report": "balance"}
         drawn.append(tag("text", text, x=_WIDE, y=top + 20, **look))
-    said = ", ".join(f"{name} {signed(power, units)}" for name, power in rows)
+    said = ", ".join(f"{name} {text}" for name, _, text in rows)
     label, box = f"{said} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
     return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)

@@ -27,8 +27,8 @@ CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Concepts whose divisions an actuator can be laid out for before any optimum is known."""
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
 BLADES: dict[BladeKind, str] = {"retrofit": "Existing blade (retrofit)", "new": "New blade, softer in torsion"}
-AGAINST: dict[Against, str] = {"best-fixed": "Best fixed blade", "as-built": "Blade as built"}
-"""The blade that savings count from."""
+AGAINST: tuple[Against, ...] = ("same-blade", "best-fixed")
+"""The blade that every change counts from."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class ActuatorInputs:
     stiffness: float = 0.5
     """GJ of a new blade over that of the flown one."""
     concept: str = "linear"
-    against: Against = "best-fixed"
+    against: Against = "same-blade"
     advance_ratios: tuple[float, float] = (0.0, 0.3)
     drives: tuple[float, ...] = (0.0,) * MOST_SEGMENTS
     """Per cent of the positive or of the negative voltage, segments from the root."""
@@ -83,9 +83,14 @@ class ActuatorInputs:
         """The twist that the actuator adds at r/R [rad]."""
         return installed.change(self.swings(installed), r)
 
-    def tip(self, installed: InstalledActuator, design: Design) -> float:
-        """Twist of the tip [rad]: of the blade at rest where the trim is elastic."""
-        return float(np.asarray(self.swings(installed)) @ installed.shapes_in(design)[:, -1])
+    def tip(self, installed: InstalledActuator) -> float:
+        """Twist that it makes at the tip in flight [rad], nose up positive (`InstalledActuator.tip`)."""
+        return installed.tip(self.swings(installed))
+
+    def reach(self, installed: InstalledActuator) -> tuple[float, float]:
+        """The twist in flight at either end of its voltage, the lower first [rad]."""
+        low, high = (replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in (-100.0, 100.0))
+        return min(low, high), max(low, high)
 
     def apply(self, design: Design) -> Design:
         """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
@@ -120,7 +125,7 @@ class Question:
     actuator: str
     placement: Placement
     host: Host
-    against: Against = "best-fixed"
+    against: Against = "same-blade"
 
 
 def question_of(inputs: ActuatorInputs, design: Design) -> Question:

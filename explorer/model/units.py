@@ -1,6 +1,7 @@
 """The units of the page: SI, or aviation units. Everything inside the program is SI."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotor import FlightCondition, units
@@ -18,6 +19,16 @@ def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
     text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
     # A value that rounds to zero has no sign.
     return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
+
+
+def adding(values: Sequence[float], digits: int = 0) -> list[float]:
+    """Values rounded so that they add up to their rounded sum: those with the largest remainder are rounded up."""
+    scaled = [10.0**digits * value for value in values]
+    whole = [math.floor(value) for value in scaled]
+    left = round(sum(scaled)) - sum(whole)
+    for k in sorted(range(len(whole)), key=lambda k: whole[k] - scaled[k])[:left]:
+        whole[k] += 1
+    return [value / 10.0**digits for value in whole]
 
 
 def degrees(angle: float, digits: int = 2) -> str:

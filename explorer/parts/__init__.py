@@ -14,6 +14,7 @@ from rotor.chart import DrawnChart
 class Parts(TypedDict, total=False):
     """Every part by its name, and what it is."""
 
+    assessed: actuate.AssessedPart | None
     bar: frame.BarPart
     big: bool
     coarse: int

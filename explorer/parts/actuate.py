@@ -102,16 +102,38 @@ class EarnsPart:
 
     kind: Kind
     unit: str
-    problem: str
-    mission: str
     where: str = ""
     bars: tuple[Bar, ...] = ()
-    against: str = "best fixed blade"
     fuel: str = ""
     fuel_kind: Sign = ""
     fuel_note: str = ""
-    mass: str = ""
-    mass_note: str = ""
+
+
+@dataclass(frozen=True)
+class AssessedPart:
+    """The actuator as set, in words: what it moves, costs and gives, here and over the flight.
+
+    `tip`, `reach`, `wanted`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`.
+    `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
+    `sentence`: words, and every second one a number that opens what would pay; `range`: of the twist [°].
+    """
+
+    title: str
+    tip: str
+    reach: str
+    wanted: str
+    mass: str
+    masses: tuple[tuple[str, str], ...]
+    here: str
+    kind: Sign
+    flight: str
+    vibration: str
+    problem: str
+    against: str
+    baselines: tuple[tuple[str, str], ...]
+    sentence: tuple[str, ...]
+    range: float
+    kilograms: float
 
 
 @dataclass(frozen=True)

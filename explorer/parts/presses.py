@@ -70,7 +70,7 @@ class WavePress(_Fields):
 
 
 _ALONE = (
-    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "against", "apply", "discard"),
+    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "apply", "discard"),
     *("halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
 )
 """Presses whose names say it all: what comes with them is not read."""
@@ -85,6 +85,7 @@ PRESSES: dict[str, Any] = {
     "section": SectionPress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
+    "against": Literal["same-blade", "best-fixed"],
     "suppose": _Switch | SupposePress,
     "map_at": MapPress,
     "pull": _Pull,

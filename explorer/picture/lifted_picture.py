@@ -11,6 +11,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.units import number
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import Mesh
+from explorer.text.readout import mass_parts
 from rotor import Design, Solution
 from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
 from rotor.arrays import Array
@@ -136,7 +137,7 @@ def lifted_picture(
         solids["box"] = Solid(box, SURFACES["box"])
     rings = twist(blade.r)
     ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
-    labels, leaders = _labels(inputs, installed, blade, twist, inputs.tip(installed, design))
+    labels, leaders = _labels(inputs, installed, blade, twist, inputs.tip(installed))
     return LiftedPicture(
         solids,
         {
@@ -197,18 +198,20 @@ def _labels(
         foot = lifted.anchor(blade, r, y, z, float(twist(np.array([r]))[0]))
         places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
 
-    if not isinstance(installed.actuator, ExtensionTwist):
-        put(
-            f"Drive electronics, {number(installed.masses.electronics, 1)} kg in all",
-            sum(blade.box) / 2.0,
-            0.0,
-            0.1,
-            0.95,
-        )
+    masses = mass_parts(installed)
+    named = {name: f"{mass} kg of {name}" for name, mass in masses.items()}
+    inner, outer = blade.spans[0][0], blade.spans[-1][1]
+    for name, r, y, above in (
+        ("electronics", sum(blade.box) / 2.0, 0.0, 0.95),
+        ("leads", 0.5 * (blade.box[1] + inner), 0.09, 0.45),
+        ("nose weight", inner + 0.88 * (outer - inner), 0.2, 0.5),
+    ):
+        if name in named:
+            put(named[name], r, y, 0.1 if name == "electronics" else 0.02, above)
     for k, (low, high) in enumerate(blade.spans):
         drive = drive_text(inputs, installed, k)
-        text = f"{_what(inputs, installed)}: {drive}" if not k else f"{k + 1}: {drive}"
-        put(text, low + 0.56 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
+        text = f"{_what(inputs, installed, named)}, {drive}" if not k else f"{k + 1}: {drive}"
+        put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
         words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TIMES:g}"
         put(words, 1.0, -0.52, 0.0, -0.45, "tip")
@@ -216,13 +219,10 @@ def _labels(
     return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
 
 
-def _what(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
-    """The actuator where it sits, in words."""
-    placement, mass = installed.placement, f"{number(installed.masses.actuator, 1)} kg in each blade"
+def _what(inputs: ActuatorInputs, installed: InstalledActuator, masses: dict[str, str]) -> str:
+    """The actuator where it sits, and what it weighs in all blades."""
+    placement, actuator = installed.placement, installed.actuator
     where = "{:.2f}–{:.2f} R".format(*placement.span)
-    if isinstance(installed.actuator, PiezoPly):
-        plies, angle = "ply" if placement.plies == 1 else "plies", "−45" if inputs.crossed else "45"
-        return f"{placement.plies} {plies} a side at {angle}°, {where}: {mass.replace(' in', ' of plies in')}"
-    if isinstance(installed.actuator, TorqueTube):
-        return f"{installed.actuator.name}, {where}, {mass}"
-    return installed.actuator.name
+    if isinstance(actuator, PiezoPly):
+        return f"{masses['plies']}: {placement.plies} a side at {'−45' if inputs.crossed else '45'}°, {where}"
+    return f"{masses['tubes']}: {where}" if isinstance(actuator, TorqueTube) else actuator.name

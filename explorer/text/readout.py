@@ -10,11 +10,10 @@ import numpy as np
 
 from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
-from explorer.model.units import BLANK, SI, Units, number
+from explorer.model.units import BLANK, SI, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
-from rotor.actuator import Verdict
-from rotor.actuator.installation import MassBreakdown
+from rotor.actuator import InstalledActuator, PiezoPly, Verdict
 from rotor.markup import Content, Markup, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.trim.doubt import sureness
@@ -275,15 +274,19 @@ def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | Non
     return tag("tr", tag("td", title), [tag("td.rx-num", value) for value in values], class_=kind, title=tooltip)
 
 
-def signed(power: float, units: Units) -> str:
-    """A saving [W] in the main unit, with one decimal."""
-    return number(units.power[0].of(power), 1, sign=True)
+def digits_of(power: float, units: Units) -> int:
+    """Decimals of a power [W] in the main unit: models do not agree to a tenth."""
+    return 0 if round(abs(units.power[0].of(power)), 1) >= 10.0 else 1
 
 
-def balance(verdict: Verdict) -> list[tuple[str, float]]:
-    """Name and saving [W] of each part, and of what is left."""
-    parts = [(name if not k else f"− {name}", power) for k, (name, power) in enumerate(verdict.savings)]
-    return [*parts, ("= net", verdict.net_saving)]
+def balance(verdict: Verdict, units: Units) -> list[tuple[str, float, str]]:
+    """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up."""
+    digits = digits_of(verdict.net_saving, units)
+    exact = [-units.power[0].of(power) for _, power in verdict.savings]
+    names = ["its twist" if name == "gross" else name for name, _ in verdict.savings]
+    written = adding(exact, digits)
+    rows = zip((*names, "in all"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
+    return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]
 
 
 def needs(verdict: Verdict, units: Units) -> str:
@@ -294,25 +297,36 @@ def needs(verdict: Verdict, units: Units) -> str:
 
 
 def needs_words(net: float, band: float | None, units: Units) -> str:
-    """A net saving [W] in words, with its band [W]."""
-    unit = units.power[0]
-    digits = 0 if abs(unit.of(net)) >= 10.0 else 1  # Models do not agree to a tenth.
-    size = unit.text(abs(net), digits)
-    words = f"saves {size}" if net > 0.0 else f"needs {size} more"
-    return words if band is None else f"{words} (± {unit.text(band, digits)}: {sureness(net, band)})"
+    """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more`."""
+    unit, digits = units.power[0], digits_of(net, units)
+    size = number(abs(unit.of(net)), digits)
+    if band is not None:
+        size += f" ± {number(math.ceil(10.0**digits * unit.of(band)) / 10.0**digits, digits)}"
+    words = f"saves {size} {unit.symbol}" if net > 0.0 else f"needs {size} {unit.symbol} more"
+    told = "sure" if band is None else sureness(net, band)
+    return words if told == "sure" else f"{words} ({told})"
 
 
-def mass_words(masses: MassBreakdown) -> str:
-    """What an actuator adds to the aircraft, part by part."""
-    parts = {"actuator": masses.actuator, "wiring": masses.wiring, "nose weight": masses.balance}
-    each = " + ".join(f"{name} {number(mass, 1)}" for name, mass in parts.items() if mass)
-    electronics = f" + electronics {number(masses.electronics, 1)} kg" if masses.electronics else ""
-    return f"{masses.blades} blades × {number(masses.blade, 1)} kg ({each or 'nothing added'}){electronics}"
+def mass_parts(installed: InstalledActuator) -> dict[str, str]:
+    """What an actuator adds to the aircraft: kilograms of each part in all blades, which add up to those in all."""
+    masses, blades = installed.masses, installed.masses.blades
+    made = "plies" if isinstance(installed.actuator, PiezoPly) else "tubes"
+    parts = {
+        made: blades * masses.actuator,
+        "electronics": masses.electronics,
+        "leads": blades * masses.wiring,
+        "nose weight": blades * masses.balance,
+    }
+    digits = 0 if masses.aircraft >= 10.0 else 1
+    values = adding(list(parts.values()), digits)
+    words = {name: number(value, digits) for name, value in zip(parts, values, strict=True) if value}
+    return {**words, "in all": f"{number(sum(values), digits)} kg"}
 
 
-def fuel_used(verdict: Verdict) -> float | None:
-    """More fuel than without the actuator [kg/h]; None where the engines have no source."""
-    return None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
+def mass_words(installed: InstalledActuator) -> str:
+    """Its mass on board, and of what."""
+    *parts, (_, total) = mass_parts(installed).items()
+    return f"{total}: {', '.join(f'{name} {mass}' for name, mass in parts)}" if parts else total
 
 
 def fuel_words(saved: float | None) -> str:

@@ -12,8 +12,9 @@ import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import BASELINE, NOW, THIS
-from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, Outcome, Question
-from explorer.model.units import number
+from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Outcome, Question
+from explorer.model.units import Units, number
+from explorer.text.readout import balance, mass_parts
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
 from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
@@ -56,14 +57,14 @@ def view(now: Now) -> dict[str, Any]:
         "actuator.form": form_look(inputs, installed),
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
-        "actuator.now": words.now_panel(inputs, installed, state.solution),
+        "actuator.now": words.now_panel(inputs, installed),
         "actuator.details": words.details_panel(verdict),
-        "actuator.numbers": words.fit_panel(installed, verdict),
+        "actuator.numbers": words.fit_panel(installed, verdict, now.units),
         _CHART: drawn_chart(reach_chart(inputs, installed, verdict, root, now.memory.ranges.get(_CHART))),
         "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
         "actuator.modes": words.modes_panel(one.modes),
-        "actuator.table": table_panel(one.outcomes, one.question),
+        "actuator.table": table_panel(one.outcomes, one.question, now.units),
     }
 
 
@@ -116,28 +117,29 @@ def _form_elsewhere(now: Now) -> dict[str, FormLook]:
         return {}
 
 
-def other_baseline(now: Now, value: object) -> tuple[Effect, ...]:
-    """Count savings from the other blade."""
-    return (SetHand(actuator={"against": next(one for one in AGAINST if one != now.hand.actuator.against)}),)
-
-
 def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
     """The lifted blade was taken (None), or its trailing edge is pulled up by this share of the full drive."""
     one, inputs = built(now), now.hand.actuator
     if one is None:
         return ()
     if share is None:
-        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed, one.design)
+        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed)
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
     return (SetHand({"flown": None}, {"drives": drives}),)
 
 
-def table_panel(outcomes: Mapping[str, Outcome | None], question: Question) -> Markup:
+def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:
     """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
-    rows = [_row(id, outcomes.get(id), id == question.actuator) for id in actuators()]
-    titles = ("Actuator", ("range", tag("br"), "°"), ("kg in", tag("br"), "all"), ("needs", tag("br"), "kW"), "verdict")
+    rows = [_row(id, outcomes.get(id), id == question.actuator, units) for id in actuators()]
+    titles = (
+        "Actuator",
+        ("range", tag("br"), "°"),
+        ("kg in", tag("br"), "all"),
+        ("needs", tag("br"), units.power[0].symbol),
+        "verdict",
+    )
     head = tag("tr", [tag("th", title) for title in titles])
     first, second = question.pair.advance_ratios
     note = (
@@ -148,7 +150,7 @@ def table_panel(outcomes: Mapping[str, Outcome | None], question: Question) -> M
     return tag("div.rx", table, tag("div.rx-dim.rx-small", note), data_explorer="actuator-table")
 
 
-def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
+def _row(id: str, outcome: Outcome | None, chosen: bool, units: Units) -> Markup:
     actuator = find_actuator(id)
     care = " ", tag("span.rxa-bad", "▲", title="some data not verified")
     cells: Content = tag("td.rx-num.rx-dim", "computing…", colspan=4)
@@ -158,8 +160,8 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> Markup:
         words, kind = _short_verdict(outcome)
         numbers = (
             number(math.degrees(outcome.attainable), 1),
-            number(outcome.installed.masses.aircraft),
-            number(-1e-3 * outcome.net_saving, 1, sign=True),
+            mass_parts(outcome.installed)["in all"].removesuffix(" kg"),
+            balance(outcome, units)[-1][-1],
         )
         verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
         cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
@@ -210,4 +212,4 @@ def reach_chart(
     return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
 
 
-ACTUATOR = Panel(view, in_actuate, asks, remember=remember, presses={"against": other_baseline, "pull": pull})
+ACTUATOR = Panel(view, in_actuate, asks, remember=remember, presses={"pull": pull})

@@ -3,13 +3,14 @@
 import math
 from functools import lru_cache
 
+import numpy as np
+
 from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
-from explorer.model.units import number
+from explorer.model.units import Units, number
 from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
-from rotor import Solution
 from rotor.actuator.catalogue import Actuator, PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import ActuatorStability, Limit
@@ -19,6 +20,7 @@ from rotor.markup import Attribute, Markup, group, tag
 from rotor.units import typographic
 
 _NONE = "–"
+TIP = "What the actuator adds in flight, at the tip: positive is nose up. Nominal, of the rotating blade."
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 """The outer numbers stay within the bar."""
 
@@ -39,16 +41,16 @@ def voltage_bar(actuator: Actuator) -> Markup:
     return tag("div.rx.rx-scale", colours, tag("div.rx-ticks", ticks), data_explorer="voltage-bar")
 
 
-def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, solution: Solution) -> Markup:
-    """What the sliders make of the blade at this moment. `solution` with the actuator."""
-    tip = math.degrees(inputs.tip(installed, solution.design))
+def now_panel(inputs: ActuatorInputs, installed: InstalledActuator) -> Markup:
+    """What the sliders make of the blade at this moment."""
+    tip = math.degrees(inputs.tip(installed))
     drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
     words = f"tip twist at {drives}" if inputs.driven else "tip twist, at rest"
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
-    return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words)), data_explorer="actuator-now")
+    return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP), data_explorer="actuator-now")
 
 
-def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
+def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Units) -> Markup:
     """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
     masses, whole = installed.masses, "Whole range"
     if isinstance(installed.actuator, PiezoPly):
@@ -56,16 +58,16 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
         whole = f"{number(low)} to {number(high, sign=True)} V"
     entries = [
         ("Twist required", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
-        ("Added mass", f"{number(masses.aircraft)} kg"),
+        ("On the blade at rest", f"{number(math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum())), 2)}°"),
         (whole, f"{number(math.degrees(installed.attainable), 2)}°"),
         ("On each blade", f"{number(masses.blade, 1)} kg"),
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
-        ("Unlimited twist", _NONE if verdict is None else f"{number(1e-3 * verdict.ideal_saving, 1, sign=True)} kW"),
+        ("Unlimited twist", _NONE if verdict is None else units.watts(-verdict.ideal_saving, 1, sign=True)),
     ]
     lines = [tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value)) for name, value in entries]
-    built = tag("div.rx-dim.rx-small", f"{mass_words(masses)}.")
+    built = tag("div.rx-dim.rx-small", f"{mass_words(installed)}.")
     return tag("div.rx", tag("div.rx-grid", lines), built, data_explorer="actuator-numbers")
 
 

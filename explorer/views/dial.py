@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AGAINST
 from explorer.model.units import number
 from explorer.parts.actuate import DialPart, Settled
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import built, in_actuate
-from explorer.views.dial_answer import HARMONICS, DialAnswer, Fitted, FrontDot, compared, dial_answer
+from explorer.views.actuated import in_actuate
+from explorer.views.assessed import effect_asked, fitted, here, pair_compared
+from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer
 from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
-from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
+from rotor.actuator import EffectInFlight, Programme, programmes, steady_room
 from rotor.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.design import Harmonic
 from rotor.markup import tag
@@ -44,31 +44,15 @@ _URGENCY, _STILL = 3, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
-def _fitted(now: Now) -> Fitted | None:
-    if (one := built(now)) is None:
-        return None
-    inputs = now.hand.actuator
-    fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
-    twist = one.design.twist if inputs.against == "as-built" else fixed
-    against = AGAINST[inputs.against]
-    return Fitted(one.installed, inputs.volts(one.installed), twist, f"the {against[0].lower()}{against[1:]}")
-
-
 def _asked(now: Now) -> tuple[Call | None, Call | None]:
     """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
-    state, fitted = now.state, now.of(_fitted)
-    if state is None or now.sliders is None or now.problem:
-        return None, None
-    pair = compared(state.solution.design, now.sliders, fitted)
-    if pair is None:
-        return None, None
-    trimmed = Call(effect, pair)
-    if why_no_hub_loads(state.solution.design) is not None:
-        return trimmed, None
-    losses = (0.0,) * len(HARMONICS) if fitted is None else tuple(fitted.losses)
-    reach = 0.0 if fitted is None else round(fitted.whole, 2)
+    pair, on_blade = now.of(pair_compared), now.of(fitted)
+    if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
+        return now.of(effect_asked), None
+    losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
+    reach = 0.0 if on_blade is None else round(on_blade.whole, 2)
     shaped = with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),))
-    return trimmed, Call(dial_answer, (shaped, pair[1], losses, reach or _FRONT_REACH))
+    return now.of(effect_asked), Call(dial_answer, (shaped, pair[1], losses, reach or _FRONT_REACH))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
@@ -100,14 +84,11 @@ def view(now: Now) -> dict[str, Any]:
 
 
 def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
-    fitted, waves, unit = now.of(_fitted), now.inputs.twist_per_rev, now.units.power[0]
-    whole = 0.0 if fitted is None else fitted.whole
-    losses = {} if fitted is None else dict(zip(HARMONICS, fitted.losses, strict=True))
-    drive = sum(losses.get(wave.per_rev, 0.0) * _polar(wave)[0] ** 2 for wave in waves)
-    moved, settled = now.answers.get(now.of(_asked)[0]), None
+    on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
+    whole = 0.0 if on_blade is None else on_blade.whole
+    moved, settled = now.of(here), None
     if isinstance(moved, EffectInFlight):
-        power = tuple(unit.of(change + drive) for change in moved.power)
-        settled = Settled(power, tuple(round(change, 2) for change in moved.index))
+        settled = Settled(tuple(map(unit.of, moved.power)), tuple(round(change, 2) for change in moved.index))
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -117,13 +98,13 @@ def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart
         now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
         reach=reach,
         whole=round(whole, 4),
-        room=0.0 if fitted is None else round(steady_room(fitted.installed, fitted.volts), 4),
+        room=0.0 if on_blade is None else round(steady_room(on_blade.installed, on_blade.volts), 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
         computing=not words and not isinstance(answer, DialAnswer),
         settled=settled,
         problem=moved if isinstance(moved, str) else "",
-        against="the same blade at rest" if fitted is None else fitted.against,
+        against="the same blade at rest" if on_blade is None else on_blade.against,
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),

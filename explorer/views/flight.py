@@ -14,11 +14,11 @@ import numpy as np
 from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
 from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
-from explorer.text.readout import fuel_used, fuel_words, mass_words, needs, pair_words, signed
+from explorer.text.readout import balance, fuel_words, pair_words
 from explorer.views.actuated import Built, built, in_actuate
+from explorer.views.assessed import assessed
 from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
-from rotor.actuator.verdict import reference
 from rotor.arrays import Array
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 
@@ -30,7 +30,6 @@ _LEAST = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
 _SHORT = 0.15
 """What is wanted beyond reach [°] and not worth a word."""
-_COMPUTING = "Computing what the actuator saves and what it costs…"
 _GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
 
 
@@ -84,7 +83,8 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
     known = one.flight if isinstance(one.flight, ActuatorFlight) else None
     problem = one.flight if isinstance(one.flight, str) else wrong
     shown = None if problem else known or _last(now)
-    tip = math.degrees(hand.actuator.tip(one.installed, one.design))
+    value = assessed(now)
+    tip = math.degrees(0.0 if value is None else value.tip)
     frozen = tip if hand.stopped else None
     return FlightPart(
         legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
@@ -157,31 +157,25 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
 
     `known`: the verdict is that of the present question, else one before.
     """
-    unit = units.power[0]
     kind: Kind = "ready" if known and verdict else "problem" if problem else "computing"
-    state = EarnsPart(kind, unit.symbol, problem, "" if problem else _COMPUTING)
+    state = EarnsPart(kind, units.power[0].symbol)
     if verdict is None:
         return state
-    used, masses, where = fuel_used(verdict), verdict.installed.masses, pair_words(verdict)
-    bars = [_bar("its twist" if name == "gross" else name, -power, units) for name, power in verdict.savings]
+    used = None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
+    rows = balance(verdict, units)
+    bars = (Bar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
     return replace(
         state,
-        where=where,
-        bars=(*bars, _bar("in all", -verdict.net_saving, units, total=True)),
-        against=reference(verdict).removeprefix("the "),
+        where=pair_words(verdict),
+        bars=tuple(bars),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
-        mass=f"{number(masses.aircraft)} kg on board",
-        mass_note=mass_words(masses),
-        mission=f"{where[:1].upper()}{where[1:]}: {needs(verdict, units)}.",
     )
 
 
-def _bar(name: str, power: float, units: Units, total: bool = False) -> Bar:
-    text = signed(power, units)
-    kind: Sign = "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
-    return Bar(name, round(units.power[0].of(power), 3), text, kind, total)
+def _sign(text: str) -> Sign:
+    return "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
 
 
 def asks(now: Now) -> tuple[Asked, ...]:

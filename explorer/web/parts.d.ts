@@ -1,6 +1,7 @@
 // Made by `python -m tests.tools.page_types` from explorer/parts and presses.PRESSES: change those.
 
 interface RxState {
+  assessed: RxAssessedPart | null;
   bar: RxBarPart;
   big: boolean;
   coarse: number;
@@ -44,7 +45,6 @@ interface RxPresses {
   times: any;
   pace: any;
   play: any;
-  against: any;
   apply: any;
   discard: any;
   halt: any;
@@ -77,6 +77,7 @@ interface RxPresses {
   section: RxSectionPress;
   azimuth: number;
   fly: number;
+  against: 'same-blade' | 'best-fixed';
   suppose: 'on' | 'off' | RxSupposePress;
   map_at: RxMapPress;
   pull: number | null;
@@ -88,6 +89,25 @@ interface RxPresses {
   idle: RxIdlePress;
   knot: RxKnotPress;
   dial: 'start' | 'end' | RxWavePress[];
+}
+
+interface RxAssessedPart {
+  title: string;
+  tip: string;
+  reach: string;
+  wanted: string;
+  mass: string;
+  masses: [string, string][];
+  here: string;
+  kind: '' | 'gain' | 'loss';
+  flight: string;
+  vibration: string;
+  problem: string;
+  against: string;
+  baselines: [string, string][];
+  sentence: string[];
+  range: number;
+  kilograms: number;
 }
 
 interface RxBarPart {
@@ -220,16 +240,11 @@ interface RxDialNumbers {
 interface RxEarnsPart {
   kind: 'ready' | 'computing' | 'problem';
   unit: string;
-  problem: string;
-  mission: string;
   where: string;
   bars: RxBar[];
-  against: string;
   fuel: string;
   fuel_kind: '' | 'gain' | 'loss';
   fuel_note: string;
-  mass: string;
-  mass_note: string;
 }
 
 interface RxBar {

@@ -22,7 +22,7 @@ from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amp
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, Supposed, break_even, pay_sentence, suppose
+from rotor.actuator.pay import BreakEven, OtherStroke, Supposed, break_even, other_stroke, pay_sentence, suppose
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.stopped import failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -39,6 +39,7 @@ __all__ = (
     "FlightLeg",
     "Host",
     "InstalledActuator",
+    "OtherStroke",
     "PiezoPly",
     "Placement",
     "Programme",
@@ -56,6 +57,7 @@ __all__ = (
     "fly",
     "install",
     "judge",
+    "other_stroke",
     "pay_sentence",
     "programmes",
     "standard_flight",

@@ -49,8 +49,8 @@ UNLIMITED = math.radians(20.0)
 class ActuatorFlight:
     """An actuator over the legs of a flight. It pickles, and holds no solution.
 
-    Twists are of the tip relative to the root, less that of the blade with no voltage (a tube at rest) [rad]; of the
-    blade at rest where the trim is elastic. Powers are of all rotors [W]. Arrays are (legs,).
+    Twists are what the actuator adds at the tip in flight (`InstalledActuator.tip`), less that with no voltage (a tube
+    at rest) [rad]. Powers are of all rotors [W]. Arrays are (legs,).
     """
 
     legs: tuple[FlightLeg, ...]
@@ -101,7 +101,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     window = np.sort(undriven[:, None] + np.outer(per_unit, drives), axis=1)
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
-    shapes = installed.shapes_in(pair.design)[:, -1]
+    shapes = installed.shapes[:, -1]
     unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), NOTHING), (-1.0, 1.0))
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
     powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "with")}
@@ -127,7 +127,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         swings.append(reached.swings[0])
         designs.append(driven)
     power_of = {name: np.array(values) for name, values in powers.items()}
-    counted = power_of["built" if verdict.against == "as-built" else "fixed"]
+    counted = power_of["built" if verdict.against == "same-blade" else "fixed"]
     ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     volts = (np.array(swings) - undriven) / per_unit
     engines = engines_of(pair.design.aircraft)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
+from rotor.optimisation.doubt import mean_doubt
 from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
@@ -49,6 +50,8 @@ class EffectInFlight:
     """[W]"""
     index: tuple[float, ...]
     """Change of the vibration index [%]; empty where there are no hub loads, as of blades that do not bend."""
+    band: float | None = None
+    """Of the first power by uncertain inputs, to both sides [W]."""
 
 
 def effect(design: Design, reference: Design) -> EffectInFlight:
@@ -57,7 +60,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     `design`: with the actuator's mass and stiffness on board (`with_actuator_mass`). RuntimeError where it does not
     trim with its own inflow model.
     """
-    power, index = list[float](), list[float]()
+    power, index, doubt = list[float](), list[float](), None
     shaken = design.models.bending and why_no_hub_loads(design) is None
     for inflow in dict.fromkeys((design.models.inflow, *BAND)):
         flown = replace(design, models=replace(design.models, inflow=inflow))
@@ -66,12 +69,13 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
         if inflow == design.models.inflow:
             one.require()
             other.require()
+            doubt = mean_doubt((1.0,), (one,), (other,))
         if one.converged and other.converged:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:
                 here, there = (hub_index(trim.adjoint) for trim in trims)
                 index.append(100.0 * (here / there - 1.0))
-    return EffectInFlight(tuple(power), tuple(index))
+    return EffectInFlight(tuple(power), tuple(index), None if doubt is None else doubt.change_band)
 
 
 def _pitching(solution: Solution) -> float:

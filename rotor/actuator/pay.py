@@ -19,8 +19,9 @@ from scipy.optimize import minimize_scalar
 
 from rotor.actuator.catalogue import engines_of
 from rotor.actuator.installation import heavier
-from rotor.actuator.optimum import Baseline, ConditionPair, baseline
+from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actuated
 from rotor.actuator.section import default_placement
+from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array, read_only
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
@@ -198,6 +199,57 @@ def with_mass(design: Design, mass: float) -> Design:
     else:
         raise ValueError("the collective is given, so the rotor carries no weight: give the stand a thrust")
     return replace(loaded, condition=replace(loaded.condition, stand=more))
+
+
+@dataclass(frozen=True, eq=False)
+class OtherStroke:
+    """What the actuator of a verdict would save with another stroke and another mass, counted as the verdict counts.
+
+    Stiffness, shape and drive are its own, so that its own stroke and mass save what the verdict says.
+    """
+
+    twists: Array
+    """Range of the tip in flight, ascending from none [rad], (strokes,)."""
+    saved: Array
+    """Before its mass [W], (strokes,); never falling."""
+    per_kg: float
+    """Power that a kilogram on board costs [W]."""
+
+    def net(self, twist: float, mass: float) -> float:
+        """Saving of a range of twist [rad] and a mass of all blades [kg]; what exceeds the line's range is not used."""
+        return float(np.interp(twist, self.twists, self.saved)) - self.per_kg * mass
+
+    def mass_allowed(self, twist: float) -> float:
+        """Mass of all blades that just pays [kg]; 0 where the twist alone costs more."""
+        return max(0.0, self.net(twist, 0.0) / self.per_kg)
+
+    def twist_for(self, mass: float) -> float | None:
+        """Least range of twist that pays for a mass of all blades [kg]; None where none does."""
+        cost = self.per_kg * mass
+        return float(np.interp(cost, self.saved, self.twists)) if cost <= self.saved[-1] else None
+
+
+STROKES = (0.5, 2.0, 4.0)
+"""Of the actuator's own, beside none and all of it."""
+
+
+def other_stroke(verdict: Verdict) -> OtherStroke:
+    """The line of a verdict, by an optimum of the same flights for each of `STROKES`; a second each.
+
+    ValueError for an actuator that has no mass, RuntimeError where nothing trims.
+    """
+    installed, base = verdict.installed, verdict.baseline
+    mass = installed.masses.aircraft
+    if not mass:
+        raise ValueError(f"{installed.actuator.name} adds no mass: there is none that would pay")
+    powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
+    for stroke in STROKES:
+        start = [verdict.resting.values]
+        powers[stroke] = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start).power
+    strokes = np.array(sorted(powers))
+    power = np.minimum.accumulate([powers[stroke] for stroke in strokes.tolist()])
+    saved = verdict.reference_power - verdict.drive.hold_power - power
+    return OtherStroke(strokes * installed.attainable, saved, verdict.mass_cost / mass)
 
 
 @dataclass(frozen=True, eq=False)

@@ -116,8 +116,9 @@ def _ply_properties(actuator: Actuator) -> Row:
 
 def table_5_2(pair: ConditionPair, *, placement: Placement | None = None, host: Host | None = None) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
+    placement = placement or default_placement()
     verdicts = [
-        judge(find_actuator(id), pair, find_concept(name), placement or default_placement(), host)
+        judge(find_actuator(id), pair, find_concept(name), placement, host, against="best-fixed")
         for id in COMPARED_ACTUATORS
         for name in COMPARED_CONCEPTS
     ]
@@ -142,7 +143,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def _comparison(verdict: Verdict) -> Row:
     installed = verdict.installed
     return {
-        "actuator": f"{installed.actuator.id}, {count(verdict)}",
+        "actuator": f"{installed.actuator.id}, {count(installed)}",
         "concept": verdict.baseline.concept.name,
         "blade": installed.host.label,
         "needed °": f"{math.degrees(verdict.required):.2f}",

@@ -31,8 +31,8 @@ from rotor.trim.solve import solve
 
 NOTHING = 1e-6
 """Least twist used as a divisor [rad]."""
-Against = Literal["best-fixed", "as-built"]
-"""The blade that savings are counted from."""
+Against = Literal["same-blade", "best-fixed"]
+"""The blade that savings are counted from: the same one without the actuator, or the best fixed one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +50,8 @@ class Verdict:
     optimum: TwistOptimum
     """The best twist within the actuator's range, at both conditions."""
     resting: TwistOptimum
-    """The blade with the actuator's stiffness and inertia but no voltage: twist as built for a retrofit, else the best
-    fixed jig twist. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
+    """The blade with the actuator's stiffness and inertia but no voltage: its own jig twist for a retrofit, else the
+    best fixed one. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
     reference_powers: tuple[float, float]
     """Powers of the blade that savings are counted from, by condition [W]."""
     bare_power: float
@@ -134,6 +134,12 @@ class Verdict:
         return self.baseline.pair.mean(self.loaded_powers) - self.optimum.power
 
     @property
+    def mass_allowed(self) -> float | None:
+        """Mass on board with which what its twist saves just pays [kg]; None for an actuator without mass."""
+        mass = self.installed.masses.aircraft
+        return max(0.0, mass * (1.0 + self.net_saving / self.mass_cost)) if mass else None
+
+    @property
     def drive_cost(self) -> float:
         """Power that holding the twist takes [W]."""
         return self.drive.hold_power
@@ -190,13 +196,13 @@ def try_actuator(
     plies: int = 2,
     share: float = 0.5,
     new_blade: bool = False,
-    against: Against = "best-fixed",
+    against: Against = "same-blade",
 ) -> Verdict:
     """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
 
     name: an actuator of `actuators()`, for example `MFC_P1`. share: fraction of time at the second advance ratio.
     new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit.
-    against: savings count from the concept's best fixed blade, or from the blade `as-built`.
+    against: savings count from the `same-blade` without the actuator, or from the concept's best fixed one.
 
     ValueError with one sentence for what cannot be used, RuntimeError where nothing trims.
     """
@@ -213,7 +219,7 @@ def judge(
     placement: Placement,
     host: Host | None = None,
     *,
-    against: Against = "best-fixed",
+    against: Against = "same-blade",
 ) -> Verdict:
     """Install the actuator, find the best twist within its range, add its mass, and compute the net saving.
 
@@ -226,11 +232,11 @@ def judge(
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     resting, counted_from = base.fixed, list(base.fixed.solutions)
-    if host.kind == "retrofit" or against == "as-built":
+    if host.kind == "retrofit" or against == "same-blade":
         built = [solve(design).require() for design in pair.designs()]
         if host.kind == "retrofit":
             resting = TwistOptimum((), (), (), pair.mean(_totals(built)))
-        if against == "as-built":
+        if against == "same-blade":
             counted_from = built
     bare_power, free = resting.power, [best.power for best in base.best]
     if pair.design.elastic:
@@ -303,7 +309,8 @@ def verdict_details(verdict: Verdict) -> str:
 
 def reference(verdict: Verdict) -> str:
     """The blade that all savings of a verdict count from."""
-    return "the blade as built" if verdict.against == "as-built" else "the best fixed blade"
+    same = "the same blade without it" if verdict.installed.host.kind == "retrofit" else "the present blade"
+    return same if verdict.against == "same-blade" else "the best fixed blade"
 
 
 def _broken(verdict: Verdict) -> str:
@@ -313,7 +320,7 @@ def _broken(verdict: Verdict) -> str:
 def _reach(verdict: Verdict) -> str:
     """Twist supplied against twist needed."""
     installed = verdict.installed
-    what = f"{installed.actuator.name} ({count(verdict)}, {installed.host.label})"
+    what = f"{installed.actuator.name} ({count(installed)}, {installed.host.label})"
     first, second = (flight(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
     can = "can supply" if verdict.feasible else "cannot supply"
@@ -326,7 +333,7 @@ def _savings(verdict: Verdict) -> str:
     start = verdict.reference_power - verdict.bare_power
     parts = [f"Against {reference(verdict)} its twist {_change(verdict.gross_saving)}"]
     if abs(start) >= PRINTED:
-        parts[0] += f", where the twist as built {_change(start)}"
+        parts[0] += f", where its jig twist {_change(start)}"
     if abs(verdict.stiffness_cost) >= PRINTED:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")
@@ -341,9 +348,8 @@ def _change(saving: float) -> str:
     return f"saves {kw(saving)}" if saving > 0.0 else f"costs {kw(-saving)}"
 
 
-def count(verdict: Verdict) -> str:
+def count(installed: InstalledActuator) -> str:
     """Number of plies or tubes as text; "passive" for a laminate."""
-    installed = verdict.installed
     if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
     single, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")

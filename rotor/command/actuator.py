@@ -49,9 +49,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
     parser.add_argument(
         "--against",
-        choices=("best-fixed", "as-built"),
-        default="best-fixed",
-        help="the blade that savings count from: the concept's best fixed one (default) or the twist as built",
+        choices=("same-blade", "best-fixed"),
+        default="same-blade",
+        help="the blade that savings count from: the same without the actuator (default) or the best fixed one",
     )
     parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     parser.add_argument(

@@ -18,7 +18,7 @@ from rotor.design.active_twist import Harmonic, read_harmonics
 from tests.actuate import actuate, asked, told
 
 BENDING = Inputs(law="builtin", advance_ratio=0.3, bending=True)
-AS_BUILT = ActuatorInputs(against="as-built")
+SAME = ActuatorInputs(against="same-blade")
 NUMBERS = DialNumbers([0.0], [[0.0]], [[[0.0]]], [0.0], 1e6, 5.0)
 WAVES = (Harmonic(2, math.radians(0.804), 4.0), Harmonic(3, math.radians(0.5), 0.8))
 DOTS = (FrontDot((), -0.5, 3.0, (1.0, 4.0)), FrontDot(WAVES, 0.4, -60.0, (-70.0, 20.0)))
@@ -32,8 +32,8 @@ def dial(now: Now) -> DialPart:
 
 @pytest.fixture(scope="module")
 def asking() -> Now:
-    """Against the blade as built, which needs no verdict."""
-    return actuate(BENDING, actuator=AS_BUILT)
+    """Against the same blade, which needs no verdict."""
+    return actuate(BENDING, actuator=SAME)
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +43,14 @@ def answered(asking: Now) -> Now:
 
 def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
     """The best fixed blade is found by the verdict."""
-    unknown = replace(asking, hand=replace(asking.hand, actuator=ActuatorInputs()))
+    unknown = replace(asking, hand=replace(asking.hand, actuator=ActuatorInputs(against="best-fixed")))
     assert asked(DIAL, unknown) == {}
     assert (dial(unknown).computing, dial(unknown).against) == (True, "the best fixed blade")
-    assert (dial(asking).computing, dial(asking).settled, dial(asking).against) == (True, None, "the blade as built")
+    assert (dial(asking).computing, dial(asking).settled, dial(asking).against) == (
+        True,
+        None,
+        "the same blade without it",
+    )
     assert [(one.urgency, one.delay) for one in DIAL.asks(asking)] == [(3, 0.4)]
     designs = [one.twist for one in asked(DIAL, asking)["effect"].arguments if isinstance(one, Design)]
     assert designs == [BENDING.design().twist] * 2
@@ -68,7 +72,7 @@ def test_what_is_answered_is_shown(answered: Now):
 
 
 def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered: Now):
-    driven = replace(answered, hand=replace(answered.hand, actuator=replace(AS_BUILT, drives=(50.0,) * 4)))
+    driven = replace(answered, hand=replace(answered.hand, actuator=replace(SAME, drives=(50.0,) * 4)))
     assert dial(driven).room < 1.0
     wide = replace(answered, inputs=replace(BENDING, twist_per_rev=read_harmonics("3:2.2:60", "test")))
     assert dial(wide).reach == 3.0
@@ -79,7 +83,7 @@ def test_what_fails_is_a_sentence(answered: Now):
     calls = asked(DIAL, answered)
     failed = replace(answered, answers={calls["effect"]: "No trim.", calls["dial_answer"]: "No response."})
     assert (dial(failed).problem, dial(failed).words, dial(failed).computing) == ("No trim.", "No response.", False)
-    slow = actuate(replace(BENDING, advance_ratio=0.02), actuator=AS_BUILT)
+    slow = actuate(replace(BENDING, advance_ratio=0.02), actuator=SAME)
     assert "No hub loads below" in dial(slow).words
     assert list(asked(DIAL, slow)) == ["effect"]
     untrimmed = replace(answered, problem="No trim there.")

@@ -6,7 +6,7 @@ from typing import Any
 
 import viser
 
-from explorer.model.actuator_inputs import AGAINST, BLADES, CONCEPTS, ActuatorInputs
+from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
 from explorer.tabs.form import Form
 from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import hint
@@ -30,6 +30,7 @@ class ActuatorControls:
             texts[name] = gui.add_html("")
 
         start = ActuatorInputs()
+        self._against = start.against
         form = self.form = Form(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
@@ -52,7 +53,6 @@ class ActuatorControls:
             titles = {name: find_concept(name).title for name in CONCEPTS}
             form.menu("concept", "Concept", titles, entry="actuator_concept")
             form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
-            form.menu("against", "Savings against", AGAINST)
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("details")
             text("numbers")
@@ -74,7 +74,7 @@ class ActuatorControls:
         """What the widgets mean now."""
         values = self.form.values()
         drives = tuple(float(values.pop(name)) for name in DRIVES)
-        return ActuatorInputs(**values, drives=drives)
+        return ActuatorInputs(**values, drives=drives, against=self._against)
 
     def place(self, changes: Mapping[str, Any]) -> None:
         """Move widgets: these fields of `ActuatorInputs`."""
@@ -82,6 +82,8 @@ class ActuatorControls:
             if name == "drives":
                 for each, drive in zip(DRIVES, value, strict=True):
                     self.form.place(each, round(drive))
+            elif name == "against":
+                self._against = value
             else:
                 self.form.place(name, value)
         self._moved()

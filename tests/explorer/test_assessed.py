@@ -1,0 +1,164 @@
+"""One value of the actuator as set: every number on the screen of Actuate, by its quantity, is the same."""
+
+import math
+import re
+from collections import defaultdict
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from explorer.export.figures import actuator_section
+from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs
+from explorer.model.inputs import Inputs
+from explorer.model.units import SI, adding
+from explorer.parts.actuate import AssessedPart
+from explorer.picture.lifted_picture import lifted_picture
+from explorer.views.actuator import ACTUATOR
+from explorer.views.assessed import ASSESSED, assessed, choose
+from explorer.views.dial import DIAL
+from explorer.views.flight import FLIGHT
+from explorer.views.now import Now, SetHand
+from explorer.workers.call import Call
+from rotor.actuator import with_actuator_mass
+from rotor.actuator.verdict import Against
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+from tests.actuate import actuate, asked, told
+
+INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
+DRIVEN = (77.0,) * MOST_SEGMENTS
+NUMBER = r"[+−]?\d+(?:\.\d+)?"
+
+
+@cache
+def run(call: Call) -> Any:
+    return call.run()
+
+
+def answered(against: Against, drives: tuple[float, ...]) -> Now:
+    """The page once all that the value waits for is known."""
+    now = actuate(INPUTS, actuator=ActuatorInputs(against=against, drives=drives))
+    for panel, name in (
+        (ACTUATOR, "lean_verdict"),
+        (FLIGHT, "flight_of"),
+        (DIAL, "effect"),
+        (ASSESSED, "other_stroke"),
+    ):
+        now = told(panel, now, **{name: run(asked(panel, now)[name])})
+    return now
+
+
+def card(now: Now) -> AssessedPart:
+    part = ASSESSED.view(now)["assessed"]
+    assert isinstance(part, AssessedPart)
+    return part
+
+
+def screen(now: Now) -> dict[str, list[str]]:
+    """Every number of all panels of Actuate, by its quantity."""
+    found: dict[str, list[str]] = defaultdict(list)
+
+    def read(quantity: str, pattern: str, text: str) -> None:
+        matches = re.findall(pattern.replace("#", f"({NUMBER})"), text)
+        assert matches, (quantity, pattern, text)
+        found[quantity] += [one if isinstance(one, str) else "…".join(one) for one in matches]
+
+    value, part, flight, rail = assessed(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
+    assert value is not None
+    assert value.one.verdict is not None
+    sentence, inputs = "".join(part.sentence), now.hand.actuator
+    labels = lifted_picture(inputs, value.one.installed, value.one.design).labels
+    words = " ".join(text for _, text, _ in labels)
+    report = re.sub(r"<[^>]*>", " ", actuator_section(value.one.verdict, SI))
+    settled = DIAL.view(now)["dial"].settled
+    bars = {bar.name: bar.text for bar in flight["earns"].bars}
+
+    found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
+    found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
+    read("mass", "# kg:", rail["actuator.numbers"])
+    read("mass", "for # kg", sentence)
+    read("mass", "# kg:", report)
+    found["tip"] = [part.tip, flight["flight"].tip]
+    read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
+    if inputs.driven:
+        read("tip", "(#°) at the tip".replace("(#°)", f"({NUMBER}°)"), words)
+    found["reach"] = [part.reach, f"{math.degrees(value.reach[0]):+.2f}…{math.degrees(value.reach[1]):+.2f}°"]
+    found["reach"][1] = found["reach"][1].replace("-", "−")
+    read("reach", f"by ({NUMBER}…{NUMBER}°) in flight", sentence)
+    read("power here", "(?:needs|saves) # ±", part.here)
+    read("power here", "(?:needs|saves) # ± .* here", sentence)
+    found["power here"].append(f"{abs(settled.power[0]):.{'0' if abs(settled.power[0]) >= 10.0 else '1'}f}")
+    read("power over the flight", "(?:needs|saves) # ±", part.flight)
+    read("power over the flight", "here, (?:needs |saves )?# ±", sentence)
+    read("power over the flight", "(?:needs|saves) # ±", report)
+    found["power over the flight"] += [bars["in all"].lstrip("+−"), rail["actuator.table"].partition("rxa-chosen")[2]]
+    chosen = re.findall(r'rx-num">([^<]*)<', found["power over the flight"].pop())
+    found["power over the flight"].append(chosen[2].lstrip("+−"))
+    found["mass"].append(chosen[1])
+    read("vibration", r"vibration # %", part.vibration)
+    found["vibration"].append(f"{settled.index[0]:+.0f}".replace("-", "−"))
+    return found
+
+
+@pytest.mark.parametrize("against", AGAINST)
+@pytest.mark.parametrize("drives", [(0.0,) * MOST_SEGMENTS, DRIVEN])
+def test_every_number_on_the_screen_is_the_same_number(against: Against, drives: tuple[float, ...]):
+    now = answered(against, drives)
+    found = screen(now)
+    assert {name: set(values) for name, values in found.items() if len(set(values)) > 1} == {}
+    assert len(found) == 6
+    title = dict(card(now).baselines)[against]
+    assert DIAL.view(now)["dial"].against == f"the {title}"
+    assert (" at 77 % of its voltage" in card(now).title) == any(drives)
+
+
+def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
+    """At no voltage, and against the same blade, only mass and stiffness change power and vibration."""
+    same, best = (answered(against, (0.0,) * MOST_SEGMENTS) for against in AGAINST)
+    one, other = assessed(same), assessed(best)
+    assert one is not None
+    assert other is not None
+    assert one.here is not None
+    assert other.here is not None
+    assert one.flight is not None
+    assert other.flight is not None
+    assert one.one.verdict is not None
+    bare = replace(one.one.design, models=replace(one.one.design.models, bending=True))
+    loaded = with_actuator_mass(bare, one.one.installed)
+    assert one.here.power == pytest.approx(solve(loaded).power.total - solve(bare).power.total, rel=0.03)
+    assert abs(one.vibration[0]) < 0.5 * abs(other.vibration[0])
+    assert other.here.power > one.here.power + 1e3
+    between = one.one.verdict.bare_power - other.one.verdict.reference_power if other.one.verdict else 0.0
+    assert other.flight.power - one.flight.power == pytest.approx(between, abs=1.0)
+    assert choose(same, "best-fixed") == (SetHand(actuator={"against": "best-fixed"}),)
+    assert one.line is not None
+    assert one.mass_that_pays is not None
+    assert one.line.net(one.range, one.mass) == pytest.approx(-one.flight.power, abs=1.0)
+    assert one.line.net(one.range, one.mass_that_pays) == pytest.approx(0.0, abs=1.0)
+
+
+def test_full_voltage_is_the_reach_and_trims_make_that_twist():
+    """Elastic trims with and without voltage: mean over azimuth, tip less root."""
+    design = make_design(preset="flight", mu=0.2)
+    ends = []
+    for end in (-100.0, 100.0):
+        inputs = ActuatorInputs(drives=(end,) * MOST_SEGMENTS)
+        installed = inputs.installed(design.rotor)
+        tips = []
+        for flown in (inputs.apply(design), installed.on(design)):
+            trim = solve(flown)
+            assert trim.disk.elastic_twist is not None
+            twist = trim.disk.elastic_twist.mean(axis=1) + trim.design.twist(trim.disk.r)
+            tips.append(float(np.interp(1.0, trim.disk.r, twist) - twist[0]))
+        ends.append(inputs.tip(installed))
+        assert tips[0] - tips[1] == pytest.approx(ends[-1], rel=0.02)
+    assert replace(ActuatorInputs(), drives=DRIVEN).reach(installed) == tuple(sorted(ends))
+
+
+def test_rounded_parts_add_up():
+    assert adding([58.37, 8.76, 11.67, 53.3]) == [58.0, 9.0, 12.0, 53.0]
+    assert adding([-4.73, 0.38, 22.08, 0.0]) == [-5.0, 1.0, 22.0, 0.0]
+    assert adding([0.04, 0.04, 0.04], 1) == [0.1, 0.0, 0.0]
