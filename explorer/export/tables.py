@@ -7,7 +7,7 @@ import numpy as np
 from explorer.charts.doubt import MOST_ROWS
 from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
 from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number
@@ -33,6 +33,9 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "reference")
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
+    if entry is report.entries[0] and report.driven is not None:
+        words, kind = on_board(report.driven, report.units)
+        return tag("span.change", words, class_=kind or None, data_report="on-board")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
     return tag("span.change", f"{number(change, 1, sign=True)} %", class_=kind)
@@ -75,6 +78,7 @@ def comparison(report: DesignReport) -> Markup:
         tag("h2", "Side by side"),
         tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"width:{width}px")),
         tag("p.note", note) if elsewhere else None,
+        tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.") if report.driven else None,
     )
 
 

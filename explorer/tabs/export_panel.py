@@ -22,6 +22,8 @@ from explorer.scene.still_scene import make_stage
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
+from explorer.views.assessed import Assessed, assessed
+from explorer.views.now import Now
 from rotor.actuator import Verdict
 from rotor.markup import tag
 
@@ -36,10 +38,17 @@ class ExportPanel(Tab):
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
     def __init__(
-        self, context: TabContext, scene: SceneController, history: HistoryPanel, actuator: Callable[[], Verdict | str]
+        self,
+        context: TabContext,
+        scene: SceneController,
+        history: HistoryPanel,
+        actuator: Callable[[], Verdict | str],
+        now: Callable[[], Now],
     ) -> None:
-        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was."""
+        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was. `now`: all that is
+        known."""
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
+        self._now = now
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         self._stale = False
@@ -66,6 +75,11 @@ class ExportPanel(Tab):
         """The last good answer is still exported, and the line says so."""
         self._stale = True
 
+    def _driven(self) -> Assessed | None:
+        """The actuator, where it twists the blade."""
+        now = self._now()
+        return assessed(now) if now.hand.actuator.driven else None
+
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
         self._curves.sweep(design, reference, lambda: False)
@@ -79,7 +93,7 @@ class ExportPanel(Tab):
         pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
         above, below = self._scene.camera.covered
         seen = pixels[round(above * height) : height - round(below * height)]
-        return view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark)
+        return view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark, self._driven())
 
     def _report(self, state: SessionState) -> bytes:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
@@ -102,6 +116,7 @@ class ExportPanel(Tab):
             {view.field: self._scene.held_range(field)},
             own_section=state.pin is not None,
             actuator=self._actuator(),
+            driven=self._driven(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
         return report_html(report, stage, self._curves).encode()
