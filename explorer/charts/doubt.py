@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
@@ -17,12 +16,8 @@ MOST_ROWS = 6
 
 def card_words(band: Doubt, units: Units) -> Sureness:
     """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
-    unit = units.power[0]
-    within, percent = unit.of(band.band), band.change_band_percent
-    words = Sureness(f"± {number(within, decimals(within))}", doubt=band.sentence)
-    if band.change and percent:
-        return replace(words, change_within=f"± {number(percent, decimals(percent))}", sure=band.sureness or "")
-    return words
+    within = units.power[0].of(band.band)
+    return Sureness(f"± {number(within, decimals(within))}", band.change_words, band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:
@@ -42,8 +37,10 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         )
         for row, size in sizes
     ]
-    beside = (_said(each, units) for each in models)
-    with_others = tag("div.rx-dim", f"With another model: {'; '.join(beside)}.") if models else Markup()
+    said = f"With another model: {'; '.join(_said(each, units) for each in models)}."
+    if any(abs(each.power - band.power) > band.band for each in models):
+        said += " The band is of uncertain inputs of this model: another may lie outside."
+    with_others = tag("div.rx-dim", said) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
 
@@ -76,7 +73,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         reach = f"{number(first, 1)} … {number(last, 1)}"
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))
-    title = f"Best linear twist of this flight: {number(rate, 1)} °/R"
+    title = f"Best linear jig twist of this flight: {number(rate, 1)} °/R"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

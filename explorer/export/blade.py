@@ -12,8 +12,9 @@ from typing import cast
 import numpy as np
 import trimesh
 
-from explorer.export.provenance import PROGRAM, file_stem
+from explorer.export.provenance import PROGRAM, file_name
 from explorer.picture.blade_mesh import Detail, blade_shape, blade_vertices
+from explorer.text.design_words import title_words
 from rotor import Design, load_design, make_design
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.terminal import called, help_formatter, run_command
@@ -40,7 +41,7 @@ def blade_mesh(design: Design) -> trimesh.Trimesh:
 def blade_stl(design: Design) -> bytes:
     """The blade as binary STL. The format has no unit, so the header names it: metres."""
     body = cast(bytes, blade_mesh(design).export(file_type="stl"))
-    header = f"{PROGRAM}: {design.rotor.name} blade, twist {design.twist.spec()}; unit metre"
+    header = f"{PROGRAM}, unit metre: {title_words(design)}"
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]
 
 
@@ -65,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     design = load_design(options.design) if options.design else make_design()
     folder, content = Path(options.out), blade_stl(design)
-    path = folder / f"{file_stem(design, 'blade', 'jig')}.stl"
+    path = folder / file_name(design, "-jig.stl")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)

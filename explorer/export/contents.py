@@ -13,6 +13,8 @@ from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, Units
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
+from explorer.text.readout import mass_parts, needs_words
+from explorer.views.assessed import Assessed, against_words
 from rotor import Solution
 from rotor.actuator import Verdict
 
@@ -47,6 +49,8 @@ class DesignReport:
     """Whether the reference is the user's own design, which is shown like the others."""
     actuator: Verdict | str = ""
     """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
+    driven: Assessed | None = None
+    """The actuator that twists the first design, without its mass in the power of the trim."""
     when: datetime = field(default_factory=lambda: datetime.now().astimezone())
 
     def __post_init__(self) -> None:
@@ -85,6 +89,16 @@ class DesignReport:
     def shown(self) -> tuple[ReportEntry, ...]:
         """The designs with a section and a 3D scene: the first of `all`."""
         return self.all if self.own_section else tuple(self.entries)
+
+
+def on_board(driven: Assessed, units: Units) -> tuple[str, str]:
+    """What the mass of a driven actuator makes of the power here, as the page says it, and `more` or `less` of it."""
+    mass, here = mass_parts(driven.one.installed)["in all"], driven.here
+    if here is None:
+        return f"without the {mass} of its actuator", ""
+    against = against_words(driven.one, driven.one.question.against)
+    needs = needs_words(-here.power, here.band, units)
+    return f"with {mass} on board {needs}, against the {against}", "more" if here.power > 0.0 else "less"
 
 
 def colours_of(report: DesignReport) -> list[str]:

@@ -1,8 +1,10 @@
 """Where an exported file comes from, and solutions as CSV tables with units."""
 
+import io
 import math
 import platform
 import re
+import zipfile
 from collections.abc import Sequence
 from dataclasses import fields
 from functools import cache
@@ -13,18 +15,19 @@ import numpy as np
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.picture import flown_twist
-from explorer.text.design_words import inflow_words, physics_words
+from explorer.text.design_words import inflow_words, physics_words, title_words
 from explorer.text.glossary import COLUMNS
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.arrays import Array
 from rotor.assets import commit
-from rotor.design.quantities import BESIDE
 from rotor.trim import DiskFields
 from rotor.units import KNOT
 from rotor.user_input import csv_text
 
 PROGRAM = "rotor explorer"
+LONGEST_NAME = 60
+"""Characters of a file name."""
 _SHOWN = {"rotor-explorer": PROGRAM, "viser": "viser", "numpy": "NumPy", "scipy": "SciPy", "numba": "Numba"}
 
 
@@ -58,7 +61,7 @@ def provenance_lines(solution: Solution) -> list[str]:
     """What stands above a table of data: design, condition, models, how it converged, caveats, versions."""
     design = solution.design
     lines = [
-        f"{design.rotor.name}, twist {design.twist.spec()}",
+        f"{title_words(design)}; twist {design.twist.spec()}",
         condition_line(design),
         f"preset {design.preset}; inflow {inflow_words(design)}; {physics_words(design)}; "
         f"{' x '.join(map(str, grid_of(design)))} elements and azimuths",
@@ -79,17 +82,27 @@ def provenance_lines(solution: Solution) -> list[str]:
     return lines
 
 
-def file_stem(design: Design, *parts: str) -> str:
-    """A file name without ending: rotor, twist, speed and what else tells files apart; safe on every system."""
+def file_name(design: Design, ending: str) -> str:
+    """Rotor, twist, speed and an ending such as `-report.html`: at most 60 characters that every system takes."""
     speed = "hover" if design.hovering else f"mu{design.condition.advance_ratio:.3f}"
-    beside = [f"{row.word}{row.of(design):g}" for row in BESIDE.values() if row.of(design) != row.default]
-    words = [design.rotor.name, design.twist.spec(), speed, *beside, *parts]
-    safe = (re.sub(r"[^a-z0-9.+-]+", "_", word.lower()).strip("_.") for word in words)
-    return "-".join(word[:60] for word in safe if word)
+    tail = f"-{speed}{ending}"
+    plain = title_words(design).lower().replace("−", "-").replace("\u2009", "")
+    head = re.sub(r"[^a-z0-9.-]+", "_", plain)[: LONGEST_NAME - len(tail)]
+    return head.strip("_.-") + tail
 
 
 _ANGLES = {"theta", "alpha", "stall_margin", "elastic_twist"}
 """Fields in radians that are written in degrees."""
+
+
+def tables_zip(solution: Solution, reference: Design, curve: PowerCurve, azimuth_deg: float) -> bytes:
+    """What `disk_csv`, `blade_csv` and `power_csv` give, as one archive."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("disk.csv", disk_csv(solution))
+        archive.writestr("blade.csv", blade_csv(solution, reference, azimuth_deg))
+        archive.writestr("power.csv", power_csv(solution, reference, curve))
+    return out.getvalue()
 
 
 def disk_csv(solution: Solution) -> bytes:

@@ -7,11 +7,11 @@ import numpy as np
 from explorer.charts.doubt import MOST_ROWS
 from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
 from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number
-from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
+from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_name
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from rotor import Design, Solution, doubt, hub_loads
@@ -33,6 +33,9 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "reference")
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
+    if entry is report.entries[0] and report.driven is not None:
+        words, kind = on_board(report.driven, report.units)
+        return tag("span.change", words, class_=kind or None, data_report="on-board")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
     return tag("span.change", f"{number(change, 1, sign=True)} %", class_=kind)
@@ -57,7 +60,7 @@ def comparison(report: DesignReport) -> Markup:
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
     width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
-        _row("Twist", [twist_words(design.twist) for design in designs], "words"),
+        _row("Twist", [twist_name(design) for design in designs], "words"),
         _row("Speed", [_speed(design, report.units) for design in designs]),
         _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
         _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
@@ -75,6 +78,7 @@ def comparison(report: DesignReport) -> Markup:
         tag("h2", "Side by side"),
         tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"width:{width}px")),
         tag("p.note", note) if elsewhere else None,
+        tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.") if report.driven else None,
     )
 
 
@@ -107,7 +111,6 @@ def conditions(solution: Solution) -> Markup:
         ("Inflow", inflow_words(design)),
         ("Physics", physics_words(design)),
         ("Grid", "{} elements × {} azimuths".format(*grid_of(design))),
-        ("Twist SPEC", design.twist.spec()),
     ]
     return _table("Condition and model", rows)
 
@@ -160,8 +163,8 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     band = doubt(solution, other if entry is not report.reference else None)
     unit = report.units.power[0]
     rows: list[Row] = [("Power", f"± {unit.text(band.band, decimals(unit.of(band.band)))}")]
-    if (percent := band.change_band_percent) is not None:
-        rows.append(("Change", f"± {number(percent, decimals(percent))} %: {band.sureness}"))
+    if band.change_words:
+        rows.append(("Change", band.change_words))
     for row in band.rows[:MOST_ROWS]:
         size = unit.of(abs(row.power if row.change is None else row.change))
         name = f"{row.words} ± {row.size:g} {row.unit}".rstrip()
@@ -202,7 +205,7 @@ def blade(design: Design) -> Markup:
     places = [shape.section_at(r) for r in stations]
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [
-        _row("Twist [°]", [number(angle, 2, sign=True) for angle in angles]),
+        _row("Jig twist [°]", [number(angle, 2, sign=True) for angle in angles]),
         _row("Chord [m]", [number(chord, 3) for chord in chords]),
         _row("Section", sections, "words"),
     ]

@@ -1,6 +1,7 @@
 """The view of the page as a picture, with title, flight, power and the scale of its disk."""
 
 import io
+import json
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -9,18 +10,23 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
+from PIL.PngImagePlugin import PngInfo
 
 from explorer.colours import colour_map
+from explorer.export.contents import on_board
 from explorer.model.units import Units
 from explorer.picture.fields import Field
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
+from explorer.views.assessed import Assessed
 from rotor import Solution
 from rotor.chart import bar_ticks
 
 Ink = tuple[int, int, int]
 _NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
 _INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
+_KINDS = {"more": ((194, 65, 12), (255, 146, 43)), "less": ((11, 122, 94), (56, 217, 169))}
+"""Of power, light and dark."""
 _SKY = (243, 246, 250), (25, 31, 41)
 """Behind the view of the page, light and dark."""
 _STRIP = 112
@@ -35,9 +41,11 @@ def view_png(
     scale: tuple[Field, tuple[float, float]] | None,
     units: Units,
     dark: bool,
+    driven: Assessed | None = None,
 ) -> bytes:
     """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
-    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk."""
+    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk.
+    `driven`: the actuator that twists the blade. The file says the numbers of the design under `Design`."""
     rows, columns = scene.shape[:2]
     below = 0 if scale is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
@@ -52,7 +60,17 @@ def view_png(
 
     write(40, 52, title_words(solution.design), 32, ink)
     write(40, 90, flight_words(solution.design, units), 22, dim)
-    write(columns - 40, 72, units.watts(solution.power.total, fineness(solution.power)), 52, ink, "rs")
+    if driven is not None:
+        words, kind = on_board(driven, units)
+        write(columns - 40, 98, words, 22, _KINDS[kind][dark] if kind else dim, "rs")
+    write(
+        columns - 40,
+        72 if driven is None else 62,
+        units.watts(solution.power.total, fineness(solution.power)),
+        52,
+        ink,
+        "rs",
+    )
     if scale is not None:
         field, ends = scale
         x, y = columns // 2 - _WIDTH // 2, _STRIP + rows + 50
@@ -61,8 +79,10 @@ def view_png(
         for percent, words in bar_ticks(*ends):
             write(x + 0.01 * _WIDTH * float(percent), y + 30, words, 16, dim, "ms")
         write(x + _WIDTH // 2, y - 8, field.label, 18, ink, "ms")
+    numbers = PngInfo()
+    numbers.add_itxt("Design", json.dumps(solution.design.to_dict(), ensure_ascii=False))
     out = io.BytesIO()
-    picture.save(out, "PNG")
+    picture.save(out, "PNG", pnginfo=numbers)
     return out.getvalue()
 
 

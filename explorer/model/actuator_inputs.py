@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from explorer.model.units import number
 from explorer.workers.call import Call
 from rotor import Design, Rotor
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, actuators, find_actuator
@@ -97,7 +98,15 @@ class ActuatorInputs:
             return design
         installed = self.installed(design.rotor)
         steady = np.asarray(self.swings(installed)) @ installed.shapes_in(design)
-        return installed.on(replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady))))
+        change = np.interp(STATIONS, installed.r, steady)
+        return installed.on(replace(design, twist=twisted(design.twist, change, self.name(installed))))
+
+    def name(self, installed: InstalledActuator) -> str:
+        """Of the twist: `MFC P1 at 1 155 V`; where segments differ, from the least to the most."""
+        volts = self.volts(installed)
+        driven = volts or self._segments(installed)
+        ends = "…".join(number(end) for end in sorted({min(driven), max(driven)}))
+        return f"{installed.actuator.id.replace('_', ' ')} at {ends} {'V' if volts else '%'}"
 
     @property
     def driven(self) -> bool:

@@ -281,11 +281,11 @@ def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
 
 
 def place_of(inputs: Inputs, station: Station) -> str:
-    """A station and its twist, in words."""
+    """A station and its jig twist, in words."""
     twist = LAWS[inputs.law].make(inputs)
     law = inputs.design().twist if isinstance(twist, str) else twist
     angle = math.degrees(float(law(np.array([station.r]))[0]))
-    return f"{station.title} {station.r:.2f} R · θ {angle:+.1f}°".replace("-", "−")
+    return f"{station.title} {station.r:.2f} R · jig {angle:+.1f}°".replace("-", "−")
 
 
 def slid(inputs: Inputs, station: Station, r: float) -> Inputs:

@@ -19,7 +19,7 @@ class _Fields(Struct, array_like=True, forbid_unknown_fields=True):
     """A value with several fields, which comes as an array of them."""
 
 
-class RidePress(_Fields):
+class SectionPress(_Fields):
     r: _Radius
     psi: _Azimuth
     """[°]"""
@@ -81,7 +81,8 @@ PRESSES: dict[str, Any] = {
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
     **dict.fromkeys(("difference", "more"), _Switch),
-    "ride": Literal["off"] | RidePress | None,
+    "ride": Literal["off"] | SectionPress | None,
+    "section": SectionPress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
     "against": Literal["same-blade", "best-fixed"],

@@ -45,7 +45,6 @@ class Sureness:
     """How sure the power and its change are: both bands, whether the sign is known, and all of it as a sentence."""
 
     within: str = ""
-    change_within: str = ""
     sure: str = ""
     doubt: str = ""
 

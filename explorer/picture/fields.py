@@ -166,7 +166,7 @@ FIELDS: dict[str, Field] = {
         Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
         Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, needs="unsteady"),
-        Field("Stall vortex cn", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, needs="unsteady"),
+        Field("Stall vortex C_n", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, needs="unsteady"),
         Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, needs="elastic_twist"),
     )
 }

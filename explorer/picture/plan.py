@@ -3,7 +3,6 @@
 import base64
 import math
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 
@@ -40,17 +39,13 @@ def reverse_flow_segments(solution: Solution) -> Array:
     return np.stack((points[:-1], points[1:]), axis=1)[keep]
 
 
-def stall_segments(solution: Solution, *, positive: bool) -> Array:
+def stall_segments(solution: Solution) -> Array:
     """Where stall begins at positive or negative angles of attack, reverse flow left out; (n, 2, 2), in radii.
 
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
     grid = polar_grid(solution.disk, *_OUTLINED)
-    flow = refined(solution, grid)
-    left = flow.upper - flow.alpha if positive else flow.alpha - flow.lower
-    if flow.separation is not None:
-        up = flow.alpha > 0.5 * (flow.upper + flow.lower)
-        left = np.where(up == positive, flow.attached, np.float32(0.3))
+    left = refined(solution, grid).attached
     return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
 
 
@@ -132,13 +127,12 @@ _RADII, _AZIMUTHS = 40, 120
 """Points of the values under the pointer."""
 _FINE = 120, 480
 """Points at which shares of area and lift are summed."""
-_REGIONS: dict[str, tuple[str, str, Callable[[Solution], Array]]] = {
-    "stall": ("Stall", "stall", partial(stall_segments, positive=True)),
-    "negative_stall": ("Negative stall", "stall", partial(stall_segments, positive=False)),
-    "reverse_flow": ("Reverse flow", "reverse_flow", reverse_flow_segments),
-    "drag_divergence": ("Drag divergence", "drag_divergence", drag_divergence_segments),
+_REGIONS: dict[str, tuple[str, Callable[[Solution], Array]]] = {
+    "stall": ("Stall", stall_segments),
+    "reverse_flow": ("Reverse flow", reverse_flow_segments),
+    "drag_divergence": ("Drag divergence", drag_divergence_segments),
 }
-"""Title, switch in `ViewState`, and outline of each region."""
+"""Title and outline of each region, by its switch in `ViewState`."""
 _READ = {"alpha": "Angle of attack", "mach": "Mach number", "cl": "Lift coefficient"}
 """What is read under the pointer in every field, by the name it has in the page."""
 
@@ -189,9 +183,9 @@ def around_chart(solution: Solution) -> Chart:
 def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[PlanRegion]:
     shares = region_shares(solution)
     regions = list[PlanRegion]()
-    for name, (title, switch, segments) in _REGIONS.items():
-        lines = _lines(segments(solution)) if getattr(view, switch) else []
-        before = _lines(segments(pinned)) if pinned is not None and getattr(view, switch) else []
+    for name, (title, segments) in _REGIONS.items():
+        lines = _lines(segments(solution)) if getattr(view, name) else []
+        before = _lines(segments(pinned)) if pinned is not None and getattr(view, name) else []
         if not lines and not before:
             continue
         area, thrust = shares[name]
@@ -201,10 +195,8 @@ def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> li
 
 
 def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
-    """Parts of the disk πR² and of the thrust in each region, by name. Thrust may be negative there.
-
-    The two parts of stall add up to the area that the solution says; the finer grid divides it between them.
-    """
+    """Parts of the disk πR² and of the thrust in each region, by name; those in stall are the solution's. Thrust may be
+    negative there."""
     grid = polar_grid(solution.disk, *_FINE)
     thrust = grid.refine(solution.disk.dct)
     area = np.broadcast_to(grid.r[:, None], thrust.shape)
@@ -214,11 +206,7 @@ def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
         name: (float(np.sum(area[inside])) * rings * steps / math.pi, float(np.sum(thrust[inside])) / total)
         for name, inside in region_masks(Drawn(solution), grid).items()
     }
-    stalled = shares["stall"][0] + shares["negative_stall"][0]
-    for name in ("stall", "negative_stall") if stalled else ():
-        area_share, thrust_share = shares[name]
-        shares[name] = area_share * solution.stalled_area / stalled, thrust_share
-    return shares
+    return shares | {"stall": (solution.stalled_area, solution.stalled_thrust)}
 
 
 def _lines(segments: Array) -> list[list[list[float]]]:

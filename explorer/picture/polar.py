@@ -391,10 +391,8 @@ def region_masks(drawn: Drawn, grid: PolarGrid) -> dict[str, Booleans]:
     that itself.
     """
     flow = drawn.flow(grid)
-    stalled, up = (flow.attached < 0.0) & (flow.u_t > 0.0), flow.alpha > 0.5 * (flow.upper + flow.lower)
     return {
-        "stall": stalled & up,
-        "negative_stall": stalled & ~up,
+        "stall": (flow.attached < 0.0) & (flow.u_t > 0.0),
         "reverse_flow": flow.u_t < 0.0,
         "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
     }

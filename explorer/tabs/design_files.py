@@ -129,17 +129,15 @@ class FilePanel(Tab):
         self._records: dict[str, dict[str, Any]] = {}
         """Designs that the address cannot hold now, by name in it."""
         gui = context.gui
-        with gui.add_folder("Link and file"):
+        with gui.add_folder("Link"):
             gui.add_html(tag("div.rx.rx-dim.rx-small", "Anyone with the link sees this design."))
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
-            self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray", hint=hint("save"))
         with folder:
             self._load = gui.add_upload_button(
                 "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
             )
         context.keyboard.bind("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())
-        self._save.on_click(lambda _: self.save())
         self._load.on_upload(self._loaded)
 
     def follow(self, state: SessionState) -> None:
@@ -188,15 +186,6 @@ class FilePanel(Tab):
             self.follow(state)
         browser.copy_link(self._context.client, self._address.query)
         self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
-
-    def save(self) -> None:
-        """The design file, as `--case` and `--design` read it."""
-        try:
-            record = self._context.inputs().design().to_dict()
-        except ValueError as error:
-            self._context.notify("Nothing saved", str(error))
-            return
-        self._context.download("design.json", (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode())
 
     def stop(self) -> None:
         self._address.stop()

@@ -69,6 +69,7 @@ class Form:
         self._add(
             name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
         )
+        self._handles[name].precision = form.digits  # Viser's has all digits of the value, as of one from a link.
         if below:
             self._below[name] = self._gui.add_html(below, visible=visible)
 

@@ -16,7 +16,7 @@ from explorer.sharing import share
 from explorer.sharing.share import StoredHistory
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
-from explorer.text.design_words import flight_name, twist_name
+from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
 from rotor import Solution, solve
 from rotor.markup import Markup, tag
@@ -37,7 +37,10 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
         if present is not None and math.isfinite(item.power):
             change = f"now {units.watts(present.power.total - item.power, sign=True)}"
         take, drop = ({"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop"))
-        name = tag("div", twist_name(item.inputs)), tag("div.rx-dim.rx-small", flight_name(item.inputs, units))
+        name = (
+            tag("div", title_words(item.solution.design)),
+            tag("div.rx-dim.rx-small", flight_name(item.inputs, units)),
+        )
         power = units.watts(item.power), tag("div.rx-dim.rx-small", change)
         rows.append(
             tag(

@@ -274,7 +274,7 @@ def _table(probe: Probe) -> Markup:
         ("probe_theta", "Pitch θ", degrees(probe.theta)),
         ("probe_ratio", "C_l/C_d", number(efficiency, 1)),
         ("probe_phi", "Inflow φ", degrees(probe.phi)),
-        ("probe_m2cn", "M²c_n", number(probe.m2cn, 3)),
+        ("probe_m2cn", "M²C_n", number(probe.m2cn, 3)),
         ("probe_moment", "Pitching moment", "–" if probe.moment is None else f"{number(probe.moment)} N m/m"),
         ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
         ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),

@@ -13,7 +13,7 @@ from explorer import colours
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.parts.presses import RidePress
+from explorer.parts.presses import SectionPress
 from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
@@ -168,6 +168,7 @@ class ProbePanel(Tab):
         client.scene.on_click()(self._clicked)
         self._ride = Ride(context, scene, lambda: self._player.playing)
         context.bridge.on("ride", self._take_along)
+        context.bridge.on("section", self.point)
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
         bind("play", self.toggle)
@@ -226,9 +227,10 @@ class ProbePanel(Tab):
         """Whether the disk is in the scene, to be clicked."""
         self._seen = seen
 
-    def point(self, r: float, psi_deg: float) -> None:
-        """Probe this point of the disk; the drawer opens only if it is asked for."""
-        self._set(r, float(round(psi_deg) % 360))
+    def point(self, at: SectionPress) -> None:
+        """A place on the disk was clicked: the drawer shows the section there."""
+        self._set(at.r, float(round(at.psi) % 360))
+        self._context.layout.open_drawer("probe")
 
     def toggle(self) -> None:
         if self._player.playing or self._context.state() is None:
@@ -238,13 +240,13 @@ class ProbePanel(Tab):
         self._player.play()
         self._set_playing(True)
 
-    def _take_along(self, at: RidePress | Literal["off"] | None) -> None:
+    def _take_along(self, at: SectionPress | Literal["off"] | None) -> None:
         """A turn with the section there, or at the probe; "off" ends it."""
         state = self._context.state()
         if at == "off" or state is None:
             self._ride.end()
             return
-        at = at or RidePress(self._r.value, self._psi.value)
+        at = at or SectionPress(self._r.value, self._psi.value)
         self._pause()
         self._ride.begin(state.solution, min(max(at.r, self._r.min), 1.0), at.psi)
 

@@ -19,7 +19,7 @@ from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.tabs.probe_panel import ProbePanel
-from explorer.text.design_words import flight_name, pinned_name
+from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
 from rotor import Solution
 from rotor.markup import tag
@@ -83,7 +83,7 @@ class TopBar:
             else self._context.units.watts(answer.power.total)
         )
         where = "" if self._board.along else f" at {flight_name(pinned.inputs)}"
-        return PinnedRow(pinned_name(pinned), power + where, self._board.along)
+        return PinnedRow(title_words(pinned.solution.design), power + where, self._board.along)
 
     def _pin_or_release(self) -> None:
         self._ask("pin" if self._board.pinned is None else "unpin")

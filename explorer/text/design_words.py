@@ -1,12 +1,12 @@
-"""A design in words: its twist, flight condition and models in full, or its name in a few words for lists."""
+"""A design in words: the name of its twist, the same in titles, lists and names of files; its flight condition and
+models."""
 
 import math
 
-from explorer.model.inputs import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs, baseline_of
-from explorer.model.session_state import Pinned
+from explorer.model.inputs import INFLOW_MENUS, PRESET_TITLES, Inputs, baseline_of
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
-from rotor import Design
+from rotor import Design, Rotor
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
@@ -23,8 +23,13 @@ from rotor.design import (
 )
 from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.user_input import shorten
 
-_COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
+AS_BUILT = "as built"
+FEW_SEGMENTS = 3
+"""As many as the sliders have: a twist of more has its numbers in its file."""
+LONGEST_TITLE = 70
+"""Characters."""
 
 
 def against(design: Design, pinned: bool) -> str:
@@ -33,36 +38,6 @@ def against(design: Design, pinned: bool) -> str:
         return "A"
     built = baseline_of(design).twist == design.rotor.builtin_twist
     return f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
-
-
-def twist_words(law: TwistLaw) -> str:
-    """A twist law in words, with its numbers."""
-    match law:
-        case LinearTwist(rate):
-            return f"Linear, {_degrees(rate)}\u00a0°/R"
-        case QuadraticTwist(curvature, difference):
-            return (
-                f"Quadratic, tip {_degrees(difference)}° relative to centre, curvature {_degrees(curvature)}\u00a0°/R²"
-            )
-        case PiecewiseLinearTwist(rates, breaks):
-            divided = f", divided at {_joined([f'{place:.2f}' for place in breaks])}\u00a0R" if breaks else ""
-            count = _COUNT.get(len(rates), f"{len(rates)} segments")
-            return f"{count}, {_joined([_degrees(rate) for rate in rates])}\u00a0°/R{divided}"
-        case IdealTwist(tip_pitch):
-            return f"Ideal, {_degrees(tip_pitch)}°\u00a0/\u00a0r"
-        case SplineTwist(_, angles):
-            return f"Smooth curve through {len(angles)} angles, {_degrees(angles[-1] - angles[0])}° root to tip"
-        case SumTwist(base, change):
-            later = twist_words(change)
-            return f"{twist_words(base)}, plus {later[:1].lower()}{later[1:]}"
-        case TableTwist(name=name) if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
-            return f"{shipped_aircraft(name).name} twist as built"
-        case TableTwist(name="builtin"):
-            return "Twist as built"
-        case TableTwist():
-            return "Twist from a table"
-        case _:
-            return law.spec()
 
 
 def wave_words(design: Design) -> str:
@@ -83,9 +58,52 @@ def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> 
 
 
 def title_words(design: Design) -> str:
-    """Rotor and twist."""
-    words = twist_words(design.twist)
-    return words if words.startswith(design.rotor.name) else f"{design.rotor.name} · {words}"
+    """Rotor and twist, in one line of a page."""
+    rotor, words = shorten(design.rotor.name, 24), twist_name(design)
+    title = f"{rotor} {words}" if words.startswith(AS_BUILT) else f"{rotor} · {words}"
+    return title if len(title) <= LONGEST_TITLE else shorten(title, LONGEST_TITLE)
+
+
+def twist_name(design: Design) -> str:
+    """The twist in a few words, without the numbers that only a program sets: `as built + MFC P1 at 1 155 V`,
+    `segments −14/−8 at 0.5`, `40 segments, −12.3° root to tip`; then its harmonics."""
+    active = () if design.active_twist is None else design.active_twist.harmonics
+    waves = [
+        f"{wave.per_rev}/rev {kind} {number(math.degrees(wave.amplitude), 2)}°"
+        for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
+        for wave in harmonics
+    ]
+    few = waves if len(waves) < 3 else [f"{len(waves)} harmonics"]
+    return ", ".join((_law_name(design.twist, design.rotor), *few))
+
+
+def _law_name(law: TwistLaw, rotor: Rotor) -> str:
+    turn = math.degrees(float(law(1.0) - law(rotor.blade.root_cutout)))
+    angle = f"{number(turn, 1, sign=True)}° root to tip"
+    match law:
+        case _ if law == rotor.builtin_twist:
+            return AS_BUILT
+        case SumTwist(base, change, name):
+            return f"{_law_name(base, rotor)} + {name or _law_name(change, rotor)}"
+        case LinearTwist(rate):
+            return f"linear {_degrees(rate)}\u00a0°/R"
+        case PiecewiseLinearTwist(rates, breaks) if len(rates) <= FEW_SEGMENTS:
+            places = "/".join(f"{place:.2f}".rstrip("0") for place in breaks)
+            return f"segments {'/'.join(map(_degrees, rates))}" + (f" at {places}" if places else "")
+        case PiecewiseLinearTwist(rates):
+            return f"{len(rates)} segments, {angle}"
+        case QuadraticTwist():
+            return f"quadratic, {angle}"
+        case IdealTwist(tip_pitch):
+            return f"ideal {_degrees(tip_pitch)}°/r"
+        case SplineTwist():
+            return f"smooth curve, {angle}"
+        case TableTwist(name=name) if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
+            return f"twist of the {shipped_aircraft(name).name}"
+        case TableTwist():
+            return f"from a table, {angle}"
+        case _:
+            return f"of another law, {angle}"
 
 
 def flight_words(design: Design, units: Units = SI) -> str:
@@ -136,26 +154,6 @@ def physics_words(design: Design) -> str:
     return ", ".join(off) or "tip and root loss"
 
 
-def twist_name(inputs: Inputs) -> str:
-    """The twist: `Two segments −14/−8 at 0.5`, after the rotor's name where it is not the UH-60A, and harmonics."""
-    rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
-    given = (("twist", inputs.twist_per_rev), ("pitch", inputs.pitch_per_rev))
-    waves = "".join(
-        f", {harmonic.per_rev}/rev {kind} {number(math.degrees(harmonic.amplitude), 2)}°"
-        for kind, harmonics in given
-        for harmonic in harmonics
-    )
-    if inputs.law == "builtin" and inputs.built_inner == inputs.built_outer == 0.0:
-        return rotor + "As built" + waves
-    law = LAWS[inputs.law]
-    values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in law.angles)
-    places = "/".join(f"{getattr(inputs, name):g}" for name in law.breaks)
-    name = law.title
-    if values:
-        name += f" {values}" + ("°" if inputs.law == "linear" else "")
-    return rotor + name + (f" at {places}" if places else "") + waves
-
-
 def flight_name(inputs: Inputs, units: Units = SI) -> str:
     """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
@@ -168,11 +166,6 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"
-
-
-def pinned_name(pinned: Pinned) -> str:
-    """A short name of A's blade."""
-    return twist_name(pinned.inputs) + (", driven" if pinned.driven else "")
 
 
 def _degrees(angle: float) -> str:

@@ -34,7 +34,7 @@
         <small data-explorer="within">${text(power.within)}</small></div>
       ${compared ? WITHOUT_MASS : `${since ? '' : '<div class="rxf-sub">total power</div>'}${change}`}
       <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(power.doubt)}" ${power.sure ? '' : 'hidden'}>
-        ${text(power.change_within)} %: ${text(power.sure)}</div></div>
+        ${text(power.sure)}</div></div>
       <div class="rxf-rule"></div>${compared ? '' : problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
@@ -85,7 +85,7 @@
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '4.5 2.5', 2)],
   ];
   const PLANNED = [
-    ['stall', 'Stall', line('var(--rx-stall)')], ['negative_stall', 'Negative stall', line('var(--rx-stall)', '7 3')],
+    ['stall', 'Stall', line('var(--rx-stall)')],
     ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')],
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
   ];
@@ -104,15 +104,12 @@
     fit.dataset.value = field.fitted ? 'Default' : 'Rescale';
     fit.textContent = field.fitted ? 'Reset' : 'Fit';
     fit.ariaLabel = field.fitted ? 'Reset the colour range' : 'Fit the colour range';
-    // On the plan each region has its own share.
-    const shares = plan && Object.fromEntries(plan.regions.map(({name, words}) => [name, words.split(' · ')[0]]));
-    const shown = (plan ? PLANNED : REGIONS).filter(([name]) => name !== 'negative_stall' || name in shares);
-    const key = shown.map(([name, title, swatch]) => {
-      const region = name.replace('negative_', ''), sides = !plan && name === 'stall';
-      const share = text(plan ? shares[name] : sides && field.stalled || ''), words = share && plan
-        ? `<span class="rxf-num">${share}</span>` : share;
-      return `<button data-do="region" data-value="${region}" aria-pressed="${regions[region]}"
-        ${sides ? 'title="Of the disk, at high and at negative angles of attack"' : ''}>
+    const shares = Object.fromEntries((plan?.regions ?? []).map(({name, words}) => [name, words.split(' · ')[0]]));
+    const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {
+      const stall = name === 'stall', share = text(plan ? shares[name] ?? '' : stall && field.stalled || '');
+      const words = share && plan ? `<span class="rxf-num">${share}</span>` : share;
+      return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
+        ${stall ? 'title="Of the disk, at high and at negative angles of attack"' : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
     });
     if (difference !== null) key.push(`

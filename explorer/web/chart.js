@@ -42,9 +42,10 @@ const Charts = (() => {
   function axes(chart, place) {
     const {X, left, right, base} = place, {ticks, ends, label} = chart.x, last = ticks.length - 1, low = base + 15;
     const columns = ticks.map(([value, word], k) => {
+      const waits = label === 'ψ' ? '' : between(k, ticks);  // Quarters of a turn are always told.
       const wide = k === last && X(value) + 3.5 * word.length > right + 8, x = wide ? right + 8 : X(value);
       const anchor = ends && !k ? 'start' : wide || (k === last && ends) ? 'end' : 'middle';
-      return `<text x="${x.toFixed(1)}" y="${low}" text-anchor="${anchor}"${between(k, ticks)}>${text(word)}</text>`;
+      return `<text x="${x.toFixed(1)}" y="${low}" text-anchor="${anchor}"${waits}>${text(word)}</text>`;
     });
     const [x, y, anchor] = long(chart) ? [(left + right) / 2, low + (ends ? 0 : 15), 'middle'] : [left - 9, low, 'end'];
     return `${rows(chart, place)}${columns.join('')}

@@ -63,8 +63,9 @@
           style="fill:var(--rx-ink);font-weight:620;font-size:12px">${degrees(cut.theta)}</text>
         <text x="${x}" y="${height - 1}" text-anchor="middle" data-between>${r.toFixed(2)}</text>`;
     });
-    // What the two rows of numbers are.
-    drawn += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
+    // What the two rows of numbers are: a blade that is rigid in torsion flies in its jig shape.
+    const of = inset.name === 'flown' ? 'flown' : 'jig';
+    drawn += `<text x="0" y="${height - 14}">${of}</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
     const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>
@@ -72,6 +73,6 @@
           times > 1 ? ', as in the scene' : ''}</button>
         <div class="rxf-key">${key(inset.name_hint, '', inset.name)}${
           ghost ? key(inset.ghost_hint, 'data-ghost', inset.ghost_name) : ''}<span>root ← r/R → tip</span></div></div>
-      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist: ${spoken}">${drawn}</svg>`;
+      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist, ${of}: ${spoken}">${drawn}</svg>`;
   });
 })();

@@ -73,7 +73,8 @@ interface RxPresses {
   speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
-  ride: 'off' | RxRidePress | null;
+  ride: 'off' | RxSectionPress | null;
+  section: RxSectionPress;
   azimuth: number;
   fly: number;
   against: 'same-blade' | 'best-fixed';
@@ -384,7 +385,6 @@ interface RxPackedTable {
 
 interface RxPowerPart {
   within: string;
-  change_within: string;
   sure: string;
   doubt: string;
   status: RxStatus;
@@ -544,7 +544,7 @@ interface RxWorth {
   stale: boolean;
 }
 
-type RxRidePress = [r: number, psi: number];
+type RxSectionPress = [r: number, psi: number];
 
 type RxSupposePress = [tip: number, mass: number];
 

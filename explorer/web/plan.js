@@ -7,12 +7,11 @@
   const RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
   const COLOURS = {
-    stall: 'var(--rx-stall)', negative_stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)',
-    drag_divergence: 'var(--rx-ink)',
+    stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)',
   };
-  const DASHES = {negative_stall: '7 3', drag_divergence: '3 4'};
+  const DASHES = {drag_divergence: '3 4'};
   /** @type {[string, string, number, string][]} */
-  const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'c_l', 2, ''], ['margin', 'To stall', 1, '°']];
+  const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 2, ''], ['margin', 'To stall', 1, '°']];
   const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
   // `pointer` and each of `pins` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
   let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
@@ -80,13 +79,19 @@
       <path d="${trace(head)}Z" fill="var(--rx-dim)"/>`;
   }
 
-  // Beside the blade in the hand: what the colours are, what the dashes, and the shares of the regions.
+  // Beside the blade in the hand: the scale of colours, what the dashes are, and the shares of the regions.
   function drawKey(regions) {
     const {field, unit, held} = RX.state.plan, {y, radius, width} = layout, high = y - radius - 38;
-    const shares = regions.map(({name, title, words}, k) => `<text x="20" y="${y + radius + 46 + 18 * k}">
+    const {colours, ticks} = RX.state.field, from = width - 170, low = y + radius + 46;
+    const stops = colours.map((colour, k) => `<stop offset="${k / (colours.length - 1)}" stop-color="${colour}"/>`);
+    const words = ticks.map(([at, word]) =>
+      `<text x="${from + 1.5 * at}" y="${low + 30}" text-anchor="middle">${text(word)}</text>`);
+    const shares = regions.map(({name, title, words}, k) => `<text x="20" y="${low + 18 * k}">
       <tspan style="fill:${COLOURS[name]};font-weight:640">${text(title)}</tspan><tspan
         dx="7">${text(words)}</tspan></text>`);
-    return `<text x="20" y="${high}">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text>
+    return `<linearGradient id="rxk">${stops.join('')}</linearGradient>
+      <text x="${from + 75}" y="${low}" text-anchor="middle">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text>
+      <rect x="${from}" y="${low + 7}" width="150" height="9" fill="url(#rxk)"/>${words.join('')}
       <path d="M${width - 92} ${high - 4}h22" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>
       <text x="${width - 64}" y="${high}">${held}</text>${shares.join('')}`;
   }
@@ -316,11 +321,15 @@
     else {
       const spot = layout && RX.state.plan && find(event);
       if (!spot || !pressed || distance([event.clientX, event.clientY], pressed) > 5) return;
-      pins = [...pins, spot].slice(-4);
+      pin(spot);
     }
     drawCursor();
     drawPins();
   });
+  function pin(spot) {
+    pins = [...pins, spot].slice(-4);
+    RX.send('section', [spot.r, spot.psi]);
+  }
   // By key: along the blade and around the disk, Enter pins.
   const STEPS = {ArrowUp: [.01, 0], ArrowDown: [-.01, 0], ArrowRight: [0, 5], ArrowLeft: [0, -5]};
   place.addEventListener('keydown', event => {
@@ -330,7 +339,7 @@
     event.stopPropagation();
     pointer ??= {r: circle, psi: 90};
     if (step) pointer = {r: clamp(pointer.r + step[0], plan.root, 1), psi: turned(pointer.psi + step[1])};
-    else pins = [...pins, pointer].slice(-4);
+    else pin(pointer);
     circle = pointer.r;
     drawCursor();
     drawPins();

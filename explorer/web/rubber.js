@@ -203,7 +203,7 @@
     let last = top;
     const row = (y, name, angle, change, css = '') => label(x, y, name, {anchor: 'start'})
       + label(x + 84, y, angle, {...right, css}) + label(x + 150, y, change, right);
-    return row(top, 'r/R', 'twist', 'Δ') + cuts.map(({r}) => {
+    return row(top, 'r/R', 'jig twist', 'Δ') + cuts.map(({r}) => {
       const angle = theta(blade, r), [edge, height] = point(share(r), angle, [.25, 0]);
       const change = reference ? angle - twistAt(reference, r) : 0;
       last = Math.max(last + 20, Math.min(height, box.y + box.h - 12));

@@ -128,6 +128,12 @@
     if (next) watch(next);
   }});
 
+  // Where a node can be dragged, the client refuses what a press does by default, from a listener that is passive: the
+  // browser does not obey, and writes an error for each press.
+  addEventListener('pointerdown', event => {
+    if (event.target instanceof HTMLCanvasElement) event.preventDefault = () => {};
+  }, true);
+
   // A page that can be seen tries again, also where another window has the keyboard, as in front of a class.
   document.hasFocus = () => document.visibilityState === 'visible';
   document.addEventListener('visibilitychange', () => window.dispatchEvent(new Event('focus')));

@@ -256,10 +256,10 @@ def law_shapes(installed: InstalledActuator, design: Design) -> Array:
     return shapes[:, :-1] - shapes[:, -1:]
 
 
-def twisted(jig: TwistLaw, change: Array) -> TwistLaw:
-    """A jig law with a change of twist [rad] at STATIONS on top; its SPEC can be read again."""
+def twisted(jig: TwistLaw, change: Array, name: str = "") -> TwistLaw:
+    """A jig law with a named change of twist [rad] at STATIONS on top; its SPEC can be read again."""
     rates = np.diff(change) / np.diff(STATIONS)
-    return SumTwist(jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())))
+    return SumTwist(jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())), name)
 
 
 SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)

@@ -138,6 +138,8 @@ class SumTwist:
 
     base: TwistLaw
     change: TwistLaw
+    name: str = ""
+    """Of the change, where a program made it from many numbers; a SPEC has the numbers alone."""
 
     def __call__(self, r: ArrayLike) -> Array:
         return self.base(r) + self.change(r)

@@ -19,6 +19,8 @@ INFLOWS = ("lifting-line", "pitt-peters")
 """The two inflow models that most rotor codes have: vortices of the blades, and states of the disk."""
 SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; a smaller one cannot be told."""
+LEAST_TOLD = 0.01
+"""[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
 
 
 @dataclass(frozen=True)
@@ -84,21 +86,30 @@ class Doubt:
     @property
     def sureness(self) -> str | None:
         """`sure`, `likely` or `cannot be told`: whether the sign of the change is known; None without a change."""
-        change, band = self.change, self.change_band
-        return None if change is None or band is None else sureness(change, band)
+        change, band, least = self.change, self.change_band, 0.01 * LEAST_TOLD * abs(self.against or 0.0)
+        return None if change is None or band is None or max(abs(change), band) < least else sureness(change, band)
+
+    @property
+    def change_words(self) -> str:
+        """The band of the change and whether its sign is known, `± 0.7 %: sure`; empty without a change."""
+        within, sure = self.change_band_percent, self.sureness
+        if within is None or sure is None:
+            return ""
+        return f"± {max(within, LEAST_TOLD):.{min(decimals(within), 2)}f} %: {sure}"
 
     @property
     def sentence(self) -> str:
         """In words: `Power 901 ± 52 kW. It saves 1.8 ± 0.7 % against A: sure.`"""
         kilowatts = self.band / 1e3
         said = f"Power {self.power / 1e3:.0f} ± {kilowatts:.{decimals(kilowatts)}f} kW."
-        change, band = self.change, self.change_band
-        if change is None or band is None or not self.against:
+        change, within, words = self.change, self.change_band_percent, self.change_words
+        if change is None or within is None or not self.against:
             return said
-        verb, part = ("saves", -change) if change <= 0.0 else ("costs", change)
-        amount, within = 100.0 * part / abs(self.against), self.change_band_percent or 0.0
-        digits = decimals(within)
-        return f"{said} It {verb} {amount:.{digits}f} ± {within:.{digits}f} %: {self.sureness}."
+        if not words:
+            return f"{said} It neither saves nor costs."
+        verb = "saves" if change <= 0.0 else "costs"
+        amount = abs(100.0 * change / self.against)
+        return f"{said} It {verb} {amount:.{min(decimals(within), 2)}f} {words}."
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""

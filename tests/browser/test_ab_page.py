@@ -59,7 +59,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     menu(watched)
     page.evaluate(CLOSE_NOTIFICATION)  # Nobody has pressed beside the menu.
     assert page.locator('[data-explorer="pinned"]').is_visible()
-    watched.reads("pinned", r"A\s*Two segments −14/−8 at 0\.5\s+" + begun)
+    watched.reads("pinned", r"A\s*UH-60A · segments −14/−8 at 0\.5\s+" + begun)
     page.keyboard.press("Escape")
     watched.says("against", "A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", "0.0"])

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
-BUILT = replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25)
+BUILT = replace(OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.793, advance_ratio=0.25)
 
 
 def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
@@ -41,6 +41,10 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     page.reload()
     watched.ready()
     watched.until(lambda: holds(app, watched, BUILT))
+    shown = [
+        watched.row(label).get_by_role("textbox").input_value() for label in ("Δ inboard [°/R]", "Break point [r/R]")
+    ]
+    assert shown == ["-2.0", "0.79"], "rounded, while the design is exact"
     page.get_by_role("button", name="Reset design").click()
     watched.until(lambda: holds(app, watched, OPENING))
     page.get_by_role("button", name="Undo").click()

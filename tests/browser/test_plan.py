@@ -44,15 +44,16 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
         math.degrees(disk.alpha[row, column]), abs=0.2
     )
     assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
-    assert float(shown["c_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
+    assert float(shown["C_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
     assert f"{r:.2f} R" in page.locator("[data-explorer=around]").inner_text()
-    # A pinned card stays when a drawer moves the stage, and goes by its own button.
+    # A click opens its section; the pinned card stays when the drawer moves the stage, and goes by its own button.
     page.mouse.down()
     page.mouse.up()
     page.locator("[data-pin]").wait_for(state="visible")
     place = page.locator("[data-pin] b").inner_text()
-    page.get_by_role("button", name="Open", exact=True).click()
-    page.wait_for_function(_READY)
+    page.wait_for_function(f"() => RX.state.bar.drawer === 'probe' && ({_READY})()")
+    fields = [watched.row(label).get_by_role("textbox") for label in ("Radius r/R", "Azimuth ψ [°]")]
+    watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) == place)
     assert page.locator("[data-pin] b").inner_text() == place
     page.get_by_role("button", name="Unpin this reading").click()
     assert page.locator("[data-pin]").count() == 0

@@ -59,8 +59,8 @@ def test_save_and_load(visit: Visit, tmp_path: Path):
     page = watched.page
     watched.drawer("share")
     with page.expect_download() as download:
-        page.get_by_role("button", name="Save design").click()
-    saved = tmp_path / "design.json"
+        page.get_by_role("button", name="Design file").click()
+    saved = tmp_path / download.value.suggested_filename
     download.value.save_as(saved)
     design = load_design(saved)
     assert design.twist.spec() == "spline:9,6,0,-5@0.13,0.4,0.75,1"

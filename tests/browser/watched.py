@@ -28,8 +28,6 @@ ON_SCREEN = """r => {
     return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
 }"""
 """Pixel of a point of the reference blade, so far from its hinge [m]."""
-PASSIVE = "Unable to preventDefault inside passive event listener"
-"""What the browser says of viser's own listener when a node that can be dragged, as a blade, is pressed."""
 
 
 class Watched:
@@ -40,9 +38,7 @@ class Watched:
         page.set_default_timeout(WAIT)
         self.complaints: list[str] = []
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on(
-            "console", lambda m: self.complaints.append(m.text) if m.type == "error" and PASSIVE not in m.text else None
-        )
+        page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
 
     def open(self, address: str, query: str = COARSE) -> None:
         self.page.goto(address + query)

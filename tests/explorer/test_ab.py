@@ -18,7 +18,7 @@ from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import Drawn, polar_grid
 from explorer.scene.overlays import ghost_of
 from explorer.text import readout
-from explorer.text.design_words import pinned_name
+from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist, SumTwist
@@ -87,7 +87,7 @@ class TestButtons:
     def test_a_driven_blade_is_named_and_said_to_stay_driven(self, a: Solution, b: Solution):
         driven = replace(a, design=replace(a.design, twist=SumTwist(a.design.twist, LinearTwist(0.02))))
         pinned = Pinned(A_INPUTS, driven)
-        assert pinned_name(pinned) == "Linear −8°, driven"
+        assert title_words(driven.design) == "UH-60A · linear −8\u00a0°/R + linear 1.1\u00a0°/R"
         assert "actuator" in act("back", pinned, B_INPUTS, b, True).sentence
 
     def test_the_ghost_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):

@@ -15,14 +15,13 @@ ROWS = tuple(DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 
 def test_the_card_has_the_band_of_power_and_of_its_change():
     words = card_words(Doubt(900e3, ROWS, against=905e3), SI)
     assert words.within == "± 14"
-    assert words.change_within == "± 0.16"
-    assert words.sure == "sure"
+    assert words.sure == "± 0.16 %: sure"
     assert card_words(Doubt(900e3, ROWS, against=905e3), AVIATION).within == "± 19"
 
 
 def test_without_a_change_there_is_the_band_of_power_alone():
     words = card_words(Doubt(900e3, ROWS), SI)
-    assert (words.within, words.change_within, words.sure) == ("± 14", "", "")
+    assert (words.within, words.sure) == ("± 14", "")
 
 
 @pytest.mark.parametrize("against", [None, 905e3])
@@ -38,6 +37,8 @@ def test_other_models_stand_beside_the_rows():
     models = OtherModels("bending", 980e3, -20e3), OtherModels("inflow uniform", 900e3)
     html = doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models)
     assert "With another model: bending 980 kW, saves 2.0 %; inflow uniform 900 kW." in html
+    assert "another may lie outside" in html
+    assert "outside" not in doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models[:1])
     assert "With another model" not in doubt_rows(Doubt(990e3, ROWS))
 
 

@@ -33,11 +33,10 @@ def table(packed: PackedTable | None) -> Array:
 
 def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
     shares = region_shares(solution)
-    stalled = shares["stall"][0] + shares["negative_stall"][0]
-    assert stalled == pytest.approx(solution.stalled_area, abs=0.003)
+    (stalled, thrust), words = shares["stall"], plan(solution, ViewState(), ALPHA, (0.0, 9.0), MOVING, False).regions
+    assert words[0].words.startswith(f"{100.0 * solution.stalled_area:.1f} % area"), "as on the card"
+    assert len(words[0].lines) > 0
     assert shares["reverse_flow"][0] == pytest.approx(solution.reverse_flow_area, abs=0.001)
-    thrust = shares["stall"][1] + shares["negative_stall"][1]
-    assert thrust == pytest.approx(solution.stalled_thrust, abs=0.004)
     assert abs(thrust) < stalled  # Where the flow is slow there is little lift to lose.
     assert shares["reverse_flow"][1] < 0.0  # Air from behind presses the blade down there.
 
@@ -62,7 +61,7 @@ def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
 def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
     moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), MOVING, at_rest=False)
     assert moving.values is None
-    assert not {"stall", "negative_stall"} & {one.name for one in moving.regions}
+    assert "stall" not in {one.name for one in moving.regions}
 
 
 def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):

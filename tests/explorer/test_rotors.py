@@ -24,7 +24,7 @@ from explorer.model.session_state import Pinboard, Pinned
 from explorer.picture.picture import turned_blades
 from explorer.sharing import share
 from explorer.tabs.design_files import SUFFIXES, UploadedFiles
-from explorer.text.design_words import twist_name
+from explorer.text.design_words import title_words
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
 from rotor.assets import SHIPPED_ROTORS, asset_path
@@ -62,10 +62,9 @@ def test_another_rotor_comes_as_it_is_built():
     assert_allclose(design.condition.mass, 8620.0)
     assert baseline_of(design) == design
     assert inputs_of(design) == with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0), "s61")
-    assert twist_name(inputs) == "Sikorsky S-61, As built"
-    assert twist_name(Inputs(law="builtin")) == "As built"
-    assert twist_name(Inputs(law="three")) == "Three segments −16/−12/−6 at 0.4/0.75"
-    assert twist_name(Inputs(law="linear", linear=-9.5)) == "Linear −9.5°"
+    assert title_words(design) == "Sikorsky S-61 as built"
+    assert title_words(Inputs(law="three").design()) == "UH-60A · segments −16/−12/−6 at 0.4/0.75"
+    assert title_words(Inputs(law="linear", linear=-9.5).design()) == "UH-60A · linear −9.5\u00a0°/R"
 
 
 def test_ones_own_rotor_stays_in_the_menu():

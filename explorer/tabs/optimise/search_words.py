@@ -210,8 +210,11 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
         if (sure := doubts.get(parameter.name)) is not None:
             reach += f"; {number(parameter.shown(sure.low), digits)} … {number(parameter.shown(sure.high), digits)}"
             unit = parameter.shown_unit
-            causes = (f"{words} {number(parameter.shown(by), digits, sign=True)} {unit}" for words, by in sure.causes)
-            notes.append(f"{parameter.title} is moved most by {', '.join(causes)}.")
+            moved = ((words, number(parameter.shown(by), digits, sign=True)) for words, by in sure.causes)
+            causes = ", ".join(
+                f"{words} {by} {unit}" for words, by in moved if by[0] in "+−"
+            )  # Else it rounds to none.
+            notes += [f"{parameter.title} is moved most by {causes}."] if causes else []
         rows.append(
             tag(
                 "tr",

@@ -199,6 +199,10 @@ def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
     nothing = Doubt(901.4e3, (replace(row, change=2.7e3),), against=902.3e3)
     assert nothing.sentence == "Power 901 ± 52 kW. It saves 0.1 ± 0.3 %: cannot be told."
     assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith("It costs 2.43 ± 0.11 %: sure.")
+    assert Doubt(901.4e3, (replace(row, change=0.03),), 880e3).sentence.endswith("It costs 2.43 ± 0.01 %: sure.")
+    same = Doubt(901.4e3, (replace(row, change=0.03),), 901.4e3 + 0.01)
+    assert (same.sureness, same.change_words) == (None, "")
+    assert same.sentence == "Power 901 ± 52 kW. It neither saves nor costs."
 
 
 def test_a_rotor_file_states_its_own(tmp_path_factory: pytest.TempPathFactory):

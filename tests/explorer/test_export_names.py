@@ -1,0 +1,82 @@
+"""Twists that a program made have a name in titles and names of files, and their numbers in the files."""
+
+import io
+import json
+import re
+import zipfile
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.provenance import file_name, tables_zip
+from explorer.export.report import report_html
+from explorer.export.view_picture import view_png
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs, ViewState, baseline_of
+from explorer.model.units import SI
+from explorer.text.design_words import LONGEST_TITLE, title_words
+from rotor import Design, Solution, make_design, solve
+
+PLAIN = make_design(inflow="drees", elements=16, azimuths=36)
+SEGMENTS = (
+    f"segments:{','.join(f'{-8 - 0.1 * k:g}' for k in range(40))}@{','.join(f'{k / 40:g}' for k in range(1, 40))}"
+)
+DRIVEN = ActuatorInputs(drives=(77.0,) * 5)
+APART = replace(DRIVEN, concept="three-segment", drives=(77.0, -20.0, 10.0, 0.0, 0.0))
+CHANGED = replace(PLAIN, twist=Inputs(law="builtin", built_inner=-2.5, built_outer=1.3).design().twist)
+DESIGNS: dict[str, tuple[Design, str]] = {
+    "driven": (DRIVEN.apply(PLAIN), "UH-60A as built + MFC P1 at 1 155 V"),
+    "apart": (APART.apply(CHANGED), "UH-60A as built + segments −2.5/1.3 at 0.5 + MFC P1 at −100…1 155 V"),
+    "segments": (PLAIN.with_twist(SEGMENTS), "UH-60A · 40 segments, −8.9° root to tip"),
+    "own": (
+        replace(PLAIN, rotor=replace(PLAIN.rotor, name="An own rotor/of <many> words " * 4)),
+        "An own rotor/o … > words as built",
+    ),
+}
+
+
+@cache
+def solution(name: str) -> Solution:
+    return solve(DESIGNS[name][0]).require()
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
+    one, (design, said) = solution(name), DESIGNS[name]
+    title = title_words(design)
+    assert title.replace("\u2009", " ").startswith(said)
+    assert len(title) <= LONGEST_TITLE
+    for ending in ("-report.html", "-tables.zip", "-jig.stl", ".json", ".png"):
+        assert re.fullmatch(r"[a-z0-9][a-z0-9._-]*", file := file_name(design, ending))
+        assert file.endswith(f"-mu0.200{ending}")
+        assert len(file) <= 60
+    report = DesignReport(ReportEntry("Baseline", solve(baseline_of(design))), [ReportEntry("Now", one)], ViewState())
+    page = report_html(report, None)
+    law = design.to_dict()["twist"]
+    assert f'"twist": "{law}"' in page
+    assert "segments:" not in law or page.count(law) == 1, "in the design file alone"
+    curve = PowerCurve(*np.ones((3, len(SWEEP))))
+    with zipfile.ZipFile(io.BytesIO(tables_zip(one, PLAIN, curve, 65.0))) as tables:
+        assert tables.namelist() == ["disk.csv", "blade.csv", "power.csv"]
+        for table in tables.namelist():
+            assert f"twist {design.twist.spec()}" in tables.read(table).decode().splitlines()[0]
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_words_of_the_picture_meet_neither_each_other_nor_the_view(name: str):
+    """Between title and power no ink stands, nor in the rows beside the view."""
+    one = solution(name)
+    scene = np.full((300, 1920, 4), (10, 200, 30, 255), np.uint8)
+    with Image.open(io.BytesIO(view_png(scene, one, None, SI, dark=False))) as picture:
+        assert json.loads(picture.text["Design"])["twist"] == one.design.to_dict()["twist"]  # pyright: ignore[reportAttributeAccessIssue]
+        above = np.asarray(picture.convert("L"))[:112]
+    assert (above[-8:] == 255).all()
+    inked = np.flatnonzero((above < 255).any(axis=0))
+    assert inked[0] >= 40
+    assert inked[-1] < 1920 - 39
+    assert np.diff(inked).max() > 100, "room between the words and the power"
