@@ -72,18 +72,23 @@
   }
   // With every answer, as the strip has it, a thumb may stand elsewhere.
   RX.paint(['worth', 'strip'], worths => {
-    for (const place of document.querySelectorAll('[data-worth]')) {
-      const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
+    const moved = [...document.querySelectorAll('[data-worth]')].filter(place => {
       const row = place.parentElement?.previousElementSibling, thumb = row?.querySelector('.mantine-Slider-thumb');
-      const stands = [JSON.stringify(worth), thumb?.ariaValueNow, thumb?.ariaValueMax, innerWidth].join();
-      if (place.stands === stands && place.childElementCount) continue;  // To ask where things are costs a layout.
-      place.stands = stands;
+      const worth = JSON.stringify(worths[place.dataset.worth]);
+      const stands = [worth, thumb?.ariaValueNow, thumb?.ariaValueMax, innerWidth].join();
+      if (place.stands === stands && place.childElementCount) return false;
+      return place.stands = stands;
+    });
+    // To ask where things are between two writes costs a layout: all are asked first.
+    const arrows = moved.map(place => worths[place.dataset.worth] && arrow(worths[place.dataset.worth], place));
+    moved.forEach((place, k) => {
+      const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
       const number = way ? `<b ${way === 'up' ? 'class="rxf-good"' : ''}>${text(value)}</b>${text(unit)}` : text(value);
-      write(place, worth ? `${arrow(worth, place)}<span>${number}</span>` : '');
-      if (!worth) continue;
+      write(place, worth ? `${arrows[k]}<span>${number}</span>` : '');
+      if (!worth) return;
       place.toggleAttribute('data-stale', worth.stale);
       place.title = worth.sentence;
-    }
+    });
   });
 
   const MEANT = {

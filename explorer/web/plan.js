@@ -220,6 +220,7 @@
   }
   // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
   function placePins(elements) {
+    if (!elements.length) return;
     const taken = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean);
     for (const label of place.querySelectorAll('[data-labels] > *')) {
       const {offsetLeft: left, offsetTop: top, offsetWidth, offsetHeight} = label;

@@ -16,7 +16,12 @@
     pointer = clientY;
     const byHand = () => held?.by === 'hand';  // From the server's answer to the press on.
     return {
-      move(event) { pointer = event.clientY; if (byHand()) turn(); },
+      move(event) {
+        pointer = event.clientY;
+        if (!byHand()) return;
+        event.stopPropagation();  // viser would look for what lies below the pointer.
+        turn();
+      },
       end() { pointer = null; if (byHand()) release(); },
     };
   }, true);
@@ -76,13 +81,13 @@
     if (by === 'key') place.focus({preventScroll: true});
     fly(1);
   });
-  RX.paint(['twist', 'hand'], () => { if (held && !running) draw(); });
+  RX.paint(['twist', 'hand'], () => { if (held && !running) redraw(); });
 
   // The trailing edge of the held station goes as far up or down as the pointer.
   function turn() {
     const reach = TRAIL * held.layout.size(held.share) * Math.max(Math.cos(TIMES * held.start * DEGREE), .5);
     turnTo(held.start + (pointer - held.from) / reach / TIMES / DEGREE);
-    if (!running) draw();
+    if (!running) redraw();
   }
   const heard = paced(angle => { if (held) RX.send('knot', [held.knot, [null, angle]]); });
   // The blade stops where the first of its sliders ends.
@@ -102,7 +107,7 @@
   function fly(to) {
     towards = to;
     if (to) page.toggleAttribute('data-rubber', true);
-    else left = held;
+    else { left = held; rotorScene.hide(false); }
     if (running) return;
     running = true;
     before = performance.now();
@@ -115,14 +120,16 @@
     draw();
     running = shown !== towards;
     if (running) requestAnimationFrame(step);
-    else if (!towards) {
+    else if (towards) rotorScene.hide(true);
+    else {
       page.removeAttribute('data-rubber');
       place.querySelector('svg').innerHTML = '';
       left = null;
-      RX.again('plan');
+      RX.again('plan', 'inset');
     }
   }
 
+  const redraw = soon(() => draw());  // Moves and answers come several in a frame.
   function draw() {
     const one = held ?? left, jig = line('this'), cuts = RX.state.inset?.cuts;
     if (!one || !jig || !cuts) return;
