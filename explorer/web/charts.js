@@ -128,9 +128,9 @@
       const {chart} = twist, focus = document.activeElement?.dataset?.knot;
       const frame = Charts.frame(chart, width, height, {left: 34});
       const handles = twist.knots.map(({name, r, theta, title}) => `
-        <circle data-knot="${name}" cx="${frame.X(r).toFixed(1)}" cy="${frame.Y(theta).toFixed(1)}" r="5" tabindex="0"
-          role="slider" aria-label="${text(title)}" aria-valuenow="${theta}" aria-valuetext="${theta}° at ${r} R">
-          <title>${text(title)}</title></circle>`);
+        <g data-knot="${name}" tabindex="0" role="slider" aria-label="${text(title)}" aria-valuenow="${theta}"
+          aria-valuetext="${theta}° at ${r} R"><title>${text(title)}</title>${['data-reach r="5"', 'r="5"'].map(of =>
+          `<circle ${of} cx="${frame.X(r).toFixed(1)}" cy="${frame.Y(theta).toFixed(1)}"/>`).join('')}</g>`);
       place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">
         ${Charts.axes(chart, frame)}${Charts.inside(chart, frame)}${drawKey(chart, frame)}${handles.join('')}</svg>`;
       Object.assign(place, {stamp, frame});
