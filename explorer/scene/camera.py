@@ -21,6 +21,8 @@ _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
 _FLIGHT = 1.0
 """A flight of the camera takes no longer [s]."""
+_RESHAPED = 0.01
+"""A smaller change of width over height is none: the page draws fewer pixels while something is dragged."""
 _TAKEN = 0.3
 """A camera this far [m] from where it was put was moved by the user."""
 
@@ -46,7 +48,7 @@ class FittedCamera:
         """When a flight of the camera ends."""
         self._wanted: float | None = None
         """The tilt that `follow` was given while the camera was held."""
-        self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
+        self._put: tuple[np.ndarray, float, float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
@@ -131,7 +133,7 @@ class FittedCamera:
             with self._client.atomic():
                 camera.position = target.position
                 camera.look_at = target.look_at
-        self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
+        self._put = (target.position, camera.aspect, time.monotonic())
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following or self._held:
@@ -139,8 +141,8 @@ class FittedCamera:
         if self._put is None:
             self._aim(self._fit)
             return
-        position, size, since = self._put
-        if (camera.image_width, camera.image_height) != size:
+        position, aspect, since = self._put
+        if abs(camera.aspect - aspect) > _RESHAPED * aspect:
             self._aim(self._fit)
         elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
             self._following = False

@@ -146,7 +146,7 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
     viewer = embedded_viewer([page])
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
     words = {
-        "styles": web.styles("frame.css", "story.css"),
+        "styles": web.styles("frame.css", "story.css", "small.css"),
         "note": f"Computed by {PROGRAM} {versions()[PROGRAM]}. Forward flight is a model, not a measurement.",
         "column": web.text("column.html"),
         "stage": web.text("wipe.html"),

@@ -16,7 +16,7 @@ import msgspec
 from rotor.markup import Markup, group, tag
 
 _FOLDER = Path(__file__).parent
-STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "big.css")
+STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "small.css", "big.css")
 """Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
     *("viser.js", "common.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "cards.js", "charts.js"),

@@ -72,18 +72,23 @@
   }
   // With every answer, as the strip has it, a thumb may stand elsewhere.
   RX.paint(['worth', 'strip'], worths => {
-    for (const place of document.querySelectorAll('[data-worth]')) {
-      const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
+    const moved = [...document.querySelectorAll('[data-worth]')].filter(place => {
       const row = place.parentElement?.previousElementSibling, thumb = row?.querySelector('.mantine-Slider-thumb');
-      const stands = [JSON.stringify(worth), thumb?.ariaValueNow, thumb?.ariaValueMax, innerWidth].join();
-      if (place.stands === stands && place.childElementCount) continue;  // To ask where things are costs a layout.
-      place.stands = stands;
+      const worth = JSON.stringify(worths[place.dataset.worth]);
+      const stands = [worth, thumb?.ariaValueNow, thumb?.ariaValueMax, innerWidth].join();
+      if (place.stands === stands && place.childElementCount) return false;
+      return place.stands = stands;
+    });
+    // To ask where things are between two writes costs a layout: all are asked first.
+    const arrows = moved.map(place => worths[place.dataset.worth] && arrow(worths[place.dataset.worth], place));
+    moved.forEach((place, k) => {
+      const worth = worths[place.dataset.worth], {way, value, unit} = worth ?? {};
       const number = way ? `<b ${way === 'up' ? 'class="rxf-good"' : ''}>${text(value)}</b>${text(unit)}` : text(value);
-      write(place, worth ? `${arrow(worth, place)}<span>${number}</span>` : '');
-      if (!worth) continue;
+      write(place, worth ? `${arrows[k]}<span>${number}</span>` : '');
+      if (!worth) return;
       place.toggleAttribute('data-stale', worth.stale);
       place.title = worth.sentence;
-    }
+    });
   });
 
   const MEANT = {
@@ -123,9 +128,9 @@
       const {chart} = twist, focus = document.activeElement?.dataset?.knot;
       const frame = Charts.frame(chart, width, height, {left: 34});
       const handles = twist.knots.map(({name, r, theta, title}) => `
-        <circle data-knot="${name}" cx="${frame.X(r).toFixed(1)}" cy="${frame.Y(theta).toFixed(1)}" r="5" tabindex="0"
-          role="slider" aria-label="${text(title)}" aria-valuenow="${theta}" aria-valuetext="${theta}° at ${r} R">
-          <title>${text(title)}</title></circle>`);
+        <g data-knot="${name}" tabindex="0" role="slider" aria-label="${text(title)}" aria-valuenow="${theta}"
+          aria-valuetext="${theta}° at ${r} R"><title>${text(title)}</title>${['data-reach r="5"', 'r="5"'].map(of =>
+          `<circle ${of} cx="${frame.X(r).toFixed(1)}" cy="${frame.Y(theta).toFixed(1)}"/>`).join('')}</g>`);
       place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">
         ${Charts.axes(chart, frame)}${Charts.inside(chart, frame)}${drawKey(chart, frame)}${handles.join('')}</svg>`;
       Object.assign(place, {stamp, frame});

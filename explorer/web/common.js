@@ -41,7 +41,8 @@ const Common = (() => {
     };
   }
   // A gesture, from a press on what `selector` names: `begin` returns its functions, or nothing if it is none. `move`
-  // hears of every move, `end` of the release, and `escape`, if there is one, of the key, which ends the gesture too.
+  // hears of every move, `end` of the release, and `escape`, if there is one, of the key or of a second finger, which
+  // end the gesture too.
   function drag(place, selector, begin, capture = false) {
     let held = null;
     place.addEventListener('pointerdown', event => {
@@ -52,8 +53,8 @@ const Common = (() => {
     addEventListener('pointermove', event => { if (held && event.isPrimary) held.move?.(event); }, capture);
     for (const name of ['pointerup', 'pointercancel'])
       addEventListener(name, event => { if (held && event.isPrimary) finish('end', event); }, capture);
-    addEventListener('keydown', event => {
-      if (held?.escape && event.key === 'Escape') finish('escape', event);
+    for (const name of ['keydown', 'pointerdown']) addEventListener(name, event => {
+      if (held?.escape && (event.key === 'Escape' || event.isPrimary === false)) finish('escape', event);
     }, true);
   }
 

@@ -6,7 +6,7 @@
     undo: 'M4 9h10a6 6 0 0 1 0 12h-3M4 9l5-5M4 9l5 5', redo: 'M20 9H10a6 6 0 0 0 0 12h3M20 9l-5-5M20 9l-5 5',
     pin: 'M12 16v6M8 3h8l-1 7 3 5H6l3-5z', share: 'M12 15V3M7 8l5-5 5 5M5 13v7h14v-7',
     play: 'M7 4l13 8-13 8z', pause: 'M8 5v14M16 5v14', folder: 'M3 6h6l2 3h10v10H3z',
-    sliders: 'M4 7h9M19 7h1M4 17h3M13 17h7M16 4v6M10 14v6', chart: 'M4 4v16h16M7 15l4-5 3 3 5-7',
+    sliders: 'M4 7h9M19 7h1M4 17h3M13 17h7M16 4v6M10 14v6', more: 'M5 12h.1M12 12h.1M19 12h.1',
     gear: 'M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM12 3v2.5M12 18.5V21M3 12h2.5M18.5 12H21'
       + 'M5.6 5.6l1.8 1.8M16.6 16.6l1.8 1.8M18.4 5.6l-1.8 1.8M7.4 16.6l-1.8 1.8',
     hand: 'M8 12V5.5a1.6 1.6 0 0 1 3.2 0V11 4.2a1.6 1.6 0 0 1 3.2 0V11 6.2a1.6 1.6 0 0 1 3.2 0V15c0 4-2.6 6.5-6.2 6.5'
@@ -98,8 +98,8 @@
     if (action === 'pin' && state.bar?.pinned && control.closest('.rxf-bar')) return pinMenu(control);
     if (action === 'mode') mark(value);
     // In a narrow window a mode brings its controls along, and a view makes room for itself.
-    if (action === 'mode' && innerWidth <= 1100) openRail(true);
-    if (action === 'view' && innerWidth <= 860) openRail(false);
+    if (action === 'mode' && (innerWidth <= 1100 || small.matches)) showTab('controls', true);
+    if (action === 'view' && small.matches) openRail(beside());
     if (inside === menu && action !== 'along') menu.hidden = true;
     RX.send(action, control.type === 'checkbox' ? control.checked : value ?? null);
   });
@@ -157,33 +157,59 @@
     else if (state.bar?.drawer && !document.querySelector('dialog[open]')) RX.send('drawer', '');
   });
 
+  // On a telephone or a tablet one sheet holds what stands around the scene else, a tab for each: controls, the key of
+  // the disk, charts. A drawer takes the place of all three.
+  const small = RX.small = matchMedia('(max-width: 860px), (max-height: 480px)'), more = () => 'more' in page.dataset;
+  const beside = () => innerHeight <= 480;  // Where the window is low: then it stays open.
   function toggle(name) {
-    if (name === 'rail' && state.bar?.drawer) {  // In a narrow window one of the two has room.
-      RX.send('drawer', '');
-      if (page.dataset.rail === 'open') return;
-    }
-    open(name, page.dataset[name] !== 'open');
+    if (name === 'more') return;
+    const open = page.dataset.rail === 'open' && !state.bar?.drawer;
+    if (state.bar?.drawer) RX.send('drawer', '');
+    if (name === 'rail') openRail(!open); else showTab(name, beside() || !(open && page.dataset.tab === name));
   }
-  function open(name, wanted) {
-    if (wanted) page.dataset[name] = 'open'; else delete page.dataset[name];
-    for (const button of root.querySelectorAll(`[data-page=${name}]`)) button.ariaExpanded = String(wanted);
+  function showTab(name, wanted) {
+    page.dataset.tab = name;
+    openRail(wanted);
+    RX.again('plan', 'strip', 'inset', 'fly', 'earns');
+  }
+  const openRail = RX.openRail = wanted => {
+    if (wanted) page.dataset.rail = 'open'; else delete page.dataset.rail;
+    sayOpen();
     window.dispatchEvent(new Event('resize'));
+  };
+  function sayOpen() {
+    const open = page.dataset.rail === 'open' && !state.bar?.drawer;
+    for (const button of root.querySelectorAll('[data-page]')) {
+      const {page: name} = button.dataset;
+      button.ariaExpanded = String(name === 'more' ? more() : open && (name === 'rail' || name === page.dataset.tab));
+    }
   }
-  const openRail = RX.openRail = wanted => open('rail', wanted);
-  if (innerWidth <= 860) openRail(true);
+  // Any press closes what stands below "More", after it has been heard.
+  document.addEventListener('click', event => {
+    page.toggleAttribute('data-more', Boolean(closest(event, '[data-page=more]')) && !more());
+    sayOpen();
+  });
+  function settle() {
+    const low = root.querySelector('.rxf-low');
+    if (small.matches) root.querySelector('.rxf-sheet').prepend(low); else part('labels').before(low);
+  }
+  small.addEventListener('change', settle);
+  settle();
+  showTab('controls', small.matches);
   // The sheet follows the finger that pulls its edge; the canvas takes its new size when it is let go.
-  const grip = root.querySelector('.rxf-grip');
+  const grip = root.querySelector('.rxf-grip'), reach = () => innerHeight - grip.getBoundingClientRect().bottom;
   let pulled = false;
   drag(grip, '*', (_, {clientY: from, pointerId}) => {
-    const rail = document.querySelector('[data-dock-region=right]') ?? grip, opened = '[data-drawer], [data-rail=open]';
-    const before = page.matches(opened) ? Number.parseFloat(getComputedStyle(rail).height) : 0;
+    const before = reach();
     let height = null;
     pulled = false;
-    grip.setPointerCapture(pointerId);
-    return {
+    return beside() ? null : {
       move({clientY}) {
         if (height === null && Math.abs(clientY - from) < 6) return;
-        if (height === null) page.style.setProperty('--rx-under', `${before}px`);
+        if (height === null) {
+          page.style.setProperty('--rx-under', `${before}px`);
+          grip.setPointerCapture(pointerId);
+        }
         height = clamp(before + from - clientY, 0, 0.62 * innerHeight);
         page.style.setProperty('--rx-pulled', `${height}px`);
         if (!page.matches('[data-drawer]')) page.dataset.rail = 'open';
@@ -220,6 +246,7 @@
     pin.querySelector('span').textContent = bar.pinned ? 'A pinned ▾' : 'Pin A';
     pin.ariaLabel = bar.pinned ? `A is ${bar.pinned.title}` : 'Pin A';
     page.toggleAttribute('data-drawer', Boolean(bar.drawer));
+    sayOpen();
     for (const button of root.querySelectorAll('.rxf-tools [data-do=drawer]'))
       button.ariaExpanded = String(button.dataset.value === bar.drawer);
     if (!part('menu').hidden && bar.pinned) pinMenu(pin, true);
@@ -269,12 +296,13 @@
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
     const box = name => root.querySelector(name).getClientRects()[0], notice = box('.rxf-notice');
     if (!stage.height) return;
-    const wide = COVERING.map(box).filter(card => card?.width > 0.28 * stage.width);
+    const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxs-figures'] : COVERING;
+    const wide = cards.map(box).filter(card => card?.width > 0.28 * stage.width);
     wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
     const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
     const low = wide.filter(card => !high.includes(card));
     if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
-    const usual = box('.rxf-power') ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0;
+    const usual = box('.rxf-power') && !small.matches ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0;
     const above = Math.max(usual, ...high.map(card => card.bottom - stage.top));
     const below = low.length ? stage.bottom - Math.min(...low.map(card => card.top)) : 0;
     RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);

@@ -11,7 +11,7 @@
   RX.paint('inset', inset => {
     const card = part('inset');
     card.hidden = !inset;
-    if (!inset || card.clientWidth < 80) return;
+    if (!inset || document.documentElement.hasAttribute('data-rubber') || card.clientWidth < 80) return;
     const {r: stations, theta, ghost, cuts, datum, times} = inset, ghostDatum = inset.ghost_datum;
     const width = card.clientWidth - 28, height = card.clientHeight - 15, [root] = stations, slope = .06 * height;
     const share = r => (r - root) / (1 - root);

@@ -18,7 +18,7 @@
     page.toggleAttribute('data-guess', Boolean(step) && step.answer === null);
     place.hidden = !step;
     if (begins || !step) {
-      RX.openRail(!step && innerWidth <= 860);  // Full-bleed, until the controls are asked for.
+      RX.openRail(!step && RX.small.matches);  // Full-bleed, until the controls are asked for.
       if (!step) story.end();
       window.dispatchEvent(new Event('resize'));
     }

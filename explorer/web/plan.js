@@ -45,15 +45,16 @@
   // their shares, which labels beside the circle have else. Labels stand on its right too where that costs it little.
   function arrange() {
     const {held} = RX.state.plan, {clientWidth: width, clientHeight: height} = place, chart = around.firstElementChild;
-    const wide = !held && width > 560 && width - CARDS > height - STACKED;
+    const wide = !held && !RX.small.matches && width > 560 && width - CARDS > height - STACKED;
     const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
     const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
-    const [left, right, top, bottom] = wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
+    const alone = held && page.dataset.rubber !== 'curve' && RX.small.matches;  // Without a word around it.
+    const [left, right, top, bottom] = alone ? [12, 12, 12, 12] : wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
       : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
     return {
-      width, height, wide, both, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
+      width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
       x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,
       chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)},
     };
@@ -74,7 +75,7 @@
     const head = [[1.03, 52], [out, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi));
     return `<circle cx="${x}" cy="${y}" r="${radius}" fill="none" stroke="var(--rx-ink)"/>
       <circle cx="${x}" cy="${y}" r="${radius * root}" fill="var(--rx-paper)" stroke="var(--rx-faint)"/>
-      <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${words.join('')}
+      <path d="${marks.join('')}" stroke="var(--rx-faint)"/>${layout.alone ? '' : words.join('')}
       <path d="${arc}" fill="none" stroke="var(--rx-dim)" stroke-width="2"/>
       <path d="${trace(head)}Z" fill="var(--rx-dim)"/>`;
   }
@@ -168,7 +169,7 @@
         stroke-dasharray="${DASHES[name] ?? 'none'}"/>`));
     svg.innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}"
         href="data:image/png;base64,${plan.picture}"/>
-      ${drawRim()}${plan.held ? drawKey(regions) : ''}<g data-blades></g>${before.join('')}
+      ${drawRim()}${plan.held && !layout.alone ? drawKey(regions) : ''}<g data-blades></g>${before.join('')}
       <g fill="none" stroke-linejoin="round">${outlines.join('')}${labels.map(drawTie).join('')}</g>
       <g data-tied></g><g data-cursor></g>`;
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -225,6 +226,7 @@
   }
   // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
   function placePins(elements) {
+    if (!elements.length) return;
     const taken = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean);
     for (const label of place.querySelectorAll('[data-labels] > *')) {
       const {offsetLeft: left, offsetTop: top, offsetWidth, offsetHeight} = label;

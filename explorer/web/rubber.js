@@ -12,13 +12,26 @@
   // `held`: the blade in the hand; `left`: the one that goes back into the scene. `wanted` is the angle of its station.
   let held = null, left = null, pointer = null;
 
-  drag(window, '*', (_, {clientY}) => {
+  let finger = false;
+  drag(window, '*', (_, {clientY, pointerType}) => {
     pointer = clientY;
+    finger = pointerType === 'touch';
     const byHand = () => held?.by === 'hand';  // From the server's answer to the press on.
     return {
-      move(event) { pointer = event.clientY; if (byHand()) turn(); },
+      move(event) {
+        pointer = event.clientY;
+        if (!byHand()) return;
+        event.stopPropagation();  // viser would look for what lies below the pointer.
+        turn();
+      },
       end() { pointer = null; if (byHand()) release(); },
     };
+  }, true);
+  // A second finger is Esc.
+  addEventListener('pointerdown', event => {
+    if (event.isPrimary || !held || held.by === 'key') return;
+    event.stopPropagation();
+    release(true);
   }, true);
 
   // Twist less that at 0.75 R [°]: a line of the twist chart.
@@ -41,7 +54,7 @@
   // stand on its right where there is room, words of the arc on its left.
   function arrange() {
     const stage = place.getBoundingClientRect(), {width, height} = stage, wide = width > 640;
-    const card = document.querySelector('.rxf-power').getClientRects()[0];
+    const card = RX.small.matches ? null : document.querySelector('.rxf-power').getClientRects()[0];
     const top = (card?.bottom ?? stage.top) - stage.top + 10;
     const split = wide ? clamp(height - top - 60, .36 * width, .5 * width) : top + .5 * (height - top);
     const box = wide ? {x: split, y: top, w: width - split, h: height - top - 46}
@@ -58,7 +71,9 @@
   function inScene(...middle) {
     const blade = node('/rotor/blade_0'), length = blade?.geometry?.boundingBox?.max.x ?? 7.8;
     if (!blade || !viewer().camera || !viewer().canvas) return [middle, middle];
-    return [.12, 1].map(share => project(blade, [share * length, 0, 0])).map(point => [point.left, point.top]);
+    const [canvas, stage] = [viewer().canvas, place].map(of => of.getBoundingClientRect());
+    return [.12, 1].map(share => project(blade, [share * length, 0, 0]))
+      .map(({left, top}) => [left + canvas.left - stage.left, top + canvas.top - stage.top]);
   }
 
   RX.paint('rubber', grabbed => {
@@ -71,18 +86,19 @@
       held = null;
       return;
     }
+    page.dataset.rubber = by;
     const start = twistAt(line('this'), r), share = (r - root) / (1 - root);
     held = {...grabbed, at, r, root, share, start, wanted: start, from: pointer, layout: arrange()};
     if (by === 'key') place.focus({preventScroll: true});
     fly(1);
   });
-  RX.paint(['twist', 'hand'], () => { if (held && !running) draw(); });
+  RX.paint(['twist', 'hand'], () => { if (held && !running) redraw(); });
 
   // The trailing edge of the held station goes as far up or down as the pointer.
   function turn() {
     const reach = TRAIL * held.layout.size(held.share) * Math.max(Math.cos(TIMES * held.start * DEGREE), .5);
     turnTo(held.start + (pointer - held.from) / reach / TIMES / DEGREE);
-    if (!running) draw();
+    if (!running) redraw();
   }
   const heard = paced(angle => { if (held) RX.send('knot', [held.knot, [null, angle]]); });
   // The blade stops where the first of its sliders ends.
@@ -101,8 +117,7 @@
   let shown = 0, towards = 0, before = 0, running = false;
   function fly(to) {
     towards = to;
-    if (to) page.toggleAttribute('data-rubber', true);
-    else left = held;
+    if (!to) { left = held; rotorScene.hide(false); }
     if (running) return;
     running = true;
     before = performance.now();
@@ -115,14 +130,16 @@
     draw();
     running = shown !== towards;
     if (running) requestAnimationFrame(step);
-    else if (!towards) {
+    else if (towards) rotorScene.hide(true);
+    else {
       page.removeAttribute('data-rubber');
       place.querySelector('svg').innerHTML = '';
       left = null;
-      RX.again('plan');
+      RX.again('plan', 'inset');
     }
   }
 
+  const redraw = soon(() => draw());  // Moves and answers come several in a frame.
   function draw() {
     const one = held ?? left, jig = line('this'), cuts = RX.state.inset?.cuts;
     if (!one || !jig || !cuts) return;
@@ -150,10 +167,11 @@
       + (shift > .6 ? drawArc(blade, best, point) + drawNumbers(blade, cuts, share, point) + drawScale(one) : '');
     page.style.setProperty('--rx-shown', String(Math.min(1, 1.6 * shift)));
     words.style.cssText = `left:${box.x + .5 * box.w}px;max-width:${box.w - 20}px`;
-    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter: done'
-      : ` drawn ×${TIMES} · release: back`;
+    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter keeps it · Esc takes it back'
+      : finger ? ' lift the finger to keep · a second finger takes it back'
+        : ` drawn ×${TIMES} · release to keep · Esc takes it back`;
     const station = RX.state.hand?.place ?? `${one.titles[one.at]} ${one.r.toFixed(2)} R`;
-    words.innerHTML = `<b>${text(station)}</b>${keys} · Esc: as before`;
+    words.innerHTML = `<b>${text(station)}</b>${keys}`;
   }
   // From the root to the tip, each section over those behind it; those before the held one let it show through.
   function drawSections(blade, cuts, share, shape) {

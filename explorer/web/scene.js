@@ -1,7 +1,7 @@
 // @ts-check
 // The scene's own script in the page: gloss of surfaces, and the turning rotor.
 (() => {
-  const {clamp, lerp, calm, viewer, node, setPose} = Common, TURN = 2 * Math.PI;
+  const {clamp, lerp, distance, calm, drag, viewer, node, setPose} = Common, TURN = 2 * Math.PI;
   let surfaces = {}, lit = {};
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
@@ -10,6 +10,22 @@
     return Boolean(info) && !/swiftshader|llvmpipe|software/i.test(gl.getParameter(info.UNMASKED_RENDERER_WEBGL));
   };
   let sharp = null;
+  const drawing = () => viewer().scene.__r3f.root.getState();
+
+  // Where software draws, the picture has half as many pixels each way while something is dragged: so it keeps up.
+  drag(window, '*', (_, {clientX, clientY}) => {
+    if (sharp !== false) return null;
+    const {setDpr, viewport: {dpr}} = drawing(), press = [clientX, clientY];
+    let shrunk = false;
+    return {
+      move(event) {
+        if (shrunk || distance([event.clientX, event.clientY], press) < 4) return;
+        shrunk = true;
+        setDpr(dpr / 2);
+      },
+      end() { if (shrunk) setDpr(dpr); },
+    };
+  }, true);
 
   // Materials come and go with their nodes, so they are looked at again and again; a dressed one is left alone.
   // `change` gives true for a material that it has changed.
@@ -177,6 +193,13 @@
         if (done < 1) requestAnimationFrame(frame);
       };
       frame(begun);
+    },
+    // Something hides the scene wholly: nothing of it is drawn until it is seen again.
+    hide(hidden) {
+      const {setFrameloop, invalidate} = drawing();
+      viewer().canvas.style.visibility = hidden ? 'hidden' : '';
+      setFrameloop(hidden ? 'never' : 'demand');
+      if (!hidden) invalidate();
     },
     glow(wanted) { lit = wanted; light(); },
     // Turn at this rate [rad/s] while nothing is heard of the azimuth; 0: no more.

@@ -5,7 +5,7 @@
   const name = element => element.dataset?.explorer || element.dataset?.dockRegion || element.dataset?.region || element.dataset?.part || element.dataset?.value || element.dataset?.do || element.ariaLabel || String(element.getAttribute('class')).split(' ').at(-1);
   const all = selector => [...document.querySelectorAll(selector)].filter(seen).map(element => ({element, box: element.getBoundingClientRect()})).filter(({box}) => box.width > 1 && box.height > 1);
   const meet = (a, b, by = 2) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > by && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > by;
-  const surfaces = all('.rxf-bar, #rx .rxf-card:not([data-reading]), .rxf-strip, .rxf-notice, .rxf-prompt, .rxf-label, [data-dock-region]');
+  const surfaces = all('.rxf-bar, #rx .rxf-card:not([data-reading], .rxf-sheet *), .rxf-sheet, .rxf-grip, .rxf-notice, .rxf-prompt, .rxf-label, [data-dock-region]');
   const hit = [];
   surfaces.forEach((a, k) => surfaces.slice(k + 1).forEach(b => {
     if (!a.element.contains(b.element) && !b.element.contains(a.element) && meet(a.box, b.box)) hit.push(`${name(a.element)} × ${name(b.element)}`);
@@ -32,6 +32,23 @@
     const top = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
     return !element.disabled && top && !element.contains(top) && !top.contains(element) && !element.parentElement.contains(top);
   }).map(({element}) => name(element));
+  // Less than 44 px high or wide under a finger, with what it catches around it. What a mark in a chart does, a slider does too.
+  const narrow = shown.filter(({element, box}) => {
+    const from = [box.left + box.width / 2, box.top + box.height / 2], ways = [[box.height, 0, 21], [box.width, 21, 0]];
+    return !element.disabled && !element.matches('svg [data-do]') && ways.some(([size, dx, dy]) => size < 43.5 && [-1, 1].some(way => {
+      const met = document.elementFromPoint(from[0] + way * dx, from[1] + way * dy);
+      return met && !element.contains(met) && !met.contains(element) && !element.labels?.[0]?.contains(met);
+    }));
+  }).map(({element, box}) => `${name(element)} ${Math.round(box.width)}×${Math.round(box.height)}`);
+  // The free band of the scene: between what stands over it above and below.
+  const canvas = document.querySelector('canvas').getBoundingClientRect(), middle = (canvas.top + canvas.bottom) / 2;
+  const over = all('#rx :is(.rxf-bar, .rxf-power, .rxf-views, .rxf-notice, .rxf-grip, .rxf-sheet, .rxs-column, .rxf-card), [data-dock-region]')
+    .filter(({element, box}) => !element.closest('.rxf-plan') && meet(box, canvas)).map(({box}) => box);
+  const free = {
+    left: canvas.left, right: canvas.right,
+    top: Math.max(canvas.top, ...over.map(box => (box.top + box.bottom) / 2 < middle ? box.bottom : 0)),
+    bottom: Math.min(canvas.bottom, ...over.map(box => (box.top + box.bottom) / 2 < middle ? innerHeight : box.top)),
+  };
   const nameless = all('.rxf-bar button').filter(({element}) => !element.innerText.trim()).map(({element}) => name(element));
   const words = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), cut = [];
   let numbers = 0;
@@ -48,5 +65,5 @@
       if (above.matches('.rxf-card, .rxf-menu') && box.right > edge.right + 2) cut.push(`${node.textContent.trim().slice(0, 30)} in ${name(above)}`);
     }
   }
-  return {hit, outside, hidden, nameless, cut, numbers, controls: shown.length, disk: disk && Math.round(disk.width)};
+  return {hit, outside, hidden, nameless, cut, narrow, free, numbers, controls: shown.length, disk: disk && Math.round(disk.width)};
 }
