@@ -14,7 +14,9 @@ COLLIDE, FRAME = (
     (Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("collisions.js", "framing.js")
 )
 SIZES = [(1500, 940), (1280, 720), (812, 734), (390, 844), (844, 390)]
-CAMERA = "() => window.__viserMutable.camera.position.toArray().map(x => Math.round(20 * x))"
+CAMERA = "() => window.__viserMutable.camera.position.toArray().map(x => Math.round(10 * x))"
+FAR = 3
+"""[dm] between a camera that has followed its room and one that is aimed anew; it stands 300 dm away."""
 States = Iterator[tuple[str, str]]
 """Name of a state that the page is in now, and the view of its scene; empty: the scene is not looked at."""
 
@@ -28,6 +30,11 @@ def found(watched: Watched, view: str) -> list[str]:
     faults: list[str] = watched.at_rest(lambda: watched.page.evaluate(COLLIDE))
     if view:
         faults += watched.at_rest(lambda: watched.page.evaluate(FRAME, view))
+        stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
+        send(watched, "aim")
+        framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
+        if max(abs(now - then) for now, then in zip(framed, stands, strict=True)) > FAR:
+            faults.append(f"{view} is not framed anew: the camera stood at {stands} dm, an aim puts it at {framed} dm")
     return faults
 
 
@@ -63,10 +70,12 @@ def explore(watched: Watched) -> States:
     page.evaluate("() => document.activeElement?.blur()")
     page.keyboard.press("g")
     page.wait_for_function("() => RX.state.rubber")
-    page.wait_for_function("() => RX.state.hand?.best")
-    for times, name in ((1, "tip held"), (9, "tip far from the least")):
+    watched.drawn()  # Keys are heard from the frame on that shows it.
+    for times, name in ((2, "tip held"), (9, "tip far from the least")):
         for _ in range(times):
             page.keyboard.press("Shift+ArrowUp")
+            watched.answered()
+        page.wait_for_function("() => RX.state.hand?.best")
         yield name, ""
     page.keyboard.press("Escape")
     page.wait_for_function("() => !RX.state.rubber && !document.documentElement.hasAttribute('data-rubber')")
@@ -128,7 +137,8 @@ def actuate(watched: Watched) -> States:
 
 def lecture(watched: Watched) -> States:
     page = watched.page
-    page.keyboard.press("t")
+    watched.drawer("lecture")
+    page.get_by_role("button", name="Start the lecture").click()
     for step in (1, 2):
         page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
         page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=4 * WAIT)
