@@ -112,6 +112,11 @@
     }
   }
   for (const [{said, element}] of hit) found.add(`"${said}" (${name(element)}) × a line`);
+  // Lines from labels to what they name.
+  const ties = [...document.querySelectorAll('[data-tie]')].filter(seen).map(path => [path.getPointAtLength(0), path.getPointAtLength(path.getTotalLength())]);
+  const side = (a, b, c) => Math.sign((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  const parted = ([a, b], [c, d]) => side(a, b, c) !== side(a, b, d);
+  ties.forEach((one, k) => ties.slice(k + 1).forEach(other => { if (parted(one, other) && parted(other, one)) found.add('two lines to labels cross'); }));
   clear.remove();
   for (const field of document.querySelectorAll(':is(#rx, [data-dock-region]) input:not([type=hidden], [type=range], [type=checkbox])'))
     if (seen(field) && field.clientWidth && field.scrollWidth > field.clientWidth + 1) found.add(`"${field.value}" is cut by its field`);
