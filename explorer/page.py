@@ -165,6 +165,7 @@ class Page:
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: self.camera.come_back())
+        bridge.on("taken", lambda _: self.camera.let_go())
         bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.hand().on_stage:

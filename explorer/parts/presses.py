@@ -71,7 +71,7 @@ class WavePress(_Fields):
 
 _ALONE = (
     *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "apply", "discard"),
-    *("halt", "nearest", "aim", "beat", "rival_take", "rival_end"),
+    *("halt", "nearest", "aim", "taken", "beat", "rival_take", "rival_end"),
 )
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {

@@ -5,16 +5,13 @@ import time
 from collections.abc import Callable
 from functools import partial
 
-import numpy as np
 import viser
 
 from explorer.hosting.browser import call
 from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
 
-_SETTLES = 1.5
-"""While the page lays itself out [s], camera messages still tell of older positions."""
-_MOST_COVERED = 0.45
-"""On a lower canvas the scene goes on behind the cards: there is no room beside them."""
+_MOST_COVERED = 0.75
+"""From above and below. On a lower canvas the scene goes on behind the cards: there is no room beside them."""
 _LEAST_COVER = 1e-3
 """A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
@@ -23,8 +20,6 @@ _FLIGHT = 1.0
 """A flight of the camera takes no longer [s]."""
 _RESHAPED = 0.01
 """A smaller change of width over height is none: the page draws fewer pixels while something is dragged."""
-_TAKEN = 0.3
-"""A camera this far [m] from where it was put was moved by the user."""
 
 
 class FittedCamera:
@@ -48,7 +43,8 @@ class FittedCamera:
         """When a flight of the camera ends."""
         self._wanted: float | None = None
         """The tilt that `follow` was given while the camera was held."""
-        self._put: tuple[np.ndarray, float, float] | None = None
+        self._put: float | None = None
+        """Width over height of the canvas that it was aimed for last."""
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
@@ -57,6 +53,10 @@ class FittedCamera:
         """Show the rotor, and go on doing so when the canvas changes."""
         self._view, self.subject = view, None
         self._aim(partial(self._fitted, view))
+
+    def let_go(self) -> None:
+        """The user has turned it: follow nothing any more, until it is aimed again."""
+        self._following = self._following and self._held
 
     def come_back(self) -> None:
         """The user has turned it: show the subject again."""
@@ -99,7 +99,9 @@ class FittedCamera:
 
     def leave_free(self, above: float, below: float) -> None:
         """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""
-        cover = Cover(min(max(above, 0.0), _MOST_COVERED), min(max(below, 0.0), _MOST_COVERED))
+        above, below = max(above, 0.0), max(below, 0.0)
+        share = min(1.0, _MOST_COVERED / max(above + below, _MOST_COVERED))
+        cover = Cover(share * above, share * below)
         if abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below) < _LEAST_COVER:
             return
         self._cover = cover
@@ -133,7 +135,7 @@ class FittedCamera:
             with self._client.atomic():
                 camera.position = target.position
                 camera.look_at = target.look_at
-        self._put = (target.position, camera.aspect, time.monotonic())
+        self._put = camera.aspect
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following or self._held:
@@ -141,8 +143,5 @@ class FittedCamera:
         if self._put is None:
             self._aim(self._fit)
             return
-        position, aspect, since = self._put
-        if abs(camera.aspect - aspect) > _RESHAPED * aspect:
+        if abs(camera.aspect - self._put) > _RESHAPED * self._put:
             self._aim(self._fit)
-        elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
-            self._following = False

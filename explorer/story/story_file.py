@@ -42,25 +42,24 @@ _COVER = Cover(0.06, 0.2)
 _COLOURS = 17
 
 
-class _Awaited(dict[str, str]):
-    """Numbers of a text; a number that is still computed is left open."""
-
-    def __missing__(self, name: str) -> str:
-        return "…"
-
-
 def step_record(step: LectureStep, facts: Facts | None, units: Units) -> StepPart:
-    """What is said before the guess; `facts`: None while they are computed."""
-    said, text, control = _words(facts, units), step.text, step.control
+    """What is said before the guess. `facts`: None while they are computed; a sentence that needs them is empty."""
+    known, text, control = None if facts is None else facts.words(units), step.text, step.control
+
+    def said(sentence: str) -> str:
+        if known is None:
+            return "" if "{" in sentence else sentence
+        return sentence.format_map(known)
+
     return StepPart(
         name=step.name,
         title=text.title,
-        watch=text.watch.format_map(said),
-        a=text.a.format_map(said),
-        b=text.b.format_map(said),
-        question=text.question.format_map(said),
-        options=[option.format_map(said) for option in text.options],
-        todo=text.todo.format_map(said),
+        watch=said(text.watch),
+        a=said(text.a),
+        b=said(text.b),
+        question=said(text.question),
+        options=[said(option) for option in text.options],
+        todo=said(text.todo),
         control=StepControl(
             label=control.label, kind=control.kind, words=[stop.words for stop in facts.stops] if facts else []
         ),
@@ -93,7 +92,7 @@ def answer_record(step: LectureStep, facts: Facts, units: Units) -> StepAnswer:
     colours = [_colour(dot) for dot in chart.dots or [line.colour for line in chart.lines]]
     return StepAnswer(
         right=facts.right,
-        answer=step.text.answer.format_map(_words(facts, units)),
+        answer=step.text.answer.format_map(facts.words(units)),
         chart=drawn_chart(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
         dots=[
             [
@@ -119,12 +118,13 @@ def _x_words(chart: StepChart, x: float) -> str:
     return angle_words(x).removesuffix("/R") if chart.x_kind == "rate" else f"{number(100.0 * x, 1, sign=True)} %"
 
 
-def _words(facts: Facts | None, units: Units) -> dict[str, str]:
-    return _Awaited({} if facts is None else facts.words(units))
-
-
-def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = None, quiet: bool = True) -> str:
-    """The file's text; `view`: its units and whether it is dark.
+def story_html(
+    steps: Sequence[LectureStep] = STEPS,
+    view: ViewState | None = None,
+    quiet: bool = True,
+    tell: Callable[[int], None] = lambda done: None,
+) -> str:
+    """The file's text. `view`: its units and whether it is dark; `tell` hears how many steps are done.
 
     RuntimeError with a sentence where a design of a step does not trim.
     """
@@ -132,6 +132,7 @@ def story_html(steps: Sequence[LectureStep] = STEPS, view: ViewState | None = No
     told = list[dict[str, Any]]()
     for step in tqdm(steps, disable=quiet, leave=False):
         told.append(_step(step, facts_of(step), replace(view_of(step, view), wake=False), points))
+        tell(len(told))
     first = points.solutions[told[0]["stops"][0]["b"]]
     record = {
         "steps": told,
@@ -218,9 +219,9 @@ class StoryTask:
     view: ViewState
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> str:
-        """The file's text; RuntimeError where a design of the lecture does not trim."""
-        del tell, stop  # A minute; nothing of it is of use before the end.
-        return story_html(view=self.view)
+        """The file's text, told by the number of steps done; RuntimeError where a design does not trim."""
+        del stop  # A minute; nothing of it is of use before the end.
+        return story_html(view=self.view, tell=tell)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

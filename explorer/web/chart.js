@@ -2,7 +2,7 @@
 // The charts of the page and of the lecture's file: one drawing of what `rotor.chart` says as JSON. Ticks, ends of the
 // axes and colours come with it.
 const Charts = (() => {
-  const {text, clamp, trace, closest} = Common;
+  const {text, clamp, lerp, distance, trace, closest} = Common;
   const digits = value => (value < 0 ? '−' : '')
     + Math.abs(value).toLocaleString('en', {maximumFractionDigits: Math.abs(value) < 10 ? 3 : 1, useGrouping: false});
   // A colour bar with its ticks; the triangles at its ends are for values beyond it.
@@ -51,6 +51,50 @@ const Charts = (() => {
     return `${rows(chart, place)}${columns.join('')}
       <text x="${x}" y="${y}" text-anchor="${anchor}" data-axis>${text(label)}</text>`;
   }
+  // Where the name of a point or of a rule stands: it meets no mark and no other name, and crosses the lines least;
+  // empty where there is no such place, and it waits for the pointer. Letters are as wide as they usually are: to ask for
+  // their true width costs a layout with every answer. `taken`: boxes of all else there, left, top, right, bottom.
+  const LETTER = 6.9, HIGH = 9, DEEP = 3;  // [px]
+  const FLAT = size => [
+    ['middle', 0, -size - 4], ['middle', 0, size + 12], ['start', size + 4, 4], ['end', -size - 4, 4],
+    ['start', -size, -size - 4], ['end', size, -size - 4], ['start', -size, size + 12], ['end', size, size + 12],
+  ];
+  const PLACES = {
+    above: FLAT, below: size => [FLAT(size)[1], ...FLAT(size)],
+    upward: (size, wide) => [['up', 4, -size - 4], ['up', 4, size + 4 + wide], ...FLAT(size)],
+    rule: (_, wide, high) => [-3, wide + 4 - high].flatMap(dy => [['up', -4, dy], ['up', 12, dy]]),
+  };
+  function placer({series, rules = []}, {X, Y, left, right, top, base}, taken) {
+    const crossed = [];
+    for (const {kind, x, y, size = 4} of series.filter(one => one.kind !== 'band')) {
+      let last = null;
+      x.forEach((at, k) => {
+        const here = y[k] === null ? null : [X(at), clamp(Y(y[k]), top, base)];
+        if (here && kind === 'points' && size)
+          taken.push([here[0] - size - 1, here[1] - size - 1, here[0] + size + 1, here[1] + size + 1]);
+        const many = here && last && kind === 'line' ? Math.ceil(distance(here, last) / 4) : 0;
+        for (let step = 0; step < many; step++) crossed.push(here.map((value, i) => lerp(value, last[i], step / many)));
+        last = here;
+      });
+    }
+    for (const {at, along} of rules) if (along === 'x') for (let y = top; y < base; y += 4) crossed.push([X(at), y]);
+    return (word, cx, cy, size, where = 'above') => {
+      const wide = LETTER * word.length, room = [left, Math.min(top - 8, 0), right + 8, base + 1];
+      const free = PLACES[where](size, wide, base - top).map(([anchor, dx, dy]) => {
+        const x = cx + dx, y = cy + dy, from = x - {start: 0, middle: wide / 2, end: wide, up: HIGH}[anchor];
+        const box = anchor === 'up' ? [from, y - wide, x + DEEP, y] : [from, y - HIGH, from + wide, y + DEEP];
+        return {anchor, x: x.toFixed(1), y: y.toFixed(1), box};
+      }).filter(({box: [a, b, c, d]}) => a >= room[0] && b >= room[1] && c <= room[2] && d <= room[3]
+        && !taken.some(other => a < other[2] && other[0] < c && b < other[3] && other[1] < d));
+      const cost = ({box: [a, b, c, d]}) => crossed.filter(([x, y]) => a < x && x < c && b < y && y < d).length;
+      const [best] = free.map(one => ({...one, cost: cost(one)})).sort((one, other) => one.cost - other.cost);
+      if (!best) return '';
+      taken.push(best.box);
+      const {anchor, x, y} = best;
+      return anchor === 'up' ? `transform="translate(${x} ${y}) rotate(-90)"`
+        : `x="${x}" y="${y}" text-anchor="${anchor}"`;
+    };
+  }
   const DRAWN = {
     line({x, y, colour, width = 2, dashes, dots, filled}, place) {
       const {X, Y} = place;
@@ -74,18 +118,15 @@ const Charts = (() => {
       const path = known.length && `${trace([...edge(low), ...edge(high).reverse()])}Z`;
       return path ? `<path d="${path}" fill="${colour}" opacity=".17" data-band/>` : '';
     },
-    points(series, {X, Y, low = undefined, high = undefined, left, right, base}) {
+    points(series, {X, Y, low = undefined, high = undefined, settle}) {
       const {x, y, colour, mark = 'dot', size = 4, beside, action} = series, ring = mark === 'ring';
       const {words = [], press = [], names = [], faint = [], scatter = []} = series;
       return x.map((at, k) => {
         if (y[k] === null) return '';
         const height = low === undefined || ring ? Y(y[k]) : clamp(Y(y[k]), low, high);
         const cx = +X(at).toFixed(1), cy = +height.toFixed(1);
-        const [anchor, dx] = cx - left < 60 ? ['start', -size] : right - cx < 60 ? ['end', size] : ['middle', 0];
-        const below = beside === 'below' && cy + size + 16 <= base, dy = below ? size + 12 : -size - 4;
-        const stands = beside === 'upward' ? `transform="translate(${cx + 4} ${cy - size - 4}) rotate(-90)"`
-          : `x="${cx + dx}" y="${cy + dy}" text-anchor="${anchor}"`;
-        const name = names[k] ? `<text ${stands} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
+        const stands = names[k] && settle(names[k], cx, cy, size, beside);
+        const name = stands ? `<text ${stands} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
         const style = ring ? `fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"`
           : `fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}`;
         const dot = size ? `<circle cx="${cx}" cy="${cy}" r="${size}" ${style}/>` : '';
@@ -102,24 +143,27 @@ const Charts = (() => {
     },
   };
   // A line at a value, or an area where there is nothing to draw, and why.
-  function rule({at, to = null, along, label, colour, dashes = ''}, {X, Y, left, right, top, base}) {
-    if (to !== null) return `
+  function rule({at, to = null, along, label, colour, dashes = ''}, {X, Y, left, right, top, base, settle}) {
+    if (to !== null) return [`
       <rect x="${X(at)}" y="${top}" width="${X(to) - X(at)}" height="${base - top}" fill="var(--rx-field)" data-gap/>
-      <text x="${X((at + to) / 2)}" y="${(top + base) / 2 + 4}" text-anchor="middle">${text(label)}</text>`;
+      <text x="${X((at + to) / 2)}" y="${(top + base) / 2 + 4}" text-anchor="middle">${text(label)}</text>`];
     const path = along === 'x' ? `M${X(at).toFixed(1)} ${top}V${base}` : `M${left} ${Y(at).toFixed(1)}H${right}`;
-    const upward = `transform="translate(${(X(at) - 4).toFixed(1)} ${base - 3}) rotate(-90)"`;
-    const name = label && along === 'x' ? `<text ${upward} style="fill:${colour}" data-name>${text(label)}</text>` : '';
-    return `<path d="${path}" stroke="${colour}" stroke-width="1.2" stroke-dasharray="${dashes}"/>${name}`;
+    const stands = label && along === 'x' && settle(label, X(at), base, 0, 'rule');
+    const name = stands ? `<text ${stands} style="fill:${colour}" data-name>${text(label)}</text>` : '';
+    return [`<path d="${path}" stroke="${colour}" stroke-width="1.2" stroke-dasharray="${dashes}"/>`, name];
   }
   let clips = 0;
   // Everything within the axes; dots that lie beyond them stand at their edge.
-  function inside({series, rules = []}, place) {
-    const {left, right, top, base} = place, clip = `rxc${clips++ % 256}`;
+  function inside(chart, axes, taken = []) {
+    const {series, rules = []} = chart, {left, right, top, base} = axes, clip = `rxc${clips++ % 256}`;
+    const place = {...axes, settle: placer(chart, axes, taken)};
+    const ruled = rules.map(one => rule(one, place));
     const dots = series.filter(({kind, mark}) => kind === 'points' && mark !== 'ring');
     const drawn = series.filter(one => !dots.includes(one)).map(one => DRAWN[one.kind](one, place));
     return `<clipPath id="${clip}">
         <rect x="${left}" y="${top - 1}" width="${right - left + 2}" height="${base - top + 2}"/></clipPath>
-      ${rules.map(one => rule(one, place)).join('')}<g clip-path="url(#${clip})">${drawn.join('')}</g>
+      ${ruled.map(([line]) => line).join('')}<g clip-path="url(#${clip})">${drawn.join('')}</g>
+      ${ruled.map(([, name]) => name ?? '').join('')}
       ${dots.map(one => DRAWN.points(one, {...place, low: top, high: base})).join('')}`;
   }
   function swatch({kind, colour, dashes, mark}) {

@@ -175,30 +175,6 @@
 
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
   let held = null;
-  const driven = ({series}, {X, Y}) => {
-    const {x, y} = series.find(one => one.dashes), end = y.length - 1;
-    return y[end] === null ? ''
-      : `<text x="${X(x[end])}" y="${Y(y[end]) + 13}" text-anchor="end">half goes to the drive</text>`;
-  };
-  // A name that would lie on another stands below or beside its point, or waits for the pointer.
-  function spread(svg, left) {
-    const taken = [...svg.querySelectorAll('g > title ~ circle')]
-      .map(dot => [+dot.getAttribute('cx') - 5, +dot.getAttribute('cy') + 5, 10]);
-    for (const word of svg.querySelectorAll('[data-name]')) {
-      const dot = word.parentNode.querySelector('circle').getBBox(), {width} = word.getBBox();
-      const x = dot.x + dot.width / 2, y = dot.y + dot.height / 2;
-      const apart = spot => ([start, height, wide]) =>
-        spot[0] > start + wide + 3 || spot[0] + width + 3 < start || Math.abs(spot[1] - height) > 12;
-      const above = y - 8, below = y + 18, middle = x - width / 2;
-      const free = [[middle, above], [middle, below], [x + 9, y + 4], [x - width - 9, y + 4], [x, above], [x, below]]
-        .find(spot => spot[0] > left && taken.every(apart(spot)));
-      if (!free) { word.remove(); continue; }
-      taken.push([...free, width]);
-      word.setAttribute('text-anchor', 'start');
-      word.setAttribute('x', free[0].toFixed(1));
-      word.setAttribute('y', free[1].toFixed(1));
-    }
-  }
   function drawBreakEven({chart, kind, words, note, at: given}) {
     const focused = earns.contains(document.activeElement) && document.activeElement.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
@@ -210,16 +186,22 @@
     const {svg, width, height} = room();
     if (!chart || !svg) return;
     const place = Charts.frame(chart, width, height, {bottom: 32}), {X, Y, left, right, top, base} = place;
-    const [twist, mass] = held?.at ?? given, label = (y, name, content) =>
-      `<text x="${right - 6}" y="${y}" text-anchor="end" data-${name}>${content}</text>`;
-    svg.innerHTML = `${Charts.axes(chart, place)}${Charts.inside(chart, place)}${label(base - 4, 'pays', 'pays')}
-      ${width > 420 ? driven(chart, place) + label(top + 12, 'costs', 'mass costs more than twist saves') : ''}
-      <circle data-supposed data-kind="${kind}" cx="${clamp(X(twist), left, right)}" cy="${clamp(Y(mass), top, base)}"
+    const [twist, mass] = held?.at ?? given, {x, y} = chart.series.find(one => one.dashes), end = y.length - 1;
+    const spot = [clamp(X(twist), left, right), clamp(Y(mass), top, base)];
+    /** @type {[string, number, number, string][]} */
+    const signs = [['pays', right - 6, base - 4, 'pays']];
+    if (width > 420) signs.push(['costs', right - 6, top + 12, 'mass costs more than twist saves']);
+    if (width > 420 && y[end] !== null) signs.push(['drive', X(x[end]), Y(y[end]) + 13, 'half goes to the drive']);
+    const taken = signs.map(([, to, low, word]) => [to - 6.2 * word.length, low - 10, to, low + 3]);
+    taken.push([spot[0] - 11, spot[1] - 11, spot[0] + 11, spot[1] + 11]);
+    const said = signs.map(([name, to, low, word]) =>
+      `<text x="${to}" y="${low}" text-anchor="end" data-${name}>${word}</text>`);
+    svg.innerHTML = `${Charts.axes(chart, place)}${Charts.inside(chart, place, taken)}${said.join('')}
+      <circle data-supposed data-kind="${kind}" cx="${spot[0]}" cy="${spot[1]}"
         r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${twist}"
         aria-valuetext="${text(words)}">
         <title>Drag: range of twist and mass of all blades</title></circle>`;
     earns.place = place;
-    spread(svg, left);
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
   const supposed = paced(point => RX.send('suppose', point), 60);

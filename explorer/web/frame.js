@@ -291,7 +291,7 @@
     clearTimeout(telling);  // Below the veil at once, so that the camera stands when it lifts.
     telling = setTimeout(measureCover, page.classList.contains('rx-veiled') ? 0 : 120);
   }
-  const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxs-figures'];
+  const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-views', '.rxs-figures'];
   function measureCover() {
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
     const box = name => root.querySelector(name).getClientRects()[0], notice = box('.rxf-notice');
@@ -347,7 +347,7 @@
         .find(([x, y, w, h]) => left < x + w && x < left + width && top < y + h && y < top + height);
       for (let other; top - wanted < LABEL_SHIFT && (other = met());) top = other[1] + other[3] + 2;
       element.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-      const free = point.seen && !met();
+      const free = point.seen && top + height < canvas.height && !met();
       if (free) taken.push([left, top, width, height]);
       return free;
     };

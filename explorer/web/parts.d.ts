@@ -50,6 +50,7 @@ interface RxPresses {
   halt: any;
   nearest: any;
   aim: any;
+  taken: any;
   beat: any;
   rival_take: any;
   rival_end: any;

@@ -112,22 +112,36 @@
       const middle = layout.y + layout.radius * sumY / largest.length - LABEL.height / 2;
       const column = (layout.both ? [nearer, other] : [left]).find(one => free(one, middle) !== null);
       if (!column) continue;
-      const top = free(column, middle), end = [column.end, top + LABEL.height / 2];
+      const top = free(column, middle);
       column.taken.push(top);
       const all = region.lines.flat(), same = all.filter(([px]) => (px < 0) === (column === left));
       const corners = column === nearer ? largest : same.length ? same : all;
-      const tip = corners.map(pixel).reduce((best, spot) => distance(spot, end) < distance(best, end) ? spot : best);
-      placed.push({region, left: column.x, top, end, tip});
+      placed.push(aimed({region, column, top, corners: corners.map(pixel)}));
+    }
+    // Two lines of one side that cross change places.
+    for (const one of placed) for (const other of placed) {
+      if (one.column !== other.column || !cross(one, other)) continue;
+      [one.top, other.top] = [other.top, one.top];
+      [one, other].forEach(aimed);
     }
     return placed;
   }
+  // With its line, from the middle of the label's edge to the nearest corner of the region.
+  function aimed(label) {
+    const {column, top, corners} = label, end = [column.end, top + LABEL.height / 2];
+    const tip = corners.reduce((best, spot) => distance(spot, end) < distance(best, end) ? spot : best);
+    return Object.assign(label, {end, tip});
+  }
+  const side = ([ax, ay], [bx, by], [cx, cy]) => Math.sign((bx - ax) * (cy - ay) - (by - ay) * (cx - ax));
+  const parted = (one, other) => side(one.end, one.tip, other.end) !== side(one.end, one.tip, other.tip);
+  const cross = (one, other) => one !== other && parted(one, other) && parted(other, one);
   const circleAt = (centre, r, style) => `<circle cx="${centre[0]}" cy="${centre[1]}" r="${r}" ${style}/>`;
   const drawTie = ({region: {name}, end, tip}) => `
     <path d="${trace([end, tip])}" stroke="var(--rx-paper)" stroke-width="3.5" opacity=".8"/>
-    <path d="${trace([end, tip])}" stroke="${COLOURS[name]}" stroke-width="1.4"/>
+    <path d="${trace([end, tip])}" stroke="${COLOURS[name]}" stroke-width="1.4" data-tie/>
     ${circleAt(tip, 3.5, `fill="${COLOURS[name]}" stroke="var(--rx-paper)" stroke-width="1.5"`)}`;
-  const labelOf = ({region: {name, title, words}, left, top}) => `<div class="rxf-card rxf-region" data-region="${name}"
-    style="--c:${COLOURS[name]};left:${left}px;top:${top}px"><b>${text(title)}</b>
+  const labelOf = ({region: {name, title, words}, column: {x}, top}) => `<div class="rxf-card rxf-region"
+    data-region="${name}" style="--c:${COLOURS[name]};left:${x}px;top:${top}px"><b>${text(title)}</b>
     <span class="rxf-num">${text(words)}</span></div>`;
   function free({taken, from, to}, wanted) {
     const step = LABEL.height + 8, tops = [clamp(wanted, from, to), ...taken.flatMap(top => [top - step, top + step])];

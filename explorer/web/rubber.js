@@ -2,7 +2,8 @@
 // The blade twisted by hand: while a station is held half the stage is the blade from the tip, the other half the live
 // plan of the disk (plan.js), with a scale of power above. Jig twist, drawn four times; the server moves the sliders.
 (() => {
-  const {DEGREE, text, clamp, lerp, fixed, trace, calm, closest, soon, paced, drag, viewer, node, project} = Common;
+  const {DEGREE, text, clamp, lerp, distance, fixed, trace, calm, closest, soon, paced, drag} = Common;
+  const {viewer, node, project} = Common;
   const {part} = RX, place = part('rubber'), page = document.documentElement;
   const TIMES = 4, MORPH = 400, SECTIONS = 30, TRAIL = .75, SCALE = 92;
   const ease = t => t * t * (3 - 2 * t), degrees = angle => `${Common.signed(angle)}°`;
@@ -65,10 +66,10 @@
     const at = t => [x - .08 * chord * (1 - t), box.y + SCALE + (.2 + .52 * t) * high];
     const disk = wide ? `0 ${width - split}px 0 0` : `0 0 ${height - split}px 0`;
     page.style.setProperty('--rx-beside', disk);
-    return {width, height, box, column, at, size: t => chord * (.58 + .42 * t), from: inScene(width / 2, height / 2)};
+    return {width, height, box, column, at, size: t => chord * (.58 + .42 * t), from: inStage(width / 2, height / 2)};
   }
   // Root and tip of the blade in the scene, from where the sections come and to where they go back.
-  function inScene(...middle) {
+  function inStage(...middle) {
     const blade = node('/rotor/blade_0'), length = blade?.geometry?.boundingBox?.max.x ?? 7.8;
     if (!blade || !viewer().camera || !viewer().canvas) return [middle, middle];
     const [canvas, stage] = [viewer().canvas, place].map(of => of.getBoundingClientRect());
@@ -171,7 +172,8 @@
       : finger ? ' lift the finger to keep · a second finger takes it back'
         : ` drawn ×${TIMES} · release to keep · Esc takes it back`;
     const station = RX.state.hand?.place ?? `${one.titles[one.at]} ${one.r.toFixed(2)} R`;
-    words.innerHTML = `<b>${text(station)}</b>${keys}`;
+    const end = limitOf(blade), told = end ? ` limit of ${text(end[1].replace(/ \[.*/, ''))}` : keys;
+    words.innerHTML = `<b>${text(station)}</b>${told}`;
   }
   // From the root to the tip, each section over those behind it; those before the held one let it show through.
   function drawSections(blade, cuts, share, shape) {
@@ -190,10 +192,11 @@
     return [edge(.25), edge(-TRAIL), shape(blade.r, twistAt(reference, blade.r))]
       .map(path => `<path d="${path}" class="rxf-ghost-line"/>`).join('');
   }
+  const limitOf = ({wanted, ends}) => ends.find(([limit]) => Math.abs(limit - wanted) < .06);
   // The arc at the trailing edge: from where it was, past where it would be best, to where it is.
   function drawArc({start, wanted, share, ends}, best, point) {
     const at = (angle, out) => point(share, angle, [-TRAIL * out, 0]);
-    const end = ends.find(([limit]) => Math.abs(limit - wanted) < .06);
+    const end = limitOf({wanted, ends});
     const arc = (from, to) => trace(shares(20, from, to).map(angle => at(angle, 1.05)));
     const ray = (angle, ...out) => trace(out.map(far => at(angle, far)));
     const words = (angle, content, colour) => {
@@ -206,7 +209,7 @@
     const goal = best && (best.held ? 'least power' : `best ${degrees(best.theta - start)}`);
     const optimum = best ? `<path d="${ray(best.theta, .99, 1.13)}" stroke="var(--rx-good)" stroke-linecap="round"
       stroke-width="${best.held ? 6 : 4}"/>${words(best.theta, goal, '--rx-good')}` : '';
-    const turned = `${degrees(wanted - start)}${end ? `, limit of ${end[1]}` : ''}`, [x, y] = at(wanted, 1);
+    const turned = `${degrees(wanted - start)}${end ? ', limit' : ''}`, [x, y] = at(wanted, 1);
     return `<path d="${arc(start - reach, start + reach)}" fill="none" stroke="var(--rx-faint)"/>
       <path d="${ticks}" stroke="var(--rx-faint)"/>
       <path d="${arc(start, wanted)}" fill="none" stroke="var(--rx-accent)" stroke-width="4"/>${optimum}
@@ -246,20 +249,23 @@
     const ticks = [];
     for (let power = Math.ceil(ends[0] / tick) * tick; power <= ends[1]; power += tick)
       ticks.push(`<path d="M${X(power)} ${y}v5" stroke="var(--rx-faint)"/>${label(X(power), y + 17, fixed(power))}`);
-    const mark = (power, name, colour, low, side = 0) => {
-      const anchor = ['end', 'middle', 'start'][1 + side], css = `fill:var(${colour});font-weight:620`;
-      return `<path d="M${X(power)} ${y - 7}v14" stroke="var(${colour})" stroke-width="${name === 'before' ? 2 : 4}"
-        stroke-linecap="round"/>${label(clamp(X(power) - 5 * side, from + 60, to - 60), y + low,
-          `${name} ${fixed(power, digits)}`, {anchor, css})}`;
-    };
-    // Names stand outward of the two marks, so that they never meet.
-    const side = best === undefined ? 0 : best < start ? 1 : -1;
+    // Names of the marks in one row, each below its own or pushed aside by its neighbour.
+    const marks = [['before', start, '--rx-dim'], ['least', best, '--rx-good'], ['optimiser', rival, '--rx-accent']]
+      .filter(([, power]) => power ?? null).map(([name, power, colour]) => {
+        const words = `${name} ${fixed(power, digits)}`, wide = 7 * words.length + 8;
+        return {name, colour, words, wide, x: X(power), at: X(power)};
+      }).sort((one, other) => one.x - other.x);
+    let end = from - 20;
+    for (const one of marks) end = (one.at = Math.max(one.at, end + one.wide / 2)) + one.wide / 2;
+    end = to + 20;
+    for (const one of marks.toReversed()) end = (one.at = Math.min(one.at, end - one.wide / 2)) - one.wide / 2;
+    const named = marks.map(({name, colour, words, x, at}) => `<path d="M${x} ${y - 7}v14" stroke="var(${colour})"
+      stroke-width="${name === 'before' ? 2 : 4}" stroke-linecap="round"/>${
+      label(at, y + 33, words, {css: `fill:var(${colour});font-weight:620`})}`);
     const x = X(now), colour = `var(--rx-${hand.kind || 'ink'})`;
     const change = `<tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan>`;
     return `<path d="M${from} ${y}H${to}" stroke="var(--rx-faint)" stroke-width="1.5"/>${ticks.join('')}
-      ${mark(start, 'before', '--rx-dim', 33, side)}
-      ${best === undefined ? '' : mark(best, 'least', '--rx-good', 33, -side)}
-      ${rival === null ? '' : mark(rival, 'optimiser', '--rx-accent', 50)}
+      ${named.join('')}
       <g opacity="${RX.state.power?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>
         <text x="${clamp(x, from + 50, to - 60)}" y="${y - 21}" text-anchor="middle"
           class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan>${change}</text></g>`;
@@ -326,6 +332,18 @@
     over = free ? event : null;
     aim();
   }, {passive: true});
+  // The hand takes the camera: by a drag, the wheel or the keys of its flight. Then it follows nothing any more.
+  const inScene = event => viewer()?.canvas === event.target && !page.matches('[data-rubber], [data-pull]');
+  const taken = paced(() => RX.send('taken'), 400);
+  let down = [0, 0];
+  addEventListener('pointerdown', ({clientX, clientY}) => { down = [clientX, clientY]; }, true);
+  addEventListener('pointermove', event => {
+    if (event.buttons && inScene(event) && distance([event.clientX, event.clientY], down) > 4) taken.send(null);
+  }, {passive: true});
+  addEventListener('wheel', event => { if (inScene(event)) taken.send(null); }, {passive: true});
+  addEventListener('keydown', ({code, target}) => {
+    if (/^Key[WASDQE]$/.test(code) && target === document.body) taken.send(null);
+  });
   addEventListener('dblclick', event => { if (viewer()?.canvas?.contains(event.target)) RX.send('aim'); });
   // In Actuate the voltage moves the blade, not the hand: pulling its edge moves the voltage, FULL pixels all of it.
   const FULL = 150;

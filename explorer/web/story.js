@@ -21,10 +21,13 @@ window.makeStory = (column, figures, report) => {
       aria-label="Step ${k + 1}: ${text(title)}" title="${text(title)}"></button>`).join(''));
     steps.forEach((step, k) => {
       const part = section(k), pair = part.querySelector('.rxs-pair');
+      // A sentence stands once its numbers are there.
+      const computed = step.question && step.options.every(Boolean);
       write(part.querySelector('.rxs-watch'), marked(step.watch));
-      write(part.querySelector('legend'), marked(step.question));
+      write(part.querySelector('legend'), computed ? marked(step.question) : 'Computing …');
       step.options.forEach((option, n) => write(part.querySelectorAll('.rxs-guess button')[n], text(option)));
-      pair.hidden = !step.a;
+      part.querySelector('.rxs-guess > div').hidden = !computed;
+      pair.hidden = !step.a || !step.b;
       write(pair.children[1], text(step.a));
       write(pair.children[3], text(step.b));
       drawControl(step, part.querySelector('.rxs-control'));
@@ -53,7 +56,8 @@ window.makeStory = (column, figures, report) => {
       for (const button of step.querySelectorAll('.rxs-guess button')) {
         const n = Number(button.dataset.value);
         button.disabled = held || own.guess !== null;
-        button.toggleAttribute('data-chosen', own.guess === n);
+        if (own.guess === n) button.dataset.chosen = held ? 'the presenter’s guess' : 'your guess';
+        else delete button.dataset.chosen;
         button.toggleAttribute('data-right', Boolean(own.answer) && own.answer.right === n);
       }
     });
@@ -76,6 +80,7 @@ window.makeStory = (column, figures, report) => {
       play.disabled = slider.disabled;
       play.dataset.on = Boolean(sweep);
     }
+    part.querySelector('.rxs-todo').hidden = held;  // Who follows has nothing to try.
     for (const button of part.querySelectorAll('[data-do=stop]')) {
       button.ariaPressed = String(Number(button.dataset.value) === stop);
       button.disabled = held;

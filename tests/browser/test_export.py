@@ -137,7 +137,9 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser", tmp_path: Path):
     """Opened as a file: guess, answer, control and handle act, numbers are the solver's, nothing is asked of a host."""
     steps = [step for step in STEPS if step.name in ("trim", "responding_wake")]
-    text = story_html(steps)
+    done = list[int]()
+    text = story_html(steps, tell=done.append)
+    assert done == [1, 2]
     assert asks_nobody(text)
     (tmp_path / "lecture.html").write_text(text, encoding="utf-8")
     page = window(browser).new_page()

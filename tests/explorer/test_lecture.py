@@ -3,8 +3,10 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from threading import Event, Thread
 from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -17,7 +19,8 @@ from explorer.story import steps
 from explorer.story.facts import Facts, facts_of
 from explorer.story.steps import STEPS, LectureStep, beside, quantities, step_text, view_of
 from explorer.story.story_file import answer_record, step_record
-from explorer.tabs.lecture.lecture_panel import CASES, PageSnapshot
+from explorer.tabs.lecture import lecture_panel
+from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel, PageSnapshot
 from rotor import hub_loads
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.files.make_design import make_design
@@ -110,7 +113,6 @@ class TestSteps:
         assert wanted <= set(facts[step.name].numbers)
         for units in UNITS.values():
             said = str((step_record(step, facts[step.name], units), answer_record(step, facts[step.name], units)))
-            assert "…" not in said
             assert "nan" not in said
             assert not any(mark in said for mark in (" kW", " hp", " %,", "\u2009kW"))  # A unit stays with its number.
 
@@ -246,12 +248,40 @@ def test_each_step_has_its_text_in_a_file_and_each_file_its_step(tmp_path: Path,
             step_text("bad")
 
 
-def test_what_is_not_computed_yet_is_left_open():
-    """A page says the title and the question at once; numbers follow."""
-    record = step_record(STEPS[0], None, SI)
-    assert record.title == STEPS[0].text.title
-    assert "…" in record.question
-    assert record.control.words == []
+def test_a_sentence_waits_for_its_numbers():
+    for step in STEPS:
+        record = step_record(step, None, SI)
+        assert record.title == step.text.title
+        assert record.question == ("" if "{" in step.text.question else step.text.question)
+        assert not any(mark in str(record) for mark in ("…", "{"))
+        assert record.control.words == []
+
+
+def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pytest.MonkeyPatch):
+    sent: list[Any] = []
+    context = Mock(held=False)
+    context.view.return_value, context.inputs.return_value, context.state.return_value = ViewState(), Inputs(), None
+    context.bridge.set.side_effect = lambda **parts: sent.append(parts["lecture"])
+    panel = LecturePanel(context, Mock())
+    panel.set(0)
+    reading, go_on = Event(), Event()
+
+    def slow(*of: Any) -> Any:
+        reading.set()
+        go_on.wait(60.0)
+        return step_record(*of)
+
+    monkeypatch.setattr(lecture_panel, "step_record", slow)
+    answer, end = Thread(target=panel._facts_came), Thread(target=panel.end)
+    answer.start()
+    assert reading.wait(60.0)
+    end.start()
+    end.join(0.3)  # It waits for the answer to be sent; else it would be over by now.
+    go_on.set()
+    for thread in (answer, end):
+        thread.join(60.0)
+    assert sent[0] is not None
+    assert sent[-1] is None
 
 
 class TestBeside:

@@ -25,7 +25,7 @@ from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
 from explorer.workers.call import Call
 from rotor.markup import tag
-from rotor.processes import JobEnded, JobEvent, JobFailed
+from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -203,10 +203,13 @@ class LecturePanel(Tab):
         """Have the lecture made as a file in a worker process, in the page's units and theme, and send it."""
         context, view = self._context, self._context.view()
         task = StoryTask(ViewState(units=view.units, dark=view.dark))
-        self._file.disabled, self._file.label = True, "Making the file, about a minute …"
+        self._file.disabled, self._file.label = True, "Making the file …"
 
         def heard(news: JobEvent) -> None:
             match news:
+                case JobProgress(done):
+                    self._file.label = f"Making the file: {done} of {len(STEPS)} steps …"
+                    return
                 case JobEnded(str(text)):
                     context.download("lecture.html", text.encode("utf-8"))
                 case JobEnded():
