@@ -17,6 +17,7 @@ from explorer.model.units import Units, number
 from explorer.text.readout import balance, mass_parts
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
+from explorer.views.flight import BY_HAND
 from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
@@ -129,7 +130,7 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
-    return (SetHand({"flown": None}, {"drives": drives}),)
+    return (SetHand(BY_HAND, {"drives": drives}),)
 
 
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:

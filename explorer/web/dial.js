@@ -216,7 +216,13 @@
         aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
         <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
   }
-  // Less vibration green, more red.
+  // Less vibration green, more red: changes [%] of full colour.
+  const LESS = 70, MORE = 160, tint = value =>
+    Math.round(190 * Math.min(Math.abs(value) / (value > 0 ? MORE : LESS), 1) ** .8);
+  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => `color-mix(in srgb,
+    var(${part > 0 ? '--rx-bad' : '--rx-good'}) ${(tint(part * (part > 0 ? MORE : LESS)) / 2.55).toFixed()}%, var(--rx-paper))`);
+  const COLOUR_KEY = `<div>vibration [%]</div>${Charts.bar(shades,
+    [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
   function shade(canvas, size) {
     const tile = document.createElement('canvas'), style = getComputedStyle(page), pen = canvas.getContext('2d');
     const tones = ['--rx-good', '--rx-bad'].map(name =>
@@ -226,8 +232,7 @@
     tile.width = tile.height = GRID;
     const pixels = tile.getContext('2d').createImageData(GRID, GRID);
     fieldOf().index.forEach((value, k) => {
-      const worse = value > 0, strength = Math.min(Math.abs(value) / (worse ? 160 : 70), 1);
-      pixels.data.set([...tones[worse ? 1 : 0], Math.round(190 * strength ** .8)], 4 * k);
+      pixels.data.set([...tones[value > 0 ? 1 : 0], tint(value)], 4 * k);
     });
     tile.getContext('2d').putImageData(pixels, 0, 0);
     pen.imageSmoothingQuality = 'high';
@@ -238,8 +243,8 @@
   function drawFront(element, width, height) {
     const {dial_front: chart, dial_matrix: matrix} = RX.state;
     if (!chart) return;
-    const series = chart.series.map((/** @type {any} */ one) =>  // In little room their names would lie on each other.
-      width < 360 && one.beside === 'below' ? {...one, names: []} : one);
+    /** @type {any[]} */
+    const series = [...chart.series];
     if (matrix) {
       const [power, index] = foresee(matrix, vector()), colour = 'var(--rx-blade)';
       series.push({kind: 'points', label: 'this twist', x: [power], y: [index], colour, size: 6.5});
@@ -305,7 +310,7 @@
       : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>';
     write(place, `<div class="rxd-side"><div class="rxd-row"></div>
         <div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div>
-        <p class="rxf-dim rxd-key"></p><div class="rxd-read" data-explorer="dial-read"></div></div>
+        <div class="rxf-dim rxd-key"></div><div class="rxd-read" data-explorer="dial-read"></div></div>
       <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : button}</div>${large ? button : ''}`);
     const [row, canvas, round, key, read, front] =
       ['.rxd-row', 'canvas', '.rxd-round > div', '.rxd-key', '.rxd-read', '.rxd-front']
@@ -317,7 +322,8 @@
       Object.assign(canvas, {field: fieldOf(), scheme});
     }
     write(round, dialSvg(size));
-    key.textContent = matrix ? `P least power · V least vibration${dial.whole ? ' · ring: reach' : ''}` : '';
+    write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, least vibration', 'lines: power',
+      dial.whole ? 'ring: reach' : ''].filter(Boolean).join(' · ') : '');
     write(read, readout());
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
