@@ -116,7 +116,8 @@ class AssessedPart:
 
     `tip`, `reach`, `wanted`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`.
     `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
-    `sentence`: words, and every second one a number that opens what would pay; `range`: of the twist [°].
+    `said`: all of it in a sentence. `pays`: words, and every second one a number with which it would pay, the other
+    as it is: `range` of twist [°], `kilograms`.
     """
 
     title: str
@@ -132,7 +133,8 @@ class AssessedPart:
     problem: str
     against: str
     baselines: tuple[tuple[str, str], ...]
-    sentence: tuple[str, ...]
+    said: str
+    pays: tuple[str, ...]
     range: float
     kilograms: float
 

@@ -175,8 +175,7 @@ def vibration_words(value: Assessed) -> str:
     if not value.vibration:
         return "" if value.here is None else "no vibration is told here"
     low, high = min(value.vibration), max(value.vibration)
-    told = "" if low * high > 0.0 else ": models disagree"
-    return f"vibration {number(value.vibration[0], 0, sign=True)} % ({range_words(low, high, 0, '')}){told}"
+    return f"vibration {number(value.vibration[0], 0, sign=True)} % ({range_words(low, high, 0, '')})"
 
 
 def pays_words(value: Assessed) -> tuple[str, str]:
@@ -188,8 +187,8 @@ def pays_words(value: Assessed) -> tuple[str, str]:
     )
 
 
-def sentence(value: Assessed, units: Units) -> tuple[str, ...]:
-    """The verdict in one or two sentences: words, and every second one a number that can be dragged."""
+def sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
+    """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     flight, total = value.flight, mass_parts(value.one.installed)["in all"]
     reach = range_words(*map(math.degrees, value.reach), 2, "°")
     powers = [
@@ -201,16 +200,16 @@ def sentence(value: Assessed, units: Units) -> tuple[str, ...]:
     if len({words.split()[0] for words, _ in powers}) == 1 and len(powers) == 2:  # One verb and unit serve both.
         bare = powers[1][0].partition(" ")[2].replace(f" {units.power[0].symbol}", "").replace(" more", "")
         said = f"{powers[0][0]} here, {bare} over the flight"
-    start = f"{value.name} moves the tip by {reach} in flight for {total}{': it ' if said else ''}{said}. "
+    moves = f"{value.name} moves the tip by {reach} in flight for {total}{': it ' if said else ''}{said}."
     mass, wide = pays_words(value)
     if flight is None or value.mass_that_pays is None:
-        return (start,)
+        return moves, ()
     if not mass:
-        return (f"{start}It would not pay, however light.",)
-    pays = f"{start}It {'pays' if flight.power < 0.0 else 'would pay'} below "
+        return moves, ("It would not pay, however light.",)
+    pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below "
     if wide:
-        return pays, mass, ", or with a range of ", wide, "."
-    return pays, mass, "." if value.line is None else f"; no twist pays for {total}."
+        return moves, (pays, mass, ", or with a range of ", wide, ".")
+    return moves, (pays, mass, "." if value.line is None else f"; no twist pays for {total}.")
 
 
 def _kind(power: float | None) -> Sign:
@@ -225,8 +224,7 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
     one, units, inputs = value.one, now.units, now.hand.actuator
     *parts, (_, total) = mass_parts(one.installed).items()
     wanted = "" if value.wanted is None else f"{number(math.degrees(value.wanted), 2, sign=True)}°"
-    here, flight = value.here, value.flight
-    wrong = now.of(here_problem)
+    here, flight, (said, pays) = value.here, value.flight, sentences(value, units)
     part = AssessedPart(
         title=title(value, now),
         tip=f"{number(math.degrees(value.tip), 2, sign=True)}°",
@@ -238,10 +236,11 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
         kind=_kind(None if here is None else here.power),
         flight="" if flight is None else needs_words(-flight.power, flight.band, units),
         vibration=vibration_words(value),
-        problem=wrong,
+        problem=here_problem(now),
         against=inputs.against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),
-        sentence=sentence(value, units),
+        said=said,
+        pays=pays,
         range=round(math.degrees(value.range), 2),
         kilograms=round(value.mass, 1),
     )

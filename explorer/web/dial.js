@@ -1,6 +1,5 @@
 // @ts-check
-// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it,
-// and the verdict on the actuator, which both stand for.
+// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it.
 (() => {
   const {DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm} = Common;
   const {closest, soon, paced, drag, viewer} = Common, {part} = RX, page = document.documentElement;
@@ -62,32 +61,11 @@
     const band = `${signed(low, 0)}…${signed(high, 0)} %`;
     return `vibration ${signed(index[0], 0)} % (${band}: inflow models disagree)`;
   }
-  function drives({whole, room, harmonics}) {
-    if (!whole) return peak(harmonics) ? ', more than this actuator can follow' : '';
-    const share = 100 * (1 - room + peak(harmonics) / whole);
-    return share > 100.5 ? `, with ${fixed(share)} % of its voltage: out of reach`
-      : share > .5 ? ` at ${fixed(share)} % of its voltage` : '';
-  }
-  // Power, vibration and voltage in one sentence, and whether it is good, bad or both.
+  // Power and vibration in one sentence.
   function verdict() {
     const {dial} = RX.state, now = change();
-    if (!now) return [dial?.problem || dial?.words || 'Computing what it changes here …', ''];
-    const {power: [power], index} = now, calmer = index.length && Math.max(...index) < 0;
-    return [`${needs(power)}; ${shakes(index)}${drives(dial)}`, power > .05 ? calmer ? '' : 'loss' : 'gain'];
+    return now ? `${needs(now.power[0])}; ${shakes(now.index)}` : dial.problem || dial.words;
   }
-  // In the card of power, in place of what has changed.
-  function drawVerdict() {
-    const {earns, power} = RX.state, place = part('verdict');
-    place.hidden = !earns || Boolean(power?.problem);
-    if (place.hidden) return;
-    const [words, tone] = earns.problem ? [earns.problem, ''] : verdict();
-    write(place, `<div class="rxf-why">Against
-        <button data-do="against" title="Compare with the other blade">${text(earns.against)} ⇄</button></div>
-      <div class="rxf-since rxf-num" data-explorer="verdict" data-kind="${earns.kind}" data-tone="${tone}"
-        title="This actuator on board, in this flight. Bands: over inflow models">${text(words)}</div>
-      <div class="rxf-why" data-explorer="mission">${text(earns.mission)}</div>`);
-  }
-  RX.paint(['earns', 'power', 'dial'], drawVerdict);
 
   // Values over the chosen dial on a grid, the other harmonics as they are.
   const GRID = 49;
@@ -278,7 +256,7 @@
       <em class="rxf-num" data-kind="${kind}">${words}</em></div>`;
   }
   function readout() {
-    const {dial, dial_matrix: matrix, earns} = RX.state, [amplitude, phase] = wave(chosen), now = change();
+    const {dial, dial_matrix: matrix, assessed} = RX.state, [amplitude, phase] = wave(chosen), now = change();
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
       <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
@@ -288,9 +266,9 @@
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
     const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', foreseen' : ''}`;
-    return `${head}${meter('Power', now.power, whole, .05, `${signed(power)} ${dial.unit}`)}
+    return `${head}${meter('Power', now.power, whole, .05, `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`)}
       ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
-      ${dim(earns ? against : `${verdict()[0]}, ${against}`)}${wait}
+      ${dim(assessed ? against : `${verdict()}, ${against}`)}${wait}
       ${held && matrix && !calm.matches ? dim(`Shaking of the cabin drawn × ${dial.exaggerated}, slowed`) : ''}`;
   }
 
@@ -329,7 +307,6 @@
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
   const draw = soon(() => {
-    drawVerdict();
     for (const place of document.querySelectorAll('[data-dial]')) fill(place);
   });
   // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
@@ -337,7 +314,7 @@
     const [, amplitude, angle] = RX.state.dial.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
     return Math.abs(amplitude - size) < .021 && (amplitude < .03 || Math.abs(angle - phase) < .6);
   }
-  RX.paint(['dial', 'dial_matrix', 'dial_front', 'earns'], dial => {
+  RX.paint(['dial', 'dial_matrix', 'dial_front', 'assessed'], dial => {
     if (dial && left && Object.entries(left.waves).every(arrived)) left = null;
     draw();
   });

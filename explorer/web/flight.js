@@ -142,14 +142,13 @@
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     return {svg, width, height};
   }
-  function drawBalance({bars, unit, where, mass, mass_note, fuel, fuel_kind, fuel_note}) {
+  function drawBalance({bars, unit, where, fuel, fuel_kind, fuel_note}) {
     earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b>
         <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
       <svg role="img"></svg>
-      <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(mass_note)}">${text(mass)}</span>
-        <b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
+      <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
     const {svg, width, height} = room();
     if (!bars.length || !svg) return;

@@ -105,7 +105,8 @@ interface RxAssessedPart {
   problem: string;
   against: string;
   baselines: [string, string][];
-  sentence: string[];
+  said: string;
+  pays: string[];
   range: number;
   kilograms: number;
 }

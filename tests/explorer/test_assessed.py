@@ -69,7 +69,7 @@ def screen(now: Now) -> dict[str, list[str]]:
     value, part, flight, rail = assessed(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
     assert value is not None
     assert value.one.verdict is not None
-    sentence, inputs = "".join(part.sentence), now.hand.actuator
+    sentence, inputs = part.said, now.hand.actuator
     labels = lifted_picture(inputs, value.one.installed, value.one.design).labels
     words = " ".join(text for _, text, _ in labels)
     report = re.sub(r"<[^>]*>", " ", actuator_section(value.one.verdict, SI))
