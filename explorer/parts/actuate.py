@@ -72,7 +72,8 @@ class DialMatrix(DialNumbers):
 class FlightPart:
     """Tip twist from hover to fast flight, and where the design flies: `at`, counted in legs from 0.
 
-    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°].
+    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°]; `words` then say how it
+    flies. `flown`: the voltages are those of the flight.
     """
 
     legs: tuple[tuple[str, str], ...]

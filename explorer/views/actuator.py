@@ -13,6 +13,7 @@ from explorer.model.units import Units, number
 from explorer.text.readout import balance, mass_parts
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
+from explorer.views.flight import BY_HAND
 from explorer.views.now import Asked, Effect, Now, Panel, SetHand
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
@@ -32,12 +33,14 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    """Verdicts come behind searches, maps and schedules: the chosen actuator's first; modes behind all else."""
+    """The chosen actuator's verdict comes behind searches and maps; what is folded at first, behind its flight."""
     if (one := built(now)) is None:
         return ()
     first, *others = one.tasks.values()
-    modes = () if one.modes_task is None else (one.modes_task,)
-    return Asked(5, (first,), _STILL), Asked(6, tuple(others), _IDLE), Asked(7, modes, _IDLE)
+    if one.outcome is None or (one.flight_task is not None and one.flight is None):
+        others = []
+    modes = (one.modes_task,) if others and one.modes_task is not None else ()
+    return Asked(3, (first,), _STILL), Asked(7, tuple(others), _IDLE), Asked(8, modes, _IDLE)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -112,7 +115,7 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
-    return (SetHand({"flown": None}, {"drives": drives}),)
+    return (SetHand(BY_HAND, {"drives": drives}),)
 
 
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AGAINST
+from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
@@ -49,6 +49,10 @@ class Assessed:
     vibration: tuple[float, ...]
     flight: Change | None
     line: OtherStroke | None
+
+    @property
+    def name(self) -> str:
+        return self.one.installed.actuator.id.replace("_", " ")
 
     @property
     def mass(self) -> float:
@@ -147,16 +151,12 @@ def _reach(value: Assessed) -> str:
     return "…".join(map(_angle, value.reach)).replace("°…", "…")
 
 
-def _title(now: Now, one: Built) -> str:
+def _title(value: Assessed, inputs: ActuatorInputs) -> str:
     """What it is, and its drive as on the sliders."""
-    inputs, ply = now.hand.actuator, isinstance(one.installed.actuator, PiezoPly)
-    shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(one.installed))
+    installed, ply = value.one.installed, isinstance(value.one.installed.actuator, PiezoPly)
+    shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
     driven = f"at {shares} % of its {'voltage' if ply else 'drive'}" if inputs.driven else "at rest"
-    return f"{_name(one)}, {count(one.installed)}{' a side' if ply else ''}, {driven}"
-
-
-def _name(one: Built) -> str:
-    return one.installed.actuator.id.replace("_", " ")
+    return f"{value.name}, {count(installed)}{' a side' if ply else ''}, {driven}"
 
 
 def _vibration(value: Assessed) -> str:
@@ -177,7 +177,7 @@ def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
         powers[1] = powers[1].partition(" ")[2].replace(f" {units.power[0].symbol}", "").replace(" more", "")
     places = (["here"] if value.here else []) + ["over the flight"]
     said = ", ".join(f"{power} {place}" for power, place in zip(powers, places, strict=False))
-    moves = f"{_name(value.one)} moves the tip by {_reach(value)} in flight for {total}{': it ' if said else ''}{said}."
+    moves = f"{value.name} moves the tip by {_reach(value)} in flight for {total}{': it ' if said else ''}{said}."
     mass = None if verdict is None else verdict.mass_allowed
     if flight is None or mass is None:
         return moves, ()
@@ -201,7 +201,7 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
     both = value.here, value.flight
     here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
     part = AssessedPart(
-        title=_title(now, one),
+        title=_title(value, now.hand.actuator),
         tip=_angle(value.tip),
         reach=_reach(value),
         wanted="" if value.wanted is None else _angle(value.wanted),

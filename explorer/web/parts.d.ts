@@ -73,6 +73,7 @@ interface RxPresses {
   speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
+  fails: 'on' | 'off';
   ride: 'off' | RxRidePress | null;
   azimuth: number;
   fly: number;
@@ -196,7 +197,7 @@ interface RxDrawnPoints {
   press?: string[];
   names?: string[];
   faint?: boolean[];
-  beside?: 'above' | 'below' | 'upward' | null;
+  beside?: 'above' | 'below' | null;
   scatter?: (number | null)[];
 }
 

@@ -298,7 +298,6 @@ def test_nothing_is_begun_while_somebody_drags():
         answers.ask((task,), 0.4)
         time.sleep(0.1)
     assert pool.asked == []
-    answers.ask((task,), 0.4, moved=False)  # A round that an answer woke.
     until(lambda: pool.asked == [task])
 
 
@@ -349,7 +348,7 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     assert rest["actuator.details"] == rest["actuator.verdict"] == rest["actuator.limits"] == ""
     assert rest["actuator.table"].count("computing…") == len(ALL)
     assert [(one.urgency, one.delay, len(one.calls)) for one in ACTUATOR.asks(now)] == [
-        (5, 0.4, 1), (6, 2.5, len(ALL) - 1), (7, 2.5, 0)
+        (3, 0.4, 1), (7, 2.5, len(ALL) - 1), (8, 2.5, 0)
     ]  # fmt: skip
     judged = ACTUATOR.view(told(ACTUATOR, now, lean_verdict=verdict))
     assert verdict_sentence(verdict) in judged["actuator.details"]

@@ -8,7 +8,6 @@ import viser
 
 from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
 from explorer.tabs.form import Form
-from explorer.text.glossary import hint
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import UNMEASURED
 from rotor.design.quantity import Slider
@@ -60,7 +59,6 @@ class ActuatorControls:
             text("modes")
         with gui.add_folder("All actuators on this blade", expand_by_default=False):
             text("table")
-        self.stopped = gui.add_checkbox("Actuator stops here", False, hint=hint("stops_here"))
         shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
