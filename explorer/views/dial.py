@@ -261,16 +261,8 @@ def _published(
         "ring" if label == "computed" else "dot",
         scatter=[0.5 * abs(high - low) for low, high in ends],
         words=[programme_words(result) for result in shown],
-        names=[f"{result.short}{_orders(result)}" for result in shown],
-        beside="upward" if shown and shown[0] in alone else "below",
         size=4.5,
     )
-
-
-def _orders(result: Programme) -> str:
-    """The harmonics, where the short name alone does not tell two results apart."""
-    twins = [other for other in programmes() if other.short == result.short]
-    return f" {'+'.join(map(str, result.per_rev))}/rev" if len(twins) > 1 and result.per_rev else ""
 
 
 def programme_words(result: Programme) -> str:

@@ -74,6 +74,7 @@ interface RxPresses {
   speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
+  fails: 'on' | 'off';
   ride: 'off' | RxSectionPress | null;
   section: RxSectionPress;
   azimuth: number;
@@ -106,7 +107,8 @@ interface RxAssessedPart {
   problem: string;
   against: string;
   baselines: [string, string][];
-  sentence: string[];
+  said: string;
+  pays: string[];
   range: number;
   kilograms: number;
 }
@@ -197,7 +199,7 @@ interface RxDrawnPoints {
   press?: string[];
   names?: string[];
   faint?: boolean[];
-  beside?: 'above' | 'below' | 'upward' | null;
+  beside?: 'above' | 'below' | null;
   scatter?: (number | null)[];
 }
 
