@@ -181,7 +181,7 @@
   let held = null;
   // A name that would lie on another word or mark stands below or beside its point, or waits for the pointer.
   function spread(svg, left, top) {
-    const rect = ([x, y], width) => [x - 2, y - 12, x + width + 2, y + 4];
+    const rect = (x, y, width) => [x - 2, y - 12, x + width + 2, y + 4];
     const apart = (one, other) =>
       one[2] < other[0] || other[2] < one[0] || one[3] < other[1] || other[3] < one[1];
     const taken = [...svg.querySelectorAll('g > title ~ circle, [data-supposed]')].map(dot => {
@@ -198,12 +198,13 @@
       const middle = x - width / 2, above = y - r - 6, below = y + r + 14;
       const free = [[middle, above], [middle, below], [x + r + 4, y + 4], [x - width - r - 4, y + 4], [x, above],
         [x, below], [x - width, above], [x - width, below]]
-        .find(spot => spot[0] > left && spot[1] > top + 8 && taken.every(one => apart(one, rect(spot, width))));
+        .find(([at, foot]) => at > left && foot > top + 8 && taken.every(one => apart(one, rect(at, foot, width))));
       if (!free) { word.remove(); continue; }
-      taken.push(rect(free, width));
+      const [at, foot] = free;
+      taken.push(rect(at, foot, width));
       word.setAttribute('text-anchor', 'start');
-      word.setAttribute('x', free[0].toFixed(1));
-      word.setAttribute('y', free[1].toFixed(1));
+      word.setAttribute('x', at.toFixed(1));
+      word.setAttribute('y', foot.toFixed(1));
     }
   }
   function drawBreakEven({chart, kind, words, note, at: given}) {
