@@ -148,7 +148,7 @@ class Page:
         self.optimise.challenge = self.rival.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator.outcome, self.now)
+            export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
             self._presence.begin(self.lecture, self._hold)

@@ -91,14 +91,14 @@ class DesignReport:
         return self.all if self.own_section else tuple(self.entries)
 
 
-def on_board(driven: Assessed, units: Units) -> tuple[str, str]:
-    """What the mass of a driven actuator makes of the power here, as the page says it, and `more` or `less` of it."""
+def on_board(driven: Assessed, units: Units) -> tuple[str, str, str]:
+    """The change of power here with the mass of a driven actuator, as the page says it; what it counts from; and
+    whether it is `more` or `less`."""
     mass, here = mass_parts(driven.one.installed)["in all"], driven.here
     if here is None:
-        return f"without the {mass} of its actuator", ""
-    against = against_words(driven.one, driven.one.question.against)
-    needs = needs_words(-here.power, here.band, units)
-    return f"with {mass} on board {needs}, against the {against}", "more" if here.power > 0.0 else "less"
+        return "", f"without the {mass} of its actuator", ""
+    against = f"with {mass} on board, against the {against_words(driven.one, driven.one.question.against)}"
+    return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
 
 
 def colours_of(report: DesignReport) -> list[str]:

@@ -14,7 +14,7 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.contents import DesignReport, ReportEntry, colours_of
+from explorer.export.contents import DesignReport, ReportEntry, colours_of, on_board
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
@@ -84,6 +84,7 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
         tag("div.bar", bar),
         tag("div", title_words(design)),
         tag("div.dim", flight_words(design, report.units)),
+        tag("div", on_board(report.driven, report.units)[1]) if k == 0 and report.driven is not None else None,
         style=f"--mark:{colour}",
     )
 
@@ -119,7 +120,6 @@ def _section(report: DesignReport, k: int) -> Markup:
         tag(
             "div.tables",
             tables.conditions(solution),
-            tables.parts(report, entry),
             tables.trim(solution),
             tables.vibration(solution),
             tables.doubts(report, entry),

@@ -34,7 +34,7 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
     if entry is report.entries[0] and report.driven is not None:
-        words, kind = on_board(report.driven, report.units)
+        words, _, kind = on_board(report.driven, report.units)
         return tag("span.change", words, class_=kind or None, data_report="on-board")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
@@ -69,6 +69,8 @@ def comparison(report: DesignReport) -> Markup:
             _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
             for name, title in part_titles(*designs).items()
         ),
+        _row("Main rotor", compared(lambda solution: solution.power.main_rotor)),
+        _row("Least induced, any circulation", [_least_induced(entry.solution, report.units) for entry in report.all]),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
         _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
@@ -113,25 +115,6 @@ def conditions(solution: Solution) -> Markup:
         ("Grid", "{} elements × {} azimuths".format(*grid_of(design))),
     ]
     return _table("Condition and model", rows)
-
-
-def parts(report: DesignReport, entry: ReportEntry) -> Markup:
-    """Power by parts with shares and the change against the reference."""
-    power, units = entry.solution.power, report.units
-    ideal = ideal_induced(entry.solution)
-    rows: list[Row] = [
-        (_named(name, title), _share(getattr(power, name), power.total, units))
-        for name, title in part_titles(entry.solution.design).items()
-    ]
-    rows += [
-        ("Main rotor", units.watts(power.main_rotor, 1)),
-        (tag("b", "Total"), tag("b", units.watts(power.total, 1))),
-    ]
-    if report.comparable(entry):
-        change = units.watts(power.total - report.reference.solution.power.total, 1, sign=True)
-        rows.append((f"vs. {report.reference.title}", change))
-    rows.append(("Least induced, any circulation", "not settled" if ideal is None else units.watts(ideal, 1)))
-    return _table("Power", rows)
 
 
 def trim(solution: Solution) -> Markup:
@@ -243,8 +226,9 @@ def _with_change(solution: Solution, reference: Solution, value: Callable[[Solut
     return _below(units.watts(here, 1), f"{units.watts(here - there, 1, sign=True)}{per_cent}")
 
 
-def _share(part: float, total: float, units: Units) -> Content:
-    return units.watts(part, 1), " ", tag("small", f"{number(100.0 * part / total)} %")
+def _least_induced(solution: Solution, units: Units) -> str:
+    ideal = ideal_induced(solution)
+    return "not settled" if ideal is None else units.watts(ideal, 1)
 
 
 def _speed(design: Design, units: Units) -> Content:

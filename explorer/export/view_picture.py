@@ -61,8 +61,8 @@ def view_png(
     write(40, 52, title_words(solution.design), 32, ink)
     write(40, 90, flight_words(solution.design, units), 22, dim)
     if driven is not None:
-        words, kind = on_board(driven, units)
-        write(columns - 40, 98, words, 22, _KINDS[kind][dark] if kind else dim, "rs")
+        *words, kind = on_board(driven, units)
+        write(columns - 40, 98, " ".join(filter(None, words)), 22, _KINDS[kind][dark] if kind else dim, "rs")
     write(
         columns - 40,
         72 if driven is None else 62,

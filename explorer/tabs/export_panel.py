@@ -19,12 +19,12 @@ from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
+from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
-from explorer.views.assessed import Assessed, assessed
+from explorer.views.assessed import Assessed, assessed, effect_asked
 from explorer.views.now import Now
-from rotor.actuator import Verdict
 from rotor.markup import tag
 
 _log = logging.getLogger(__name__)
@@ -42,11 +42,10 @@ class ExportPanel(Tab):
         context: TabContext,
         scene: SceneController,
         history: HistoryPanel,
-        actuator: Callable[[], Verdict | str],
+        actuator: ActuatorPanel,
         now: Callable[[], Now],
     ) -> None:
-        """`actuator`: the verdict on the one chosen, why there is none, or empty where none was. `now`: all that is
-        known."""
+        """`now`: all that is known."""
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
         self._now = now
         self._busy = threading.Lock()
@@ -76,9 +75,13 @@ class ExportPanel(Tab):
         self._stale = True
 
     def _driven(self) -> Assessed | None:
-        """The actuator, where it twists the blade."""
+        """The actuator, where it twists the blade, and what it does here, worked out where that is not known."""
         now = self._now()
-        return assessed(now) if now.hand.actuator.driven else None
+        if not now.hand.actuator.driven:
+            return None
+        call = effect_asked(now)
+        known = {} if call is None or call in now.answers else {call: call.run()}
+        return assessed(replace(now, answers={**now.answers, **known}))
 
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
@@ -90,7 +93,11 @@ class ExportPanel(Tab):
         """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
         client, view = self._context.client, state.view
         height = round(_WIDTH / client.camera.aspect)
-        pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
+        self._actuator.show_leaders(False)  # To labels, which are not in the scene.
+        try:
+            pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
+        finally:
+            self._actuator.show_leaders(True)
         above, below = self._scene.camera.covered
         seen = pixels[round(above * height) : height - round(below * height)]
         return view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark, self._driven())
@@ -115,7 +122,7 @@ class ExportPanel(Tab):
             state.view,
             {view.field: self._scene.held_range(field)},
             own_section=state.pin is not None,
-            actuator=self._actuator(),
+            actuator=self._actuator.outcome(),
             driven=self._driven(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))

@@ -3,6 +3,7 @@
 import re
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,10 @@ from PIL import Image
 from watched import Watched, opened, window
 
 from explorer.app import App
-from explorer.model.inputs import Inputs
+from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.report import report_html
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.story.steps import STEPS
 from explorer.story.story_file import story_html
 from rotor.files.make_design import make_design
@@ -115,6 +119,24 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     assert asked.count(path.as_uri()) == 1
     assert report.complaints == []
     report.page.close()
+
+
+@pytest.mark.parametrize("width", [900, 1500])
+def test_no_report_is_wider_than_its_page_and_its_title_is_a_line(browser: "Browser", tmp_path: Path, width: int):
+    plain = make_design(inflow="drees", elements=16, azimuths=36)
+    rates, breaks = ",".join(["-9.25"] * 40), ",".join(f"{k / 40:g}" for k in range(1, 40))
+    named = replace(plain, rotor=replace(plain.rotor, name="A rotor of one's own with a name that has no end at all"))
+    page = window(browser).new_page()
+    page.set_viewport_size({"width": width, "height": 900})
+    for design in (ActuatorInputs(drives=(77.0,) * 5).apply(named), plain.with_twist(f"segments:{rates}@{breaks}")):
+        now, before = ReportEntry("Now", solve(design)), ReportEntry("Baseline", solve(baseline_of(design)))
+        path = tmp_path / "report.html"
+        path.write_text(report_html(DesignReport(before, [now], ViewState()), None), encoding="utf-8")
+        page.goto(path.as_uri())
+        assert page.evaluate("() => document.documentElement.scrollWidth") == width
+        title = page.locator("h1")
+        assert title.evaluate("title => title.offsetHeight / parseFloat(getComputedStyle(title).lineHeight)") < 1.5
+    page.close()
 
 
 def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):

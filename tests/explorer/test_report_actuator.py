@@ -1,22 +1,26 @@
 """The actuator of a report: the same words and numbers as on the rail and on the command line."""
 
 import re
+from dataclasses import replace
 from functools import cache
 
 import pytest
 
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.export.figures import actuator_section
 from explorer.export.report import report_html
-from explorer.model.inputs import ViewState, baseline_of
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.text.readout import needs
 from explorer.views.actuator_words import details_panel
+from explorer.views.assessed import ASSESSED, assessed, effect_asked
 from explorer.views.flight import earns_state
 from rotor.actuator.verdict import Against, Verdict, kw, reference, try_actuator
 from rotor.command import actuator as command
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
+from tests.actuate import actuate
 
 DESIGN = make_design(inflow="drees", elements=16, azimuths=36)
 
@@ -77,3 +81,22 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
     for actuator, found in ((verdict(), 1), ("", 0)):
         report = DesignReport(baseline, entries, ViewState(), actuator=actuator)
         assert report_html(report, None).count('<section class="actuator">') == found
+
+
+def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
+    now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
+    call = effect_asked(now)
+    assert call is not None
+    now = replace(now, answers={call: call.run()})
+    driven, card, state = assessed(now), ASSESSED.view(now)["assessed"], now.state
+    assert driven is not None
+    assert state is not None
+    words, against, kind = on_board(driven, SI)
+    assert (words, kind) == (card.here, "more")
+    assert against == f"with {card.mass} on board, against the same blade without it"
+    baseline = ReportEntry("Baseline", solve(baseline_of(state.solution.design)))
+    page = report_html(DesignReport(baseline, [ReportEntry("Now", state.solution)], ViewState(), driven=driven), None)
+    headline = page[page.index('<article class="card"') : page.index("</article>")]
+    assert re.findall('data-report="on-board">([^<]*)<', headline) == [words]
+    assert against in headline
+    assert "%" not in re.sub(r"width:[\d.]+%", "", headline), "no change without its mass"

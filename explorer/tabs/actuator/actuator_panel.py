@@ -85,6 +85,10 @@ class ActuatorPanel:
         task = verdict_tasks(question)[question.actuator]
         return all_known().get(task) or task.run()
 
+    def show_leaders(self, seen: bool) -> None:
+        """Lines from the lifted blade to its labels."""
+        self._blade.show_leaders(seen)
+
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
         self._opened = self._opened or out

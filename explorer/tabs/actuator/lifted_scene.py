@@ -100,6 +100,10 @@ class LiftedScene:
         labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
         self._bridge.set(lifted_labels=labels)
 
+    def show_leaders(self, seen: bool) -> None:
+        """Lines to the labels, which the page draws."""
+        self._lines["leaders"].visible = seen and self._held
+
     def release(self, radius: float) -> None:
         """Let the blade fly back; then nothing of it is left."""
         if not self._held:
