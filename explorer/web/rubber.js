@@ -54,7 +54,7 @@
   // The disk on the left as far as its circle needs room, above on a narrow stage; the blade has the rest. Numbers
   // stand on its right where there is room, words of the arc on its left.
   function arrange() {
-    const stage = place.getBoundingClientRect(), {width, height} = stage, wide = width > 640;
+    const stage = place.getBoundingClientRect(), {width, height} = stage, wide = width > Math.max(640, height);
     const card = RX.small.matches ? null : document.querySelector('.rxf-power').getClientRects()[0];
     const top = (card?.bottom ?? stage.top) - stage.top + 10;
     const split = wide ? clamp(height - top - 60, .36 * width, .5 * width) : top + .5 * (height - top);
