@@ -115,7 +115,7 @@
       tip = flight.flown && Math.abs(flight.at - at) > .02 ? degrees(reached) : flight.tip;
       keys = flight.frozen !== null ? [['stopped', flight.words]]
         : [['reached', flight.flown ? 'reached' : `${degrees(reached)} reached`]];
-      keys.push(['wanted', `${degrees(wanted)} wanted`], ['reach', 'reach']);
+      keys.push(['wanted', `${degrees(wanted)} wanted`], ...(flight.frozen === null ? [['reach', 'reach']] : []));
       if (flight.kind !== 'ready') keys.push(['', 'computing…']);
     }
     slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys.map(([, words]) => words)].join(' ');
@@ -180,7 +180,7 @@
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
   let held = null;
   // A name that would lie on another word or mark stands below or beside its point, or waits for the pointer.
-  function spread(svg, left, top) {
+  function spread(svg, {series}, {X, Y, left, top}) {
     const rect = (x, y, width) => [x - 2, y - 12, x + width + 2, y + 4];
     const apart = (one, other) =>
       one[2] < other[0] || other[2] < one[0] || one[3] < other[1] || other[3] < one[1];
@@ -192,6 +192,8 @@
       const {x, y, width, height} = word.getBBox();
       taken.push([x, y, x + width, y + height]);
     }
+    const line = series.find(({kind}) => kind === 'line');
+    line.x.forEach((at, k) => taken.push([X(at) - 4, Y(line.y[k]) - 1, X(at) + 4, Y(line.y[k]) + 1]));
     for (const word of svg.querySelectorAll('[data-name]')) {
       const dot = word.parentNode.querySelector('circle').getBBox(), {width} = word.getBBox();
       const x = dot.x + dot.width / 2, y = dot.y + dot.height / 2, r = dot.width / 2;
@@ -227,7 +229,7 @@
         aria-valuetext="${text(words)}">
         <title>Drag: range of twist and mass of all blades</title></circle>`;
     earns.place = place;
-    spread(svg, left, top);
+    spread(svg, chart, place);
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
   const supposed = paced(point => RX.send('suppose', point), 60);
