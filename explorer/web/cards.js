@@ -75,7 +75,7 @@
       <div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
-          'What the actuator adds to the twist of the turning blade at its tip; positive is nose up')}
+          'What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
         ${column('gives', one.here

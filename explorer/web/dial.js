@@ -281,7 +281,7 @@
     Object.assign(place, {stamp, matrix});
     const {dataset: focus} = place.contains(document.activeElement) ? document.activeElement : place;
     const again = 'dot' in focus ? '[data-dot]' : focus.harmonic ? `[data-harmonic="${focus.harmonic}"]` : null;
-    const size = large ? Math.min(place.clientHeight - 172, width / 2 - 24, 780) : Math.min(width, 300);
+    const size = large ? Math.min(place.clientHeight - 218, width / 2 - 24, 780) : Math.min(width, 300);
     const frontWidth = large ? width - size - 44 : width, frontHeight = large ? size + 20 : 228;
     const button = large
       ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>'
@@ -300,7 +300,7 @@
       Object.assign(canvas, {field: fieldOf(), scheme});
     }
     write(round, dialSvg(size));
-    write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, least vibration', 'lines: power',
+    write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, vibration', 'lines: power',
       dial.whole ? 'ring: reach' : ''].filter(Boolean).join(' · ') : '');
     write(read, readout());
     drawFront(front, frontWidth, frontHeight);

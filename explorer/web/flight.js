@@ -115,7 +115,7 @@
       tip = flight.flown && Math.abs(flight.at - at) > .02 ? degrees(reached) : flight.tip;
       keys = flight.frozen !== null ? [['stopped', flight.words]]
         : [['reached', flight.flown ? 'reached' : `${degrees(reached)} reached`]];
-      keys.push(['wanted', `${degrees(wanted)} wanted`], ['reach', 'reach']);
+      keys.push(['wanted', `${degrees(wanted)} wanted`], ...(flight.frozen === null ? [['reach', 'reach']] : []));
       if (flight.kind !== 'ready') keys.push(['', 'computing…']);
     }
     slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys.map(([, words]) => words)].join(' ');
