@@ -34,7 +34,7 @@ from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
 from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Keyboard, Layout, Sections, by_hand
+from explorer.tabs.layout import Keyboard, Layout, Sections
 from explorer.tabs.lecture.lecture_panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.optimise.map_panel import MapPanel
@@ -49,7 +49,7 @@ from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ASSESSED
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
-from explorer.views.flight import FLIGHT, stop_here
+from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
 from explorer.views.now import Effect, Grab, Move, Now, Ui
@@ -155,7 +155,6 @@ class Page:
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.follower = Follower(PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform)
-        by_hand(self.actuator.controls.stopped, partial(self.follower.press, stop_here, FLIGHT.seen))
         following = self.probe, settings, self.history, self.file, export, self.lecture, self._presence
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))

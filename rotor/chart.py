@@ -17,7 +17,7 @@ from rotor.arrays import Array
 
 Span = tuple[float, float]
 Mark = Literal["dot", "cross", "ring"]
-Beside = Literal["above", "below", "upward"]
+Beside = Literal["above", "below"]
 Values: TypeAlias = Sequence[float] | Array
 """Any numbers; a series keeps them as a tuple of floats."""
 Colour: TypeAlias = int | str | None
@@ -96,7 +96,6 @@ class Points:
     names: Sequence[str] = ()
     """What stands beside each in the drawing."""
     beside: Beside = "above"
-    """Where it stands; `upward`: above, and written from below."""
     faint: Sequence[bool] = ()
     size: float = 4.0
     """Radius [px]."""

@@ -146,7 +146,7 @@ class Processes(Executor):
     """
 
     def __init__(self, count: int, prepare: Callable[[], object] | None = None) -> None:
-        """`prepare`: what a new process does first. One more process than had work is then kept ready for the next."""
+        """`prepare`: what a new process does first. All are then kept ready, begun one after the other."""
         self.prepare = prepare
         self._count = count
         self._numbers = itertools.count(1)
@@ -279,11 +279,10 @@ class Processes(Executor):
             if self._killed:
                 process.kill()
 
-    def done(self) -> None:
-        """A process is free again. Where one had work another may soon, so a further one is prepared."""
+    def ready(self) -> None:
+        """A process is prepared: a further one may begin."""
         with self._change:
-            if self.prepare is not None:
-                self._add_worker()
+            self._add_worker()
 
     @property
     def _idle(self) -> int:
@@ -332,6 +331,7 @@ class _Worker(threading.Thread):
             if self._pool.prepare is not None:
                 with suppress(OSError, EOFError):
                     self._ready()  # Before it is needed, and again after it was lost.
+                self._pool.ready()
             job = self._pool.next(self)
             if job is None:
                 continue
@@ -344,7 +344,6 @@ class _Worker(threading.Thread):
             except Exception as error:  # A task that cannot be pickled, for example: the thread must go on.
                 job.tell(JobFailed(f"The work could not be done: {error}", error))
             self.idle = True
-            self._pool.done()
         self._drop()
 
     def kill(self) -> None:

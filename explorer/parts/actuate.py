@@ -72,7 +72,8 @@ class DialMatrix(DialNumbers):
 class FlightPart:
     """Tip twist from hover to fast flight, and where the design flies: `at`, counted in legs from 0.
 
-    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°].
+    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°]; `words` then say how it
+    flies. `flown`: the voltages are those of the flight.
     """
 
     legs: tuple[tuple[str, str], ...]
@@ -115,7 +116,8 @@ class AssessedPart:
 
     `tip`, `reach`, `wanted`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`.
     `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
-    `sentence`: words, and every second one a number that opens what would pay; `range`: of the twist [°].
+    `said`: all of it in a sentence. `pays`: words, and every second one a number with which it would pay, the other
+    as it is: `range` of twist [°], `kilograms`.
     """
 
     title: str
@@ -131,7 +133,8 @@ class AssessedPart:
     problem: str
     against: str
     baselines: tuple[tuple[str, str], ...]
-    sentence: tuple[str, ...]
+    said: str
+    pays: tuple[str, ...]
     range: float
     kilograms: float
 

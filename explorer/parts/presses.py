@@ -80,7 +80,7 @@ PRESSES: dict[str, Any] = {
     **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
-    **dict.fromkeys(("difference", "more"), _Switch),
+    **dict.fromkeys(("difference", "more", "fails"), _Switch),
     "ride": Literal["off"] | SectionPress | None,
     "section": SectionPress,
     "azimuth": _Azimuth,

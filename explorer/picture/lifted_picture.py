@@ -204,7 +204,7 @@ def _labels(
     for name, r, y, above in (
         ("electronics", sum(blade.box) / 2.0, 0.0, 0.95),
         ("leads", 0.5 * (blade.box[1] + inner), 0.09, 0.45),
-        ("nose weight", inner + 0.88 * (outer - inner), 0.2, 0.5),
+        ("nose weight", inner + 0.88 * (outer - inner), 0.12, 0.5),
     ):
         if name in named:
             put(named[name], r, y, 0.1 if name == "electronics" else 0.02, above)
@@ -221,8 +221,6 @@ def _labels(
 
 def _what(inputs: ActuatorInputs, installed: InstalledActuator, masses: dict[str, str]) -> str:
     """The actuator where it sits, and what it weighs in all blades."""
-    placement, actuator = installed.placement, installed.actuator
-    where = "{:.2f}–{:.2f} R".format(*placement.span)
-    if isinstance(actuator, PiezoPly):
-        return f"{masses['plies']}: {placement.plies} a side at {'−45' if inputs.crossed else '45'}°, {where}"
-    return f"{masses['tubes']}: {where}" if isinstance(actuator, TorqueTube) else actuator.name
+    if isinstance(installed.actuator, PiezoPly):
+        return f"{masses['plies']} at {'−45' if inputs.crossed else '45'}°"
+    return masses["tubes"] if isinstance(installed.actuator, TorqueTube) else installed.actuator.name

@@ -132,21 +132,19 @@ class PoolAnswers(BackgroundWork):
         """`answered` is called after every answer, on a thread of the pool."""
         super().__init__(pool, answered, _LIMIT, urgency)
         self._tasks: tuple[Call, ...] = ()
-        self._delay = 0.0
         self._failures: dict[Call, str] = {}
         self._stopped = False
         self._timer: threading.Timer | None = None
         self._lock = threading.RLock()
 
-    def ask(self, tasks: tuple[Call, ...], delay: float, moved: bool = True) -> None:
-        """Have these answered, the first one first, once nothing has `moved` for so long [s]."""
+    def ask(self, tasks: tuple[Call, ...], delay: float) -> None:
+        """Have these answered, the first one first, after so long [s]; what was asked before no longer."""
         with self._lock:
-            changed = tasks != self._tasks or delay < self._delay
-            if tasks != self._tasks:
+            changed = tasks != self._tasks
+            if changed:
                 self._failures.clear()
-            self._tasks, self._delay = tasks, delay
-            waits = self._timer is not None
-            if self._next() is not None and (changed or (moved and waits)):
+            self._tasks = tasks
+            if self._next() is not None and (changed or self._timer is not None):
                 self._stop_timer()
                 self._timer = threading.Timer(delay, self._next_one)
                 self._timer.daemon = True

@@ -1,5 +1,6 @@
 """Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
 
+import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -40,8 +41,9 @@ class Follower:
         self._begun: dict[Hashable, Work] = {}
         """The page's own work by its key: done, and wanted."""
         self._sent: dict[str, Any] = {}
-        self._places: list[tuple[Hashable, ...]] = [() for _ in self._panels]
-        """Of inputs and hand, when each was followed last."""
+        self._place: tuple[Hashable, ...] = ()
+        self._moved = time.monotonic()
+        """What hands move, when it was followed last, and when it moved."""
         for panel in self._panels:
             for name, press in panel.presses.items():
                 bridge.on(name, partial(self.press, press, panel.seen))
@@ -79,15 +81,16 @@ class Follower:
 
     def follow(self, now: Now, only: Callable[[Panel], bool] = lambda panel: True) -> None:
         """Ask and view what is seen, and send what is other than before; `only`: of these panels."""
-        place = now.inputs, now.hand
+        place = now.inputs, now.hand.actuator, now.hand.place
+        if place != self._place:
+            self._place, self._moved = place, time.monotonic()
         changed: dict[str, Any] = {}
         effects: tuple[Effect, ...] = ()
-        for k, (panel, queues) in enumerate(zip(self._panels, self._queues, strict=True)):
+        for panel, queues in zip(self._panels, self._queues, strict=True):
             if not only(panel):
                 continue
             seen = panel.seen(now.ui)
-            self._ask(queues, panel.asks(now) if seen else (), place != self._places[k])
-            self._places[k] = place
+            self._ask(queues, panel.asks(now) if seen else ())
             shown = panel.view(now) if seen else {}
             effects += panel.reacts(now) if seen else ()
             self.memory = panel.remember(replace(now, memory=self.memory), shown)
@@ -106,13 +109,14 @@ class Follower:
             for queue in queues.values():
                 queue.stop()
 
-    def _ask(self, queues: dict[int, PoolAnswers], asks: Sequence[Asked], moved: bool) -> None:
+    def _ask(self, queues: dict[int, PoolAnswers], asks: Sequence[Asked]) -> None:
         by_urgency = {one.urgency: one for one in asks}
         for urgency in by_urgency.keys() - queues.keys():
             queues[urgency] = PoolAnswers(self._pool, urgency, self._wake)
+        still = time.monotonic() - self._moved
         for urgency, queue in queues.items():
             one = by_urgency.get(urgency, Asked(urgency, (), 0.0))
-            queue.ask(one.calls, one.delay, moved)
+            queue.ask(one.calls, max(one.delay - still, 0.0))
 
     def press(self, press: Press, seen: Callable[[Ui], bool], value: Any) -> None:
         """Do what it says, where its panel is seen; of a widget too."""

@@ -8,21 +8,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
-from explorer.charts.plots import Range, held_range
-from explorer.colours import BASELINE, NOW, THIS
 from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Outcome, Question
 from explorer.model.units import Units, number
 from explorer.text.readout import balance, mass_parts
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
-from explorer.views.now import Asked, Effect, Memory, Now, Panel, SetHand
+from explorer.views.flight import BY_HAND
+from explorer.views.now import Asked, Effect, Now, Panel, SetHand
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.pictures import twist_comparison
 from rotor.actuator.verdict import Verdict, verdict_sentence
-from rotor.chart import Axis, Chart, Line, drawn_chart
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
 from rotor.markup import Content, Markup, tag
@@ -31,7 +26,6 @@ _STILL = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
 _IDLE = 2.5
 """How long the page must have been still before work is begun that nobody asked for [s]."""
-_CHART, _STATIONS, _USED = "actuator.chart", 61, "#2f9e44"
 _FULL = 100.0
 """The whole voltage on its slider [%]."""
 DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
@@ -39,12 +33,14 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    """Verdicts come behind searches, maps and schedules: the chosen actuator's first; modes behind all else."""
+    """The chosen actuator's verdict comes behind searches and maps; what is folded at first, behind its flight."""
     if (one := built(now)) is None:
         return ()
     first, *others = one.tasks.values()
-    modes = () if one.modes_task is None else (one.modes_task,)
-    return Asked(5, (first,), _STILL), Asked(6, tuple(others), _IDLE), Asked(7, modes, _IDLE)
+    if one.outcome is None or (one.flight_task is not None and one.flight is None):
+        others = []
+    modes = (one.modes_task,) if others and one.modes_task is not None else ()
+    return Asked(3, (first,), _STILL), Asked(7, tuple(others), _IDLE), Asked(8, modes, _IDLE)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -52,27 +48,19 @@ def view(now: Now) -> dict[str, Any]:
     one, state, inputs = built(now), now.state, now.hand.actuator
     if one is None or state is None or now.problem:
         return {"actuator.verdict": words.problem_panel(problem(now))} | _form_elsewhere(now)
-    installed, verdict, root = one.installed, one.verdict, one.design.rotor.blade.root_cutout
+    installed, verdict = one.installed, one.verdict
     return {
         "actuator.form": form_look(inputs, installed),
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed),
         "actuator.details": words.details_panel(verdict),
-        "actuator.numbers": words.fit_panel(installed, verdict, now.units),
-        _CHART: drawn_chart(reach_chart(inputs, installed, verdict, root, now.memory.ranges.get(_CHART))),
+        "actuator.numbers": words.fit_panel(installed, verdict),
         "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
         "actuator.modes": words.modes_panel(one.modes),
         "actuator.table": table_panel(one.outcomes, one.question, now.units),
     }
-
-
-def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
-    """The axis of the reach is held as long as it serves."""
-    if _CHART not in shown:
-        return now.memory
-    return replace(now.memory, ranges={**now.memory.ranges, _CHART: shown[_CHART].y.range})
 
 
 @dataclass(frozen=True)
@@ -127,7 +115,7 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
-    return (SetHand({"flown": None}, {"drives": drives}),)
+    return (SetHand(BY_HAND, {"drives": drives}),)
 
 
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:
@@ -189,27 +177,4 @@ def _kind(actuator: Actuator) -> str:
     return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
 
 
-def reach_chart(
-    inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
-) -> Chart:
-    """Twist that can be attained, that is required, that the best twist within reach uses, and now [°].
-
-    Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
-    """
-    r = np.linspace(root, 1.0, _STATIONS)
-    limit = installed.limit(r) - installed.limit(root)
-    now = inputs.change(installed, r) - inputs.change(installed, root)
-    lines = list[Line]()
-    if verdict is not None:
-        required, used = twist_comparison(verdict, _STATIONS)
-        if required[np.argmax(np.abs(required))] < 0.0:
-            limit = -limit
-        lines = [Line("required", r, np.degrees(required), NOW), Line("used", r, np.degrees(used), _USED, width=1.5)]
-    attainable = Line("attainable", r, np.degrees(limit), BASELINE, width=1.5)
-    lines = [attainable, *lines, Line("now", r, np.degrees(now), THIS)]
-    seen = [value for line in lines for value in line.y if math.isfinite(value)]
-    y_axis = Axis("°", held_range(previous, min(0.0, *seen), max(0.2, *seen)))
-    return Chart("Δtwist", Axis("r/R", (0.1, 1.02)), y_axis, tuple(lines))
-
-
-ACTUATOR = Panel(view, in_actuate, asks, remember=remember, presses={"pull": pull})
+ACTUATOR = Panel(view, in_actuate, asks, presses={"pull": pull})

@@ -8,7 +8,7 @@ import numpy as np
 from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
-from explorer.model.units import Units, number
+from explorer.model.units import number
 from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
 from rotor.actuator.catalogue import Actuator, PiezoPly
@@ -19,8 +19,7 @@ from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
 from rotor.markup import Attribute, Markup, group, tag
 from rotor.units import typographic
 
-_NONE = "–"
-TIP = "What the actuator adds in flight, at the tip: positive is nose up. Nominal, of the rotating blade."
+TIP = "What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air."
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 """The outer numbers stay within the bar."""
 
@@ -50,25 +49,18 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator) -> Markup:
     return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP), data_explorer="actuator-now")
 
 
-def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Units) -> Markup:
-    """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
-    masses, whole = installed.masses, "Whole range"
-    if isinstance(installed.actuator, PiezoPly):
-        low, high = installed.actuator.voltage_range
-        whole = f"{number(low)} to {number(high, sign=True)} V"
-    entries = [
-        ("Twist required", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
-        ("On the blade at rest", f"{number(math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum())), 2)}°"),
-        (whole, f"{number(math.degrees(installed.attainable), 2)}°"),
-        ("On each blade", f"{number(masses.blade, 1)} kg"),
-        ("First torsion", f"{number(installed.frequency, 2)} /rev"),
-        ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
-        ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
-        ("Unlimited twist", _NONE if verdict is None else units.watts(-verdict.ideal_saving, 1, sign=True)),
+def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
+    """What the actuator is on this blade: known at once, but for what the verdict needs."""
+    rest = math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum()))
+    facts = [
+        mass_words(installed),
+        f"range of the tip {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
+        f"first torsion at {number(installed.frequency, 2)} /rev",
+        *([f"moment {number(installed.moment)} N·m"] if installed.moment else ()),
+        *([] if verdict is None else [f"twist required {number(math.degrees(verdict.required), 2)}°"]),
+        *([] if verdict is None else [f"slewing power {number(verdict.drive.slew_power)} W"]),
     ]
-    lines = [tag("div.rx-line", tag("span.rx-dim", name), tag("span.rx-num", value)) for name, value in entries]
-    built = tag("div.rx-dim.rx-small", f"{mass_words(installed)}.")
-    return tag("div.rx", tag("div.rx-grid", lines), built, data_explorer="actuator-numbers")
+    return tag("div.rx.rx-dim.rx-small", f"{'; '.join(facts)}.", data_explorer="actuator-numbers")
 
 
 def problem_panel(outcome: Outcome | None) -> Markup:

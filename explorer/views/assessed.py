@@ -6,13 +6,13 @@ Tip twist is that in flight, at the tip, nose up positive: what the actuator add
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AGAINST
+from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
-from explorer.parts.actuate import AssessedPart, Sign
+from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import Built, built, in_actuate
 from explorer.views.dial_answer import HARMONICS, Fitted, compared
@@ -25,9 +25,8 @@ _URGENCY, _STILL = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
 
 
-@dataclass(frozen=True)
-class Change:
-    """A change of power [W], more is positive, with its band by uncertain inputs, to both sides; None: not known."""
+class Change(NamedTuple):
+    """A change of power [W], more is positive, and its band by uncertain inputs, to both sides; None: not known."""
 
     power: float
     band: float | None
@@ -35,24 +34,25 @@ class Change:
 
 @dataclass(frozen=True, eq=False)
 class Assessed:
-    """The actuator as set. Angles [rad], powers [W]; None: not known yet, or not to be known."""
+    """The actuator as set. Twists of the tip in flight [rad]; None: not known.
+
+    `reach`: at either end of the voltage; `wanted`: of least power in this flight. `here`: in this flight, `vibration`
+    [%] by inflow model, empty where none is told. `flight`: mean over the mission, at its best twist; `line`: with
+    another range and mass.
+    """
 
     one: Built
     tip: float
-    """Tip twist now."""
     reach: tuple[float, float]
-    """Tip twist at either end of the voltage."""
     wanted: float | None
-    """Tip twist of least power in this flight, were the reach without end."""
     here: Change | None
-    powers: tuple[float, ...]
-    """Changes of power in this flight by inflow model, the design's own first."""
     vibration: tuple[float, ...]
-    """Changes of the vibration index in this flight [%] by inflow model; empty: none is told here."""
     flight: Change | None
-    """Mean over the mission, at its best twist."""
     line: OtherStroke | None
-    """What another stroke and another mass would save over the mission."""
+
+    @property
+    def name(self) -> str:
+        return self.one.installed.actuator.id.replace("_", " ")
 
     @property
     def mass(self) -> float:
@@ -63,20 +63,6 @@ class Assessed:
     def range(self) -> float:
         """From one end of the reach to the other."""
         return self.one.installed.attainable
-
-    @property
-    def mass_that_pays(self) -> float | None:
-        """With its twist [kg]; 0 where it would not pay without any mass."""
-        return None if self.one.verdict is None else self.one.verdict.mass_allowed
-
-    @property
-    def range_that_pays(self) -> float | None:
-        """With its mass; None where none does."""
-        return None if self.line is None else self.line.twist_for(self.mass)
-
-    @property
-    def name(self) -> str:
-        return self.one.installed.actuator.id.replace("_", " ")
 
 
 def against_words(one: Built, against: Against) -> str:
@@ -141,7 +127,6 @@ def _assessed(now: Now) -> Assessed | None:
         reach=inputs.reach(one.installed),
         wanted=wanted,
         here=None if known is None else Change(known.power[0], known.band),
-        powers=() if known is None else known.power,
         vibration=() if known is None else known.index,
         flight=None if verdict is None else Change(-verdict.net_saving, verdict.net_band),
         line=line if isinstance(line, OtherStroke) else None,
@@ -158,63 +143,51 @@ def asks(now: Now) -> tuple[Asked, ...]:
     return (Asked(_URGENCY, () if call is None else (call,), _STILL),)
 
 
-def range_words(low: float, high: float, digits: int, unit: str) -> str:
-    return f"{number(low, digits, sign=True)}…{number(high, digits, sign=True)}{unit}"
+def _angle(radians: float) -> str:
+    return f"{number(math.degrees(radians), 2, sign=True)}°"
 
 
-def title(value: Assessed, now: Now) -> str:
+def _reach(value: Assessed) -> str:
+    return "…".join(map(_angle, value.reach)).replace("°…", "…")
+
+
+def _title(value: Assessed, inputs: ActuatorInputs) -> str:
     """What it is, and its drive as on the sliders."""
-    installed, inputs = value.one.installed, now.hand.actuator
-    side, drive = (" a side", "voltage") if isinstance(installed.actuator, PiezoPly) else ("", "drive")
+    installed, ply = value.one.installed, isinstance(value.one.installed.actuator, PiezoPly)
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
-    return f"{value.name}, {count(installed)}{side}, {f'at {shares} % of its {drive}' if inputs.driven else 'at rest'}"
+    driven = f"at {shares} % of its {'voltage' if ply else 'drive'}" if inputs.driven else "at rest"
+    return f"{value.name}, {count(installed)}{' a side' if ply else ''}, {driven}"
 
 
-def vibration_words(value: Assessed) -> str:
+def _vibration(value: Assessed) -> str:
     """The change of vibration here, with its band over inflow models."""
     if not value.vibration:
         return "" if value.here is None else "no vibration is told here"
-    low, high = min(value.vibration), max(value.vibration)
-    told = "" if low * high > 0.0 else ": models disagree"
-    return f"vibration {number(value.vibration[0], 0, sign=True)} % ({range_words(low, high, 0, '')}){told}"
+    told = value.vibration[0], min(value.vibration), max(value.vibration)
+    own, low, high = (number(change, 0, sign=True) for change in told)
+    return f"vibration {own} % ({low}…{high})"
 
 
-def pays_words(value: Assessed) -> tuple[str, str]:
-    """The mass and the range with which it would pay; empty where there is none, or it is not known."""
-    mass, wide = value.mass_that_pays, value.range_that_pays
-    return (
-        f"{number(mass, 0 if mass >= 10.0 else 1)} kg" if mass else "",
-        f"{number(math.degrees(wide), 1)}°" if wide else "",
-    )
-
-
-def sentence(value: Assessed, units: Units) -> tuple[str, ...]:
-    """The verdict in one or two sentences: words, and every second one a number that can be dragged."""
-    flight, total = value.flight, mass_parts(value.one.installed)["in all"]
-    reach = range_words(*map(math.degrees, value.reach), 2, "°")
-    powers = [
-        (needs_words(-change.power, change.band, units), where)
-        for change, where in ((value.here, "here"), (flight, "over the flight"))
-        if change
-    ]
-    said = ", ".join(f"{words} {where}" for words, where in powers)
-    if len({words.split()[0] for words, _ in powers}) == 1 and len(powers) == 2:  # One verb and unit serve both.
-        bare = powers[1][0].partition(" ")[2].replace(f" {units.power[0].symbol}", "").replace(" more", "")
-        said = f"{powers[0][0]} here, {bare} over the flight"
-    start = f"{value.name} moves the tip by {reach} in flight for {total}{': it ' if said else ''}{said}. "
-    mass, wide = pays_words(value)
-    if flight is None or value.mass_that_pays is None:
-        return (start,)
+def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
+    """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
+    total, flight, verdict = mass_parts(value.one.installed)["in all"], value.flight, value.one.verdict
+    known = [change for change in (value.here, flight) if change]
+    powers = [needs_words(-change.power, change.band, units) for change in known]
+    if len(powers) == 2 and known[0].power * known[1].power > 0.0:  # One verb and one unit serve both.
+        powers[1] = powers[1].partition(" ")[2].replace(f" {units.power[0].symbol}", "").replace(" more", "")
+    places = (["here"] if value.here else []) + ["over the flight"]
+    said = ", ".join(f"{power} {place}" for power, place in zip(powers, places, strict=False))
+    moves = f"{value.name} moves the tip by {_reach(value)} in flight for {total}{': it ' if said else ''}{said}."
+    mass = None if verdict is None else verdict.mass_allowed
+    if flight is None or mass is None:
+        return moves, ()
     if not mass:
-        return (f"{start}It would not pay, however light.",)
-    pays = f"{start}It {'pays' if flight.power < 0.0 else 'would pay'} below "
-    if wide:
-        return pays, mass, ", or with a range of ", wide, "."
-    return pays, mass, "." if value.line is None else f"; no twist pays for {total}."
-
-
-def _kind(power: float | None) -> Sign:
-    return "" if power is None else "loss" if power > 0.0 else "gain"
+        return moves, ("It would not pay, however light.",)
+    wide = None if value.line is None else value.line.twist_for(value.mass)
+    pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
+    if wide is not None:
+        return moves, (*pays, " or with a range from ", f"{number(math.degrees(wide), 1)}°", " on.")
+    return moves, (*pays, "." if value.line is None else f"; no twist pays for {total}.")
 
 
 def card(now: Now) -> dict[str, AssessedPart | None]:
@@ -222,26 +195,27 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
     value = assessed(now) if now.hand.lifted and in_actuate(now.ui) else None
     if value is None:
         return {} if now.hand.lifted and now.problem else {"assessed": None}
-    one, units, inputs = value.one, now.units, now.hand.actuator
+    one, units, against = value.one, now.units, now.hand.actuator.against
     *parts, (_, total) = mass_parts(one.installed).items()
-    wanted = "" if value.wanted is None else f"{number(math.degrees(value.wanted), 2, sign=True)}°"
-    here, flight = value.here, value.flight
-    wrong = now.of(here_problem)
+    said, pays = _sentences(value, units)
+    both = value.here, value.flight
+    here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
     part = AssessedPart(
-        title=title(value, now),
-        tip=f"{number(math.degrees(value.tip), 2, sign=True)}°",
-        reach=range_words(*map(math.degrees, value.reach), 2, "°"),
-        wanted=wanted,
+        title=_title(value, now.hand.actuator),
+        tip=_angle(value.tip),
+        reach=_reach(value),
+        wanted="" if value.wanted is None else _angle(value.wanted),
         mass=total,
         masses=tuple(parts),
-        here="" if here is None else needs_words(-here.power, here.band, units),
-        kind=_kind(None if here is None else here.power),
-        flight="" if flight is None else needs_words(-flight.power, flight.band, units),
-        vibration=vibration_words(value),
-        problem=wrong,
-        against=inputs.against,
+        here=here,
+        kind="" if value.here is None else "loss" if value.here.power > 0.0 else "gain",
+        flight=flight,
+        vibration=_vibration(value),
+        problem=here_problem(now),
+        against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),
-        sentence=sentence(value, units),
+        said=said,
+        pays=pays,
         range=round(math.degrees(value.range), 2),
         kilograms=round(value.mass, 1),
     )

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from explorer.model.units import number
-from explorer.parts.actuate import DialPart, Settled
+from explorer.parts.actuate import DialMatrix, DialPart, Settled
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import in_actuate
 from explorer.views.assessed import effect_asked, fitted, here, pair_compared
-from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer
+from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
 from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
 from explorer.workers.call import Call
 from rotor import Design
@@ -27,6 +27,7 @@ from rotor.design import Harmonic
 from rotor.markup import tag
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim import why_no_hub_loads
+from rotor.trim.hub_loads import BAND
 
 _REACH = 1.5
 """Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
@@ -40,33 +41,51 @@ _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, t
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
 UNMEASURED = "Not validated: we found no measured power benefit of active twist. Published savings are computed."
-_URGENCY, _STILL = 3, 0.4
+_URGENCY, _LATER, _STILL = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
-def _asked(now: Now) -> tuple[Call | None, Call | None]:
-    """The effect of what is trimmed, and what foresees; None where not all of it is known, or can be."""
+def _asked(now: Now) -> tuple[Call, ...]:
+    """What foresees with each inflow model, the design's own first; none where not all of it is known, or can be."""
     pair, on_blade = now.of(pair_compared), now.of(fitted)
     if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
-        return now.of(effect_asked), None
+        return ()
     losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
-    reach = 0.0 if on_blade is None else round(on_blade.whole, 2)
-    shaped = with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),))
-    return now.of(effect_asked), Call(dial_answer, (shaped, pair[1], losses, reach or _FRONT_REACH))
+    reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH
+    both, calls = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
+    for inflow in dict.fromkeys((pair[0].models.inflow, *BAND)):
+        flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
+        calls.append(Call(dial_answer, (flown, still, losses, 0.0 if calls else reach)))
+    return tuple(calls)
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    return (Asked(_URGENCY, tuple(call for call in now.of(_asked) if call is not None), _STILL),)
+    """What is trimmed first; then two processes share the inflow models."""
+    trimmed, calls = now.of(effect_asked), now.of(_asked)
+    first = Asked(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
+    return first, Asked(_LATER, calls[::2], _STILL), Asked(_LATER + 1, calls[1::2], _STILL)
 
 
-def _answer(now: Now) -> DialAnswer | str | None:
-    """What foresees, or why nothing does; None on its way."""
-    return now.answers.get(now.of(_asked)[1])
+def _answer(now: Now) -> DialMatrix | str | None:
+    """What foresees, with as many inflow models as are known, or why nothing does; None on its way."""
+    own, *others = (*map(now.answers.get, now.of(_asked)), None)
+    if not isinstance(own, DialAnswer):
+        return own
+    found = tuple(other.numbers for other in others if isinstance(other, DialAnswer))
+    return DialMatrix(**vars(own.numbers), inflows=found)
+
+
+def _waits(now: Now) -> bool:
+    """Whether not every inflow model has answered yet: then nothing is said to be best."""
+    return any(now.answers.get(call) is None for call in now.of(_asked))
 
 
 def _dots(now: Now) -> tuple[FrontDot, ...]:
-    answer = _answer(now)
-    return answer.front if isinstance(answer, DialAnswer) else ()
+    """Once all inflow models have answered."""
+    answer = now.of(_answer)
+    if not isinstance(answer, DialMatrix) or now.of(_waits):
+        return ()
+    return front_dots(now.answers[now.of(_asked)[0]], answer.inflows)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -74,16 +93,16 @@ def view(now: Now) -> dict[str, Any]:
     words = {"actuator.per_rev": _set_words(now)}
     if now.state is None or now.problem:
         return words
-    answer, dots = _answer(now), _dots(now)
+    answer = now.of(_answer)
     return {
         **words,
         "dial": _dial(now, now.state.solution.design, answer),
-        "dial_matrix": answer.numbers if isinstance(answer, DialAnswer) else None,
-        "dial_front": drawn_chart(front_chart(dots)),
+        "dial_matrix": answer if isinstance(answer, DialMatrix) else None,
+        "dial_front": drawn_chart(front_chart(now.of(_dots))),
     }
 
 
-def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart:
+def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart:
     on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if on_blade is None else on_blade.whole
     moved, settled = now.of(here), None
@@ -101,14 +120,14 @@ def _dial(now: Now, design: Design, answer: DialAnswer | str | None) -> DialPart
         room=0.0 if on_blade is None else round(steady_room(on_blade.installed, on_blade.volts), 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
-        computing=not words and not isinstance(answer, DialAnswer),
+        computing=not words and (answer is None or now.of(_waits)),
         settled=settled,
         problem=moved if isinstance(moved, str) else "",
         against="the same blade at rest" if on_blade is None else on_blade.against,
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),
-        front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in _dots(now)),
+        front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in now.of(_dots)),
         exaggerated=number(_SHAKE),
         shake=_SHAKE / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
         held=now.ui.held,
@@ -138,7 +157,7 @@ def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
 
 def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
     """Apply the twist of a dot of the front."""
-    dots = _dots(now)
+    dots = now.of(_dots)
     if not 0 <= number_of < len(dots):
         return ()
     twist = tuple(map(_on_sliders, dots[number_of].twist))
@@ -242,16 +261,8 @@ def _published(
         "ring" if label == "computed" else "dot",
         scatter=[0.5 * abs(high - low) for low, high in ends],
         words=[programme_words(result) for result in shown],
-        names=[f"{result.short}{_orders(result)}" for result in shown],
-        beside="upward" if shown and shown[0] in alone else "below",
         size=4.5,
     )
-
-
-def _orders(result: Programme) -> str:
-    """The harmonics, where the short name alone does not tell two results apart."""
-    twins = [other for other in programmes() if other.short == result.short]
-    return f" {'+'.join(map(str, result.per_rev))}/rev" if len(twins) > 1 and result.per_rev else ""
 
 
 def programme_words(result: Programme) -> str:

@@ -7,15 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from explorer.parts.actuate import DialMatrix, DialNumbers
+from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
 from rotor.actuator import InstalledActuator, tip_amplitude, with_actuator_mass
 from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
+from rotor.arrays import Array
 from rotor.design import Harmonic, TwistLaw
-from rotor.optimisation.vibration import TMatrix, front_twists
+from rotor.optimisation.vibration import front_twists
 from rotor.trim import analyse
-from rotor.trim.hub_loads import BAND, hub_index, index_gains
+from rotor.trim.hub_loads import hub_index, index_gains
 
 HARMONICS = (2, 3, 4, 5)
 """Harmonics of the dial: those at which four blades pass vibration on to the hub, and 2/rev, which saves power."""
@@ -81,61 +82,60 @@ class FrontDot:
 
 @dataclass(frozen=True)
 class DialAnswer:
-    """The response to n/rev twist against another blade, per degree as `dial.js` needs it, and the front of power and
-    vibration, from least power to least vibration."""
+    """The response to n/rev twist against another blade with one inflow model, per degree as `dial.js` needs it.
 
-    numbers: DialMatrix
-    front: tuple[FrontDot, ...]
+    `front`: cosines and sines [°] from least power to least vibration.
+    """
+
+    numbers: DialNumbers
+    front: tuple[tuple[float, ...], ...]
 
 
 def dial_answer(design: Design, reference: Design, losses: Sequence[float], reach: float) -> DialAnswer:
     """The answer for a design with the actuator on board; its active twist counts for its shape alone.
 
-    losses: of the drive for 1° at each harmonic [W]. reach: largest amplitude of the front's harmonics [°].
-    ValueError or RuntimeError with a sentence.
+    losses: of the drive for 1° at each harmonic [W]. reach: largest amplitude of the front's harmonics [°]; at 0 there
+    is no front. ValueError or RuntimeError with a sentence.
     """
-    found = list[tuple[TMatrix, float, float]]()
-    for inflow in dict.fromkeys((design.models.inflow, *BAND)):
-        flown, still = (replace(one, models=replace(design.models, inflow=inflow)) for one in (design, reference))
-        try:
-            matrix, other = t_matrix(flown, HARMONICS), analyse(still)
-            power, index = other.solution.require().power.total, hub_index(other.adjoint)
-        except RuntimeError:
-            if inflow == design.models.inflow:
-                raise
-            continue
-        second = matrix.second.copy()
-        for k, loss in enumerate(np.repeat(losses, 2)):
-            second[-1, k, k] += 2.0 * loss / math.radians(1.0) ** 2
-        found.append((replace(matrix, second=second), power, index))
-    own, *others = (_numbers_of(design, *each) for each in found)
-    few = 2 * len(_FRONT_HARMONICS)
-    matrix = found[0][0]
-    steps = front_twists(
-        replace(matrix, harmonics=_FRONT_HARMONICS, slopes=matrix.slopes[:, :few], second=matrix.second[:, :few, :few]),
-        math.radians(reach),
-        _FRONT_POINTS,
-    )
-    dots = list[FrontDot]()
-    for step in steps:
-        x = np.append(step, np.zeros(2 * len(HARMONICS) - few))
-        changes = [100.0 * (one.power_and_index(x)[0] / (power, index) - 1.0) for one, power, index in found]
-        over = [float(change[1]) for change in changes]
-        dots.append(FrontDot(matrix.twist(x), float(changes[0][0]), over[0], (min(over), max(over))))
-    return DialAnswer(DialMatrix(**vars(own), inflows=tuple(others)), tuple(dots))
-
-
-def _numbers_of(design: Design, matrix: TMatrix, power: float, index: float) -> DialNumbers:
-    """What `dial.js` needs with one inflow model; power [W] and index [%] of the blade compared with."""
-    degree = math.radians(1.0)
-    return DialNumbers(
+    matrix, other, degree = t_matrix(design, HARMONICS), analyse(reference), math.radians(1.0)
+    power, index = other.solution.require().power.total, hub_index(other.adjoint)
+    second = matrix.second.copy()
+    second[-1] += np.diag(2.0 * np.repeat(losses, 2) / degree**2)
+    few, steps = 2 * len(_FRONT_HARMONICS), list[Array]()
+    if reach:
+        part = second[:, :few, :few]
+        front = replace(matrix, harmonics=_FRONT_HARMONICS, slopes=matrix.slopes[:, :few], second=part)
+        steps = front_twists(front, math.radians(reach), _FRONT_POINTS)
+    numbers = DialNumbers(
         base=_rounded(matrix.base),
         slopes=_rounded(degree * matrix.slopes),
-        second=_rounded(degree**2 * matrix.second),
+        second=_rounded(degree**2 * second),
         gains=_rounded(100.0 * index_gains(design)),
         power=power,
         index=index,
     )
+    rest = (0.0,) * (2 * len(HARMONICS) - few)
+    return DialAnswer(numbers, tuple((*np.degrees(step).tolist(), *rest) for step in steps))
+
+
+def front_dots(own: DialAnswer, others: Sequence[DialNumbers]) -> tuple[FrontDot, ...]:
+    """The front of the design's own inflow model, with what the others foresee there."""
+    dots = list[FrontDot]()
+    for step in own.front:
+        (power, index), *rest = (_foreseen(numbers, np.array(step)) for numbers in (own.numbers, *others))
+        over = index, *(other for _, other in rest)
+        pairs = zip(HARMONICS, np.reshape(step, (-1, 2)).tolist(), strict=True)
+        twist = tuple(Harmonic(n, math.radians(math.hypot(a, b)), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
+        dots.append(FrontDot(twist, power, index, (min(over), max(over))))
+    return tuple(dots)
+
+
+def _foreseen(numbers: DialNumbers, x: Array) -> tuple[float, float]:
+    """Changes of power and index [%] for cosines and sines [°], as `dial.js` foresees them."""
+    values = np.array(numbers.base) + (np.array(numbers.slopes) + 0.5 * np.array(numbers.second) @ x) @ x
+    sizes = np.square(numbers.gains) * np.square(values[:-1]).reshape(-1, 2).sum(axis=1)
+    index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
+    return 100.0 * (float(values[-1]) / numbers.power - 1.0), 100.0 * (index / numbers.index - 1.0)
 
 
 def _rounded(values: Any) -> Any:

@@ -19,17 +19,18 @@ from explorer.views.actuated import Built, built, in_actuate
 from explorer.views.assessed import assessed
 from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
+from rotor.actuator.stopped import Flown, as_flown
 from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
+from rotor.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
 AT_REST = (0.0,) * MOST_SEGMENTS
 """No voltage on any segment."""
+BY_HAND: Mapping[str, Any] = {"flown": None, "stopped": False}
+"""What of `Hand` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
 _LEAST = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
-_SHORT = 0.15
-"""What is wanted beyond reach [°] and not worth a word."""
 _GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
 
 
@@ -86,16 +87,25 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
     value = assessed(now)
     tip = math.degrees(0.0 if value is None else value.tip)
     frozen = tip if hand.stopped else None
+    words = problem or ("" if known else "computing…")
+    if hand.stopped and now.state is not None and not problem:
+        words = _failed_words(as_flown(now.state.solution, one.design.twist), now.units)
     return FlightPart(
         legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
         at=round(place_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
-        words=problem or ("" if known else "computing…"),
+        words=words,
         flown=hand.flown is not None and not hand.stopped,
         frozen=frozen,
         tip=f"{number(tip, 2, sign=True)}°",
         chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / HALVES, frozen)),
     )
+
+
+def _failed_words(there: Flown, units: Units) -> str:
+    """How it flies with the twist frozen."""
+    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % of control range left"
+    return f"stopped: {units.watts(there.power)}, {number(100.0 * there.stalled_area, 1)} % of disk stalled{left}"
 
 
 def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
@@ -112,23 +122,14 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
         at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
         for a, b, gains in _stretches(at, flight.net_saving):
             series.append(Band("", (a, b), (reach[0],) * 2, (reach[1],) * 2, _GAIN if gains else "var(--rx-dim)"))
-        above = bool(wanted[-1] > reached[-1])
         series += [
             Band("", at, held, wanted, _LOSS),
             Line("reached", at, reached, "var(--rx-accent)", width=4.0),
             Line("wanted", at, wanted, "var(--rx-ink)"),
-            _named("wanted", last, wanted[-1], "var(--rx-ink)", above),
-            _named("reached", last, reached[-1], "var(--rx-accent)", not above),
-            _named("within reach", 0.0, reach[1], "var(--rx-dim)", above=False),
         ]
-        worst = int(np.argmax(np.abs(wanted - held)))
-        if (short := abs(float(wanted[worst] - held[worst]))) > _SHORT:
-            words = f"short by {number(short, 1)}°"
-            series.append(_named(words, at[worst], 0.5 * (wanted[worst] + held[worst]), "var(--rxa-loss)", above=False))
     if frozen is not None:
         low, high = min(low, frozen), max(high, frozen)
         series.append(Line("stopped", (0.0, last), (frozen, frozen), "var(--rxa-loss)", "6 4", width=2.4))
-        series.append(_named("stopped", 0.5 * last, frozen, "var(--rxa-loss)", above=True))
     margin = 0.06 * (high - low)
     return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
 
@@ -138,11 +139,6 @@ def _stretches(at: Array, net: Array) -> list[tuple[float, float, bool]]:
     changes = [k for k in range(len(at) - 1) if (net[k] > 0.0) != (net[k + 1] > 0.0)]
     ends = [at[0], *(at[k] + (at[k + 1] - at[k]) * net[k] / (net[k] - net[k + 1]) for k in changes), at[-1]]
     return [(a, b, bool(np.interp(0.5 * (a + b), at, net) > 0.0)) for a, b in pairwise(ends)]
-
-
-def _named(name: str, x: float, y: float, colour: str, above: bool) -> Points:
-    """A name alone, at a place of the chart."""
-    return Points("", (x,), (y,), colour, size=0.0, names=(name,), beside="above" if above else "below")
 
 
 def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
@@ -193,15 +189,15 @@ def fly(now: Now, x: float) -> tuple[Effect, ...]:
     return SetHand({"flown": flown}, drives), Move(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
 
 
-def stop_here(now: Now, stopped: bool) -> tuple[Effect, ...]:
-    """The actuator stops, or works again where the flight is now."""
+def stop_here(now: Now, switch: str) -> tuple[Effect, ...]:
+    """The actuator stops, its voltages as they are; or it works again, with those of the flight where that is now."""
+    stopped = switch == "on"
     return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
 
 
 def landed(hand: Hand) -> SetHand:
     """The blade is back in the rotor: what the flight drove is at rest again, a voltage that a hand set stays."""
-    rest = {"lifted": False, "flown": None, "stopped": False}
-    return SetHand(rest, {} if hand.flown is None else {"drives": AT_REST})
+    return SetHand({"lifted": False, **BY_HAND}, {} if hand.flown is None else {"drives": AT_REST})
 
 
 def follow_flight(now: Now) -> tuple[Effect, ...]:
@@ -232,4 +228,4 @@ def _driven(now: Now, x: float | None) -> dict[str, Any]:
     return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
 
 
-FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly})
+FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly, "fails": stop_here})

@@ -1,13 +1,11 @@
 // @ts-check
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
-  const {text, write} = Common, {part} = RX;
+  const {text, write, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
   const coloured = kind => kind ? `rxf-${kind}` : '';
-  const WITHOUT_MASS = '<div class="rxf-sub">at this twist, without its mass</div>';
 
-  // Before a flight with an actuator the verdict stands in place of what has changed.
-  RX.paint(['power', 'earns'], (power, earns) => {
-    const card = part('power'), {problem, since, status, parts} = power, compared = earns && !problem;
+  RX.paint('power', power => {
+    const card = part('power'), {problem, since, status, parts} = power;
     card.toggleAttribute('data-faded', Boolean(problem));
     const widths = parts.map(({share}) => Math.max(share, 0));
     const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
@@ -32,10 +30,10 @@
     card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
         <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
         <small data-explorer="within">${text(power.within)}</small></div>
-      ${compared ? WITHOUT_MASS : `${since ? '' : '<div class="rxf-sub">total power</div>'}${change}`}
+      ${since ? '' : '<div class="rxf-sub">total power</div>'}${change}
       <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(power.doubt)}" ${power.sure ? '' : 'hidden'}>
         ${text(power.sure)}</div></div>
-      <div class="rxf-rule"></div>${compared ? '' : problemOrChange}<div class="rxf-rule"></div>
+      <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
         <div>${bars}${ideal}</div><dl>${key}</dl></div>
@@ -54,6 +52,53 @@
       }
     }
     if (problem) RX.say(problem);
+  });
+
+  // What the actuator moves, costs and gives, in place of the power without its mass; where there is little room, in one
+  // sentence.
+  RX.paint(['assessed', 'power'], (one, power) => {
+    const card = part('verdict'), shown = Boolean(one) && !power?.problem;
+    card.hidden = !shown;
+    page.toggleAttribute('data-assessed', shown);
+    if (!shown) return;
+    const wait = text(one.problem || 'computing …'), {against, baselines, kind, vibration} = one;
+    const column = (name, words, more, title = '') => `<div title="${text(title)}"><h4>${name}</h4>${words}
+      <p class="rxf-dim rxf-num">${more}</p></div>`;
+    const blades = baselines.map(([name, title]) => `<button data-do="against" data-value="${name}"
+      aria-pressed="${name === against}">${text(title)}</button>`).join('');
+    const masses = one.masses.map(([name, mass]) => `<i>${text(name)} ${text(mass)}</i>`).join(' · ');
+    const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
+      title="Press or drag: suppose an actuator like that">${text(words)}</button>${one.pays[k + 1][0]}</b>`
+      : text(k ? words.slice(1) : words)).join('');
+    write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
+        <div role="group" aria-label="Changes count from"><span class="rxf-dim">against</span>${blades}</div></header>
+      <div class="rxf-columns">
+        ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
+          `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
+          'What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air')}
+        ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
+          'On all blades and in the cabin')}
+        ${column('gives', one.here
+          ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
+          [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
+            .map(words => `<span>${words}</span>`).join(''),
+          'This actuator on board. ± by uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
+      </div>
+      <p class="rxf-pays"><span data-explorer="said">${text(one.here ? one.said : `${one.said} ${wait}`)} </span>${pays}
+      </p>`);
+  });
+  // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
+  const suppose = paced(place => RX.send('suppose', place), 80);
+  drag(part('verdict'), '[data-pays]', (button, {clientX}) => {
+    const {range, kilograms, pays} = RX.state.assessed, size = parseFloat(button.textContent);
+    const mass = button.textContent.includes('kg'), at = share => mass
+      ? [range, Math.max(size * share, .1)] : [Math.min(size * share, 20), kilograms];
+    RX.send('suppose', 'on');
+    suppose.send(at(1));
+    return {move: event => suppose.send(at(Math.exp((event.clientX - clientX) / 150)))};
+  });
+  part('verdict').addEventListener('keydown', event => {
+    if (closest(event, '[data-pays]') && ['Enter', ' '].includes(event.key)) RX.send('suppose', 'on');
   });
 
   // Vibration of blades that bend, a row of its own below the power.

@@ -83,9 +83,8 @@ const Charts = (() => {
         const cx = +X(at).toFixed(1), cy = +height.toFixed(1);
         const [anchor, dx] = cx - left < 60 ? ['start', -size] : right - cx < 60 ? ['end', size] : ['middle', 0];
         const below = beside === 'below' && cy + size + 16 <= base, dy = below ? size + 12 : -size - 4;
-        const stands = beside === 'upward' ? `transform="translate(${cx + 4} ${cy - size - 4}) rotate(-90)"`
-          : `x="${cx + dx}" y="${cy + dy}" text-anchor="${anchor}"`;
-        const name = names[k] ? `<text ${stands} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
+        const name = names[k] ? `<text x="${cx + dx}" y="${cy + dy}" text-anchor="${anchor}" style="fill:${colour}"
+          data-name>${text(names[k])}</text>` : '';
         const style = ring ? `fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"`
           : `fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}`;
         const dot = size ? `<circle cx="${cx}" cy="${cy}" r="${size}" ${style}/>` : '';

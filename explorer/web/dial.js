@@ -1,6 +1,5 @@
 // @ts-check
-// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it,
-// and the verdict on the actuator, which both stand for.
+// The dial of twist at n/rev: a dot to drag, power and vibration foreseen by the T-matrix, the front of both beside it.
 (() => {
   const {DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm} = Common;
   const {closest, soon, paced, drag, viewer} = Common, {part} = RX, page = document.documentElement;
@@ -62,32 +61,11 @@
     const band = `${signed(low, 0)}…${signed(high, 0)} %`;
     return `vibration ${signed(index[0], 0)} % (${band}: inflow models disagree)`;
   }
-  function drives({whole, room, harmonics}) {
-    if (!whole) return peak(harmonics) ? ', more than this actuator can follow' : '';
-    const share = 100 * (1 - room + peak(harmonics) / whole);
-    return share > 100.5 ? `, with ${fixed(share)} % of its voltage: out of reach`
-      : share > .5 ? ` at ${fixed(share)} % of its voltage` : '';
-  }
-  // Power, vibration and voltage in one sentence, and whether it is good, bad or both.
+  // Power and vibration in one sentence.
   function verdict() {
     const {dial} = RX.state, now = change();
-    if (!now) return [dial?.problem || dial?.words || 'Computing what it changes here …', ''];
-    const {power: [power], index} = now, calmer = index.length && Math.max(...index) < 0;
-    return [`${needs(power)}; ${shakes(index)}${drives(dial)}`, power > .05 ? calmer ? '' : 'loss' : 'gain'];
+    return now ? `${needs(now.power[0])}; ${shakes(now.index)}` : dial.problem || dial.words;
   }
-  // In the card of power, in place of what has changed.
-  function drawVerdict() {
-    const {earns, power} = RX.state, place = part('verdict');
-    place.hidden = !earns || Boolean(power?.problem);
-    if (place.hidden) return;
-    const [words, tone] = earns.problem ? [earns.problem, ''] : verdict();
-    write(place, `<div class="rxf-why">Against
-        <button data-do="against" title="Compare with the other blade">${text(earns.against)} ⇄</button></div>
-      <div class="rxf-since rxf-num" data-explorer="verdict" data-kind="${earns.kind}" data-tone="${tone}"
-        title="This actuator on board, in this flight. Bands: over inflow models">${text(words)}</div>
-      <div class="rxf-why" data-explorer="mission">${text(earns.mission)}</div>`);
-  }
-  RX.paint(['earns', 'power', 'dial'], drawVerdict);
 
   // Values over the chosen dial on a grid, the other harmonics as they are.
   const GRID = 49;
@@ -153,7 +131,7 @@
   }
   // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
   function drawField(size) {
-    const {power, least} = fieldOf(), {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
+    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all, {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
     const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
     const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
       const {path, points} = contour(power, level), free = points.map(([x, y]) => [EDGE + step * x, EDGE + step * y])
@@ -164,8 +142,9 @@
       return `<path transform="translate(${EDGE} ${EDGE}) scale(${step})" d="${path}"
         stroke-width="${(level ? .9 : 2) / step}" opacity="${level ? .55 : .9}"/>`;
     });
-    const marks = [['P', 'least power'], ['V', 'least vibration']].map(([mark, name], k) => {
-      const {point, over, agreed} = least[k], [x, y] = at(...point), [low, high] = ends(over);
+    const marks = least.map(({point, over, agreed}, k) => {
+      const [mark, name] = [['P', 'least power'], ['V', 'least vibration']][k];
+      const [x, y] = at(...point), [low, high] = ends(over);
       const band = `${signed(low)} to ${signed(high)} % over inflow models`;
       const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
       return `<g data-agreed="${agreed}"><title>${agreed ? `${name} on this dial, foreseen: ${where}, ${band}`
@@ -215,7 +194,13 @@
         aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
         <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
   }
-  // Less vibration green, more red.
+  // Less vibration green, more red: changes [%] of full colour.
+  const LESS = 70, MORE = 160, tint = value =>
+    Math.round(190 * Math.min(Math.abs(value) / (value > 0 ? MORE : LESS), 1) ** .8);
+  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => `color-mix(in srgb,
+    var(${part > 0 ? '--rx-bad' : '--rx-good'}) ${(tint(part * (part > 0 ? MORE : LESS)) / 2.55).toFixed()}%, var(--rx-paper))`);
+  const COLOUR_KEY = `<div>vibration [%]</div>${Charts.bar(shades,
+    [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
   function shade(canvas, size) {
     const tile = document.createElement('canvas'), style = getComputedStyle(page), pen = canvas.getContext('2d');
     const tones = ['--rx-good', '--rx-bad'].map(name =>
@@ -225,8 +210,7 @@
     tile.width = tile.height = GRID;
     const pixels = tile.getContext('2d').createImageData(GRID, GRID);
     fieldOf().index.forEach((value, k) => {
-      const worse = value > 0, strength = Math.min(Math.abs(value) / (worse ? 160 : 70), 1);
-      pixels.data.set([...tones[worse ? 1 : 0], Math.round(190 * strength ** .8)], 4 * k);
+      pixels.data.set([...tones[value > 0 ? 1 : 0], tint(value)], 4 * k);
     });
     tile.getContext('2d').putImageData(pixels, 0, 0);
     pen.imageSmoothingQuality = 'high';
@@ -237,8 +221,8 @@
   function drawFront(element, width, height) {
     const {dial_front: chart, dial_matrix: matrix} = RX.state;
     if (!chart) return;
-    const series = chart.series.map((/** @type {any} */ one) =>  // In little room their names would lie on each other.
-      width < 360 && one.beside === 'below' ? {...one, names: []} : one);
+    /** @type {any[]} */
+    const series = [...chart.series];
     if (matrix) {
       const [power, index] = foresee(matrix, vector()), colour = 'var(--rx-blade)';
       series.push({kind: 'points', label: 'this twist', x: [power], y: [index], colour, size: 6.5});
@@ -272,18 +256,19 @@
       <em class="rxf-num" data-kind="${kind}">${words}</em></div>`;
   }
   function readout() {
-    const {dial, dial_matrix: matrix, earns} = RX.state, [amplitude, phase] = wave(chosen), now = change();
+    const {dial, dial_matrix: matrix, assessed} = RX.state, [amplitude, phase] = wave(chosen), now = change();
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
       <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
-    const wait = dial.computing || !now ? dim(dial.words || 'Response to n/rev twist: computing …') : '';
+    const wait = dial.computing || !now
+      ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
     const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', foreseen' : ''}`;
-    return `${head}${meter('Power', now.power, whole, .05, `${signed(power)} ${dial.unit}`)}
+    return `${head}${meter('Power', now.power, whole, .05, `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`)}
       ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
-      ${dim(earns ? against : `${verdict()[0]}, ${against}`)}${wait}
+      ${dim(assessed ? against : `${verdict()}, ${against}`)}${wait}
       ${held && matrix && !calm.matches ? dim(`Shaking of the cabin drawn × ${dial.exaggerated}, slowed`) : ''}`;
   }
 
@@ -303,7 +288,7 @@
       : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>';
     write(place, `<div class="rxd-side"><div class="rxd-row"></div>
         <div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div>
-        <p class="rxf-dim rxd-key"></p><div class="rxd-read" data-explorer="dial-read"></div></div>
+        <div class="rxf-dim rxd-key"></div><div class="rxd-read" data-explorer="dial-read"></div></div>
       <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : button}</div>${large ? button : ''}`);
     const [row, canvas, round, key, read, front] =
       ['.rxd-row', 'canvas', '.rxd-round > div', '.rxd-key', '.rxd-read', '.rxd-front']
@@ -315,13 +300,13 @@
       Object.assign(canvas, {field: fieldOf(), scheme});
     }
     write(round, dialSvg(size));
-    key.textContent = matrix ? `P least power · V least vibration${dial.whole ? ' · ring: reach' : ''}` : '';
+    write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, least vibration', 'lines: power',
+      dial.whole ? 'ring: reach' : ''].filter(Boolean).join(' · ') : '');
     write(read, readout());
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
   const draw = soon(() => {
-    drawVerdict();
     for (const place of document.querySelectorAll('[data-dial]')) fill(place);
   });
   // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
@@ -329,7 +314,7 @@
     const [, amplitude, angle] = RX.state.dial.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
     return Math.abs(amplitude - size) < .021 && (amplitude < .03 || Math.abs(angle - phase) < .6);
   }
-  RX.paint(['dial', 'dial_matrix', 'dial_front', 'earns'], dial => {
+  RX.paint(['dial', 'dial_matrix', 'dial_front', 'assessed'], dial => {
     if (dial && left && Object.entries(left.waves).every(arrived)) left = null;
     draw();
   });

@@ -71,14 +71,17 @@
     if (!flight) { stop(); write(card, ''); return; }
     if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
-        <span class="rxf-dim rxf-num" data-words></span></div>
+        <button class="rxf-push" data-do="fails" data-value="${flight.frozen === null ? 'on' : 'off'}"
+          aria-pressed="${flight.frozen !== null}" title="The actuator fails: its twist stays while the flight goes on">
+          Actuator stops here</button></div>
+      <div class="rxf-num" data-words></div>
       <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
         <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
     drawButton();
     card.querySelector('input').max = last();
     write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
       <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
-        <b>${text(name)}</b><small>${text(words)}</small></button>`).join(''));
+        <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>`).join(''));
     card.toggleAttribute('data-faded', flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
     draw(flight.chart);
@@ -102,22 +105,24 @@
     card.querySelectorAll('.rxf-fly-bar > div > button')
       .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
     const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
-    let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {words} = flight, tip = '';
+    let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, keys = [['', flight.words]], tip = '';
     if (series.length) {
       const [wanted, reached] = ['wanted', 'reached']
         .map(name => between(/** @type {any} */ (series.find(({label}) => label === name)).y, at));
       marker += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/>
         <circle cx="${x}" cy="${Y(flight.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
-      tip = flight.flown ? degrees(reached) : flight.tip;
-      const works = `${degrees(reached)} of ${degrees(wanted)} wanted`;
-      words = flight.flown ? `of ${degrees(wanted)} wanted`
-        : flight.frozen === null ? `now; reaches ${works}` : `stopped; working, it reaches ${works}`;
-      if (flight.kind !== 'ready') words += ' · computing…';
+      // Foreseen until the server is where the marker is: from then on what the voltages make.
+      tip = flight.flown && Math.abs(flight.at - at) > .02 ? degrees(reached) : flight.tip;
+      keys = flight.frozen !== null ? [['stopped', flight.words]]
+        : [['reached', flight.flown ? 'reached' : `${degrees(reached)} reached`]];
+      keys.push(['wanted', `${degrees(wanted)} wanted`], ['reach', 'reach']);
+      if (flight.kind !== 'ready') keys.push(['', 'computing…']);
     }
-    slider.ariaValueText = flight.legs[Math.round(at)][0] + (series.length ? `: ${tip} ${words}` : '');
+    slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys.map(([, words]) => words)].join(' ');
     const group = card.querySelector('[data-marker]');
     if (group) group.innerHTML = marker;
-    write(card.querySelector('[data-words]'), text(words));
+    write(card.querySelector('[data-words]'),
+      keys.map(([key, words]) => `<span data-key="${key}">${text(words)}</span>`).join(''));
     card.querySelector('[data-explorer=tip-twist]').textContent = tip;
   }
 
@@ -137,14 +142,13 @@
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     return {svg, width, height};
   }
-  function drawBalance({bars, unit, where, mass, mass_note, fuel, fuel_kind, fuel_note}) {
+  function drawBalance({bars, unit, where, fuel, fuel_kind, fuel_note}) {
     earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b>
         <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
       <svg role="img"></svg>
-      <div class="rxf-earns-foot"><span class="rxf-dim" title="${text(mass_note)}">${text(mass)}</span>
-        <b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
+      <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
     const {svg, width, height} = room();
     if (!bars.length || !svg) return;
@@ -175,51 +179,55 @@
 
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
   let held = null;
-  const driven = ({series}, {X, Y}) => {
-    const {x, y} = series.find(one => one.dashes), end = y.length - 1;
-    return y[end] === null ? ''
-      : `<text x="${X(x[end])}" y="${Y(y[end]) + 13}" text-anchor="end">half goes to the drive</text>`;
-  };
-  // A name that would lie on another stands below or beside its point, or waits for the pointer.
-  function spread(svg, left) {
-    const taken = [...svg.querySelectorAll('g > title ~ circle')]
-      .map(dot => [+dot.getAttribute('cx') - 5, +dot.getAttribute('cy') + 5, 10]);
+  // A name that would lie on another word or mark stands below or beside its point, or waits for the pointer.
+  function spread(svg, left, top) {
+    const rect = (x, y, width) => [x - 2, y - 12, x + width + 2, y + 4];
+    const apart = (one, other) =>
+      one[2] < other[0] || other[2] < one[0] || one[3] < other[1] || other[3] < one[1];
+    const taken = [...svg.querySelectorAll('g > title ~ circle, [data-supposed]')].map(dot => {
+      const [x, y, r] = ['cx', 'cy', 'r'].map(name => +dot.getAttribute(name));
+      return [x - r - 1, y - r - 1, x + r + 1, y + r + 1];
+    });
+    for (const word of svg.querySelectorAll('[data-pays], [data-costs]')) {
+      const {x, y, width, height} = word.getBBox();
+      taken.push([x, y, x + width, y + height]);
+    }
     for (const word of svg.querySelectorAll('[data-name]')) {
       const dot = word.parentNode.querySelector('circle').getBBox(), {width} = word.getBBox();
-      const x = dot.x + dot.width / 2, y = dot.y + dot.height / 2;
-      const apart = spot => ([start, height, wide]) =>
-        spot[0] > start + wide + 3 || spot[0] + width + 3 < start || Math.abs(spot[1] - height) > 12;
-      const above = y - 8, below = y + 18, middle = x - width / 2;
-      const free = [[middle, above], [middle, below], [x + 9, y + 4], [x - width - 9, y + 4], [x, above], [x, below]]
-        .find(spot => spot[0] > left && taken.every(apart(spot)));
+      const x = dot.x + dot.width / 2, y = dot.y + dot.height / 2, r = dot.width / 2;
+      const middle = x - width / 2, above = y - r - 6, below = y + r + 14;
+      const free = [[middle, above], [middle, below], [x + r + 4, y + 4], [x - width - r - 4, y + 4], [x, above],
+        [x, below], [x - width, above], [x - width, below]]
+        .find(([at, foot]) => at > left && foot > top + 8 && taken.every(one => apart(one, rect(at, foot, width))));
       if (!free) { word.remove(); continue; }
-      taken.push([...free, width]);
+      const [at, foot] = free;
+      taken.push(rect(at, foot, width));
       word.setAttribute('text-anchor', 'start');
-      word.setAttribute('x', free[0].toFixed(1));
-      word.setAttribute('y', free[1].toFixed(1));
+      word.setAttribute('x', at.toFixed(1));
+      word.setAttribute('y', foot.toFixed(1));
     }
   }
   function drawBreakEven({chart, kind, words, note, at: given}) {
     const focused = earns.contains(document.activeElement) && document.activeElement.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
-        <span class="rxf-dim">range of twist, mass of all blades</span>
         <button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
       <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
       <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
         ${note ? '' : 'hidden'}>${text(note)}</div>`;
     const {svg, width, height} = room();
     if (!chart || !svg) return;
-    const place = Charts.frame(chart, width, height, {bottom: 32}), {X, Y, left, right, top, base} = place;
+    const place = Charts.frame(chart, width, height, {top: 22, bottom: 32}), {X, Y, left, right, top, base} = place;
     const [twist, mass] = held?.at ?? given, label = (y, name, content) =>
       `<text x="${right - 6}" y="${y}" text-anchor="end" data-${name}>${content}</text>`;
     svg.innerHTML = `${Charts.axes(chart, place)}${Charts.inside(chart, place)}${label(base - 4, 'pays', 'pays')}
-      ${width > 420 ? driven(chart, place) + label(top + 12, 'costs', 'mass costs more than twist saves') : ''}
+      <text x="0" y="12" data-axis>${text(chart.y.label)}</text>
+      ${width > 420 ? label(12, 'costs', 'mass costs more than twist saves') : ''}
       <circle data-supposed data-kind="${kind}" cx="${clamp(X(twist), left, right)}" cy="${clamp(Y(mass), top, base)}"
         r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${twist}"
         aria-valuetext="${text(words)}">
         <title>Drag: range of twist and mass of all blades</title></circle>`;
     earns.place = place;
-    spread(svg, left);
+    spread(svg, left, top);
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
   const supposed = paced(point => RX.send('suppose', point), 60);

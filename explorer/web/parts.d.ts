@@ -73,6 +73,7 @@ interface RxPresses {
   speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
+  fails: 'on' | 'off';
   ride: 'off' | RxSectionPress | null;
   section: RxSectionPress;
   azimuth: number;
@@ -105,7 +106,8 @@ interface RxAssessedPart {
   problem: string;
   against: string;
   baselines: [string, string][];
-  sentence: string[];
+  said: string;
+  pays: string[];
   range: number;
   kilograms: number;
 }
@@ -196,7 +198,7 @@ interface RxDrawnPoints {
   press?: string[];
   names?: string[];
   faint?: boolean[];
-  beside?: 'above' | 'below' | 'upward' | null;
+  beside?: 'above' | 'below' | null;
   scatter?: (number | null)[];
 }
 

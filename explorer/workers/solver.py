@@ -8,10 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from rotor import Design, Optimum, Solution, make_design, solve
+from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
 from rotor.design.quantities import PRESETS
 from rotor.optimisation import Concept, Objective, Plan, Schedule, Search, at_condition, measure, run_plan, run_search
-from rotor.trim import power_gradient
+from rotor.trim import analyse, power_gradient
 
 _NICE = 5
 """Lower priority than the server, so that frames come before searches where processors are short."""
@@ -25,10 +25,14 @@ def warm() -> None:
 
 
 def prepare_worker() -> None:
-    """In a new process: a lower priority, and what every solution would wait for."""
+    """In a new process: a lower priority, and what every solution, and blades that bend, would wait for."""
     if hasattr(os, "nice"):
         os.nice(_NICE)
     warm()
+    for inflow in ("lifting-line", "uniform"):
+        trim = analyse(make_design(mu=0.2, bending=True, inflow=inflow))
+        hub_loads(trim, band=False)
+        doubt(trim)
 
 
 Solve = Callable[[Design, Solution | None], Solution]

@@ -22,7 +22,7 @@ from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amp
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, OtherStroke, Supposed, break_even, other_stroke, pay_sentence, suppose
+from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
 from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.stopped import failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
@@ -43,7 +43,6 @@ __all__ = (
     "PiezoPly",
     "Placement",
     "Programme",
-    "Supposed",
     "TorqueTube",
     "Verdict",
     "actuator_stability",
@@ -62,7 +61,6 @@ __all__ = (
     "programmes",
     "standard_flight",
     "steady_room",
-    "suppose",
     "tip_amplitude",
     "try_actuator",
     "verdict_details",

@@ -112,12 +112,12 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         design = leg.of(pair.design)
         try:
             for name, law in (("fixed", base.fixed_twist), ("built", design.twist)):
-                flown[name] = trim = solve(replace(design, twist=law), flown[name]).require()
-                powers[name].append(trim.power.total)
+                flown[name] = near = solve(replace(design, twist=law), flown[name]).require()
+                powers[name].append(near.power.total)
             blade = replace(design, twist=jig)
-            reached = free = best_swings(blade, installed, unlimited)
+            reached = free = best_swings(blade, installed, unlimited, near)
             if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-                reached = best_swings(blade, installed, window)
+                reached = best_swings(blade, installed, window, near)
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:

@@ -91,9 +91,11 @@ def best_twist(
     return _search(((design,), (1.0,)), concept, None, starts, alone=alone)
 
 
-def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
-    """The concept's fixed twist of least mean power."""
-    return _search((pair.designs(), pair.shares), concept, None, starts)
+def best_fixed(
+    pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
+) -> TwistOptimum:
+    """The concept's fixed twist of least mean power; `alone`: from these starts and no others."""
+    return _search((pair.designs(), pair.shares), concept, None, starts, alone=alone)
 
 
 def best_actuated(
@@ -103,14 +105,18 @@ def best_actuated(
     *,
     scale: float = 1.0,
     starts: Sequence[Sequence[float]] = (),
+    near: Sequence[Solution] = (),
 ) -> TwistOptimum:
-    """Least mean power with the actuator, within its range times `scale`."""
-    return _search((pair.designs(), pair.shares), concept, (installed, scale), starts)
+    """Least mean power with the actuator, within its range times `scale`; `near`: trims to begin with, by condition."""
+    return _search((pair.designs(), pair.shares), concept, (installed, scale), starts, near=near)
 
 
-def best_swings(design: Design, installed: InstalledActuator, bounds: Array) -> TwistOptimum:
-    """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2)."""
-    reached = _Task(((design,), (1.0,)), None, (installed, 1.0), bounds).descend(())
+def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
+    """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2).
+
+    near: a trim to begin with.
+    """
+    reached = _Task(((design,), (1.0,)), None, (installed, 1.0), bounds, [near]).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
@@ -120,23 +126,30 @@ _Flights = tuple[tuple[Design, ...], tuple[float, ...]]
 """Designs at their conditions, and the shares of time."""
 _Fitted = tuple[InstalledActuator, float] | None
 """An actuator, and the part of its range that is used."""
+_AT_REST = (0.0, 0.0)
 
 
 def _search(
-    flights: _Flights, concept: Concept, fitted: _Fitted, starts: Sequence[Sequence[float]], *, alone: bool = False
+    flights: _Flights,
+    concept: Concept,
+    fitted: _Fitted,
+    starts: Sequence[Sequence[float]],
+    *,
+    alone: bool = False,
+    near: Sequence[Solution] = (),
 ) -> TwistOptimum:
-    installed = fitted and fitted[0]
+    installed, driven = fitted and fitted[0], bool(fitted and fitted[1])
     if installed is not None and installed.host.kind == "retrofit":
         low, high = 0.0, 1.0
         if isinstance(installed.actuator, PiezoPly):
             low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
-        either = [[ends] * 2 * len(installed.shapes) for ends in ((low, high), (-high, -low))]  # Direction of fibres.
-        tasks = [_Task(flights, None, fitted, bounds) for bounds in either]
+        either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
+        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), near) for ends in either]
         jigs: list[Sequence[float]] = [()]
     else:
         segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
-        bounds = [(0.0, 0.0)] * segments + [(-1.0, 1.0)] * segments
-        tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
+        bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
+        tasks, jigs = [_Task(flights, concept, fitted, bounds, near)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
             flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
@@ -153,11 +166,17 @@ class _Task:
     """One descent; each trim starts from the previous one."""
 
     def __init__(
-        self, flights: _Flights, concept: Concept | None, fitted: _Fitted, swings: Sequence[tuple[float, float]] | Array
+        self,
+        flights: _Flights,
+        concept: Concept | None,
+        fitted: _Fitted,
+        swings: Sequence[tuple[float, float]] | Array,
+        near: Sequence[Solution] = (),
     ) -> None:
-        """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
+        """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition.
+        near: trims to begin with, by condition."""
         (self.designs, self.shares), self.concept = flights, concept
-        self.trims: list[Solution | None] = [None] * len(self.designs)
+        self.trims: list[Solution | None] = [*near] or [None] * len(self.designs)
         self.segments, self.shapes = 0, np.zeros((0, len(STATIONS)))
         if fitted:
             installed, scale = fitted
@@ -175,6 +194,8 @@ class _Task:
         if first is None:
             return None
         unit = first[0]
+        if not free.any():
+            return self._optimum(x0, unit)
 
         def scaled(x: Array) -> tuple[float, Array]:
             power = self._power(x)
@@ -190,9 +211,13 @@ class _Task:
         if final is None or final[0] > unit:
             x, final = x0, self._power(x0)
         assert final is not None
+        return self._optimum(x, final[0])
+
+    def _optimum(self, x: Array, power: float) -> TwistOptimum:
+        """What a scaled point means, as it was trimmed last."""
         values, each = self._split(x)
         swings = tuple(tuple(row) for row in each.tolist()) if self.segments else ()
-        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0])
+        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), power)
 
     def _split(self, x: Array) -> tuple[list[float], Array]:
         """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
@@ -306,5 +331,6 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         concept = restrict(concept, breaks)
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
     first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
-    better = best_fixed(pair, concept, [fixed.values, first.values, second.values])
+    # Without breaks the other starts are those of before.
+    better = best_fixed(pair, concept, [fixed.values, first.values, second.values], alone=not breaks)
     return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

@@ -17,7 +17,6 @@ from functools import lru_cache
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.catalogue import engines_of
 from rotor.actuator.installation import heavier
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actuated
 from rotor.actuator.section import default_placement
@@ -25,7 +24,6 @@ from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array, read_only
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
-from rotor.optimisation.doubt import mean_doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import GRAVITY
@@ -100,12 +98,6 @@ class BreakEven:
     def mass_allowed(self, twist: float, watts: float = 0.0) -> float:
         """Mass of all blades that just pays [kg]; 0 where the drive alone costs more."""
         return float(np.interp(self.saving(twist) - watts, self.gross, self.masses))
-
-    def rates_at(self, twist: float) -> tuple[float, float]:
-        """Linear twist at both conditions with that range [rad per radius]; what exceeds the line's is not used."""
-        twist = min(twist, float(self.twists[-1]))
-        first = float(np.interp(twist, self.twists, self.rates))
-        return first, first + math.copysign(twist / (1.0 - self.pair.design.rotor.blade.root_cutout), self.change)
 
     @property
     def requirement(self) -> Requirement:
@@ -250,37 +242,6 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     power = np.minimum.accumulate([powers[stroke] for stroke in strokes.tolist()])
     saved = verdict.reference_power - verdict.drive.hold_power - power
     return OtherStroke(strokes * installed.attainable, saved, verdict.mass_cost / mass)
-
-
-@dataclass(frozen=True, eq=False)
-class Supposed:
-    """An actuator of which only twist and mass are known, without drive, against the best fixed blade."""
-
-    saving: float
-    """Mean power saved at both conditions [W]."""
-    fuel_saving: float | None
-    """[kg/s]; None where the engines of the aircraft have no source."""
-    band: float | None
-    """Two standard deviations of `saving` by uncertain inputs [W]; None where it cannot be told."""
-
-
-def suppose(pair: ConditionPair, rates: tuple[float, float], mass: float) -> Supposed:
-    """What linear twist of these rates at both conditions [rad per radius] (`BreakEven.rates_at`) and a mass on all
-    blades together [kg] would save, by trims.
-
-    Raises RuntimeError with one sentence where it does not trim.
-    """
-    base = baseline(pair, find_concept("linear"))
-    fixed, task = base.fixed.solutions, _Flown(base)
-    saving = base.fixed.power - task.power(rates, mass)
-    flown = [trim for trim in task.trims if trim is not None]
-    engines, doubt = engines_of(pair.design.aircraft), mean_doubt(pair.shares, flown, fixed)
-    burnt = None
-    if engines is not None:
-        pairs = zip(fixed, flown, strict=True)
-        flows = (engines.flow(before.power.total) - engines.flow(after.power.total) for before, after in pairs)
-        burnt = pair.mean(flows)
-    return Supposed(saving, burnt, None if doubt is None else doubt.change_band)
 
 
 def pay_sentence(even: BreakEven) -> str:

@@ -10,7 +10,6 @@ from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pay import BreakEven
 from rotor.actuator.section import passive_skin, passive_wall, section_spec, skin, web_line
-from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line
 from rotor.dynamics.structure import structure_data, uh60a_structure
@@ -108,17 +107,6 @@ def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float])
             raise ValueError(f"voltage {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
     r = np.linspace(float(installed.r[0]), 1.0, 61)
     return TwistCurve(r, installed.change(np.asarray(voltages, dtype=float) / unit, r))
-
-
-def twist_comparison(verdict: Verdict, stations: int) -> tuple[Array, Array]:
-    """Change of twist from the root cut-out [rad], (stations,) evenly from there to the tip.
-
-    Between the optima of both conditions, and at the actuated optimum.
-    """
-    r = np.linspace(verdict.baseline.pair.design.rotor.blade.root_cutout, 1.0, stations)
-    first, second = (np.array(swings) for swings in verdict.optimum.swings)
-    twist = verdict.installed.change(second - first, r)
-    return verdict.baseline.change(r), twist - twist[0]
 
 
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:

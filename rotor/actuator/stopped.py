@@ -111,11 +111,12 @@ def frozen(working: Sequence[Design], stopped: Design, jig: TwistLaw | None = No
         engines = design.aircraft.installed_power
         left = None if engines is None or not there.converged else engines - there.power.total
         mu = design.condition.advance_ratio
-        points.append(FailurePoint(mu, design.airspeed, _flown(here, jig), _flown(there, jig), left))
+        points.append(FailurePoint(mu, design.airspeed, as_flown(here, jig), as_flown(there, jig), left))
     return tuple(points)
 
 
-def _flown(trim: Solution, jig: TwistLaw | None) -> Flown:
+def as_flown(trim: Solution, jig: TwistLaw | None) -> Flown:
+    """A trim in numbers; jig: as for `frozen`."""
     design, controls = trim.design, trim.controls
     stops, stations = design.aircraft.controls, [design.rotor.blade.root_cutout, 0.75, 1.0]
     root, rest, tip = design.twist(stations)

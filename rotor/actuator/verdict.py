@@ -232,20 +232,22 @@ def judge(
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     resting, counted_from = base.fixed, list(base.fixed.solutions)
+    near = counted_from
     if host.kind == "retrofit" or against == "same-blade":
-        built = [solve(design).require() for design in pair.designs()]
+        built = [solve(design, start).require() for design, start in zip(pair.designs(), near, strict=True)]
         if host.kind == "retrofit":
-            resting = TwistOptimum((), (), (), pair.mean(_totals(built)))
+            resting, near = TwistOptimum((), (), (), pair.mean(_totals(built))), built
         if against == "same-blade":
             counted_from = built
     bare_power, free = resting.power, [best.power for best in base.best]
     if pair.design.elastic:
-        resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values])
+        resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near)
+        near = resting.solutions
         free = [
             best_twist(installed.on(design), base.concept, [best.values], alone=True).power
             for design, best in zip(pair.designs(), base.best, strict=True)
         ]
-    reached = best_actuated(pair, base.concept, installed, starts=[resting.values])
+    reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
     required = base.segment_changes(divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, NOTHING))

@@ -59,7 +59,7 @@ class Memory:
         given = sum((self.right[:, channel] * field for channel, field in fields.items()), start=np.zeros(1))
         if not fields:
             return np.zeros((len(self.left), *self.left.shape[2:]))
-        out = np.einsum("kleij,lej->kei", self.kernel, given, optimize=True)
+        out = (self.kernel @ given[..., None])[..., 0].sum(axis=1)  # N is not copied.
         return np.einsum("okei,kei->oei", self.left, out)
 
     def transposed(self, forces: Array) -> Array:

@@ -122,6 +122,46 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
 
 
 @pytest.mark.slow
+def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched: Watched):
+    """Bar, blade and rail say the same before, while it is stopped, and when it works again."""
+    page = watched.page
+    page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
+    stops, bar = page.get_by_role("button", name="Actuator stops here"), page.locator(".rxf-fly-bar input")
+    labels, power = page.locator('[data-explorer="labels"]'), "() => RX.state.power.total"
+
+    def twist() -> str:
+        """What bar, blade and rail say."""
+        watched.answered()
+        tip = watched.text("tip-twist")
+        assert f"{tip} at the tip" in labels.inner_text()
+        assert tip == watched.text("actuator-twist")
+        return tip
+
+    watched.type("Voltage", 77)
+    watched.reads("tip-twist", r"\+\d")
+    frozen, slow = twist(), page.evaluate(power)
+    stops.click()
+    expect(stops).to_have_attribute("aria-pressed", "true")
+    assert twist() == frozen
+    box = bar.bounding_box()
+    assert box is not None
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 0.48 * box["width"], y, steps=6)
+    page.mouse.up()
+    watched.until(lambda: "mu=0.3" in page.url)
+    assert twist() == frozen
+    fast = page.evaluate(power)
+    assert f"stopped: {fast} kW" in watched.text("flight").replace("\n", " ")
+    assert fast != slow
+    stops.click()
+    expect(stops).to_have_attribute("aria-pressed", "false")
+    flown = "() => RX.state.flight.chart.series.find(one => one.label === 'reached').y.at(-1)"
+    assert float(twist().rstrip("°").replace("−", "-")) == pytest.approx(page.evaluate(flown), abs=0.02)
+
+
+@pytest.mark.slow
 def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     """Red where the chosen one stands, green below the line; link and shared picture keep it."""
     page = watched.page
@@ -137,7 +177,7 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     page.mouse.move(chart["x"] + 0.6 * chart["width"], chart["y"] + 0.66 * chart["height"], steps=8)
     page.mouse.up()
     expect(dot).to_have_attribute("data-kind", "gain", timeout=VERDICT)
-    watched.reads("supposed", r"saves \d.* \(± \d.*: (sure|likely)\), .* of fuel an hour")
+    watched.reads("supposed", r"saves \d.* over the flight")
     page.wait_for_function("() => /[&?]i=[0-9.]+,[0-9.]+/.test(location.search)", timeout=VERDICT)
     twist = float(dot.get_attribute("aria-valuenow") or "nan")
     dot.focus()

@@ -69,7 +69,7 @@ def screen(now: Now) -> dict[str, list[str]]:
     value, part, flight, rail = assessed(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
     assert value is not None
     assert value.one.verdict is not None
-    sentence, inputs = "".join(part.sentence), now.hand.actuator
+    sentence, inputs = part.said, now.hand.actuator
     labels = lifted_picture(inputs, value.one.installed, value.one.design).labels
     words = " ".join(text for _, text, _ in labels)
     report = re.sub(r"<[^>]*>", " ", actuator_section(value.one.verdict, SI))
@@ -135,9 +135,8 @@ def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
     assert other.flight.power - one.flight.power == pytest.approx(between, abs=1.0)
     assert choose(same, "best-fixed") == (SetHand(actuator={"against": "best-fixed"}),)
     assert one.line is not None
-    assert one.mass_that_pays is not None
     assert one.line.net(one.range, one.mass) == pytest.approx(-one.flight.power, abs=1.0)
-    assert one.line.net(one.range, one.mass_that_pays) == pytest.approx(0.0, abs=1.0)
+    assert one.line.net(one.range, one.one.verdict.mass_allowed or 0.0) == pytest.approx(0.0, abs=1.0)
 
 
 def test_full_voltage_is_the_reach_and_trims_make_that_twist():

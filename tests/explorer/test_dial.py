@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from explorer.model.actuator_inputs import ActuatorInputs
@@ -10,7 +11,7 @@ from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, Settled
 from explorer.parts.presses import WavePress
 from explorer.views.dial import DIAL, act, take_dot
-from explorer.views.dial_answer import DialAnswer, FrontDot
+from explorer.views.dial_answer import DialAnswer
 from explorer.views.now import Grab, Move, Now, Ui
 from rotor import Design
 from rotor.actuator import EffectInFlight
@@ -19,10 +20,19 @@ from tests.actuate import actuate, asked, told
 
 BENDING = Inputs(law="builtin", advance_ratio=0.3, bending=True)
 SAME = ActuatorInputs(against="same-blade")
-NUMBERS = DialNumbers([0.0], [[0.0]], [[[0.0]]], [0.0], 1e6, 5.0)
-WAVES = (Harmonic(2, math.radians(0.804), 4.0), Harmonic(3, math.radians(0.5), 0.8))
-DOTS = (FrontDot((), -0.5, 3.0, (1.0, 4.0)), FrontDot(WAVES, 0.4, -60.0, (-70.0, 20.0)))
-ANSWER = DialAnswer(DialMatrix(**vars(NUMBERS), inflows=(NUMBERS, NUMBERS)), DOTS)
+
+STEP = (0.804, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0)
+"""A twist of the front: cosines and sines [°]."""
+
+
+def numbers(slope: float) -> DialNumbers:
+    """A force of 1 N, which changes by `slope` for 1° of cos 2ψ, and 1000 kW, 10 more for 1° of sin 3ψ."""
+    slopes = np.zeros((11, 8))
+    slopes[0, 0], slopes[10, 3] = slope, 1e4
+    return DialNumbers([1.0, *[0.0] * 9, 1e6], slopes.tolist(), np.zeros((11, 8, 8)).tolist(), [1.0] * 5, 1e6, 1.0)
+
+
+OWN, OTHER = numbers(-0.5), numbers(0.25)
 MOVED = EffectInFlight((1500.0, 900.0), (-20.004, 3.0))
 
 
@@ -38,7 +48,10 @@ def asking() -> Now:
 
 @pytest.fixture(scope="module")
 def answered(asking: Now) -> Now:
-    return told(DIAL, asking, dial_answer=ANSWER, effect=MOVED)
+    """By the own inflow model, by two of the others, and by one that does not trim."""
+    own, *others = [call for one in DIAL.asks(asking)[1:] for call in one.calls]
+    given = {own: DialAnswer(OWN, ((0.0,) * 8, STEP)), **dict.fromkeys(others, DialAnswer(OTHER, ()))}
+    return told(DIAL, replace(asking, answers={**given, others[-1]: "No trim."}), effect=MOVED)
 
 
 def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
@@ -51,7 +64,7 @@ def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
         None,
         "the same blade without it",
     )
-    assert [(one.urgency, one.delay) for one in DIAL.asks(asking)] == [(3, 0.4)]
+    assert [(one.urgency, len(one.calls)) for one in DIAL.asks(asking)] == [(3, 1), (5, 2), (6, 2)]
     designs = [one.twist for one in asked(DIAL, asking)["effect"].arguments if isinstance(one, Design)]
     assert designs == [BENDING.design().twist] * 2
     assert list(asked(DIAL, asking)) == ["dial_answer", "effect"]  # The trim is asked first.
@@ -60,12 +73,17 @@ def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
 def test_what_is_answered_is_shown(answered: Now):
     shown = DIAL.view(answered)
     assert shown == DIAL.view(replace(answered))
-    assert shown["dial_matrix"] is ANSWER.numbers
+    assert shown["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER, OTHER))
     one = dial(answered)
     assert one.settled == Settled((1.5, 0.9), (-20.0, 3.0))
     assert (one.computing, one.words, one.problem, one.held) == (False, "", "", False)
-    assert [dot[:2] for dot in one.front] == [(-0.5, 3.0), (0.4, -60.0)]
-    assert one.front[0][2] == (0.0,) * 8
+    assert [[round(value, 6) for value in dot[:2]] for dot in one.front] == [[0.0, 0.0], [0.5, -40.2]]
+    assert [dot[2] for dot in one.front] == [(0.0,) * 8, STEP]
+    words = [word for one in shown["dial_front"].series for word in getattr(one, "words", ()) if "over inflow" in word]
+    assert "power +0.5 %, vibration −40 % (−40 to +20 over inflow models, which disagree in sign)" in words[1]
+    waits = replace(answered, answers=dict([*answered.answers.items()][:2]))  # Its own model and one more.
+    assert (dial(waits).computing, dial(waits).front) == (True, ())
+    assert DIAL.view(waits)["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER,))
     assert one.whole > 0.5
     assert one.room == 1.0
     assert dial(replace(answered, ui=Ui("actuate", held=True))).held

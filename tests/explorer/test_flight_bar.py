@@ -159,7 +159,7 @@ def test_the_voltages_follow_once_the_flight_is_known(waiting: Now, ready: Now, 
 
 def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: Now, flight: ActuatorFlight):
     hover = done(ready, fly(ready, 0))
-    stopped = done(hover, stop_here(hover, True))
+    stopped = done(hover, stop_here(hover, "on"))
     frozen = shown(stopped)
     assert (frozen.flown, frozen.frozen) == (False, math.degrees(tip(hover)))
     (line,) = [one for one in frozen.chart.series if isinstance(one, DrawnLine) and one.label == "stopped"]
@@ -168,17 +168,17 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: Now, fligh
     assert fast.inputs.advance_ratio == LEGS[-1].advance_ratio
     assert tip(fast) == tip(hover) != 0.0
     assert shown(fast).tip == frozen.tip
-    again = done(fast, stop_here(fast, False))
+    again = done(fast, stop_here(fast, "off"))
     assert_allclose(tip(again), flight.reached[-1], atol=math.radians(0.02))
     assert (shown(again).flown, shown(again).frozen) == (True, None)
     by_hand = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(drives=(60.0,) * 4)))
-    assert stop_here(by_hand, True) == (SetHand({"stopped": True}),)
-    assert shown(done(by_hand, stop_here(by_hand, True))).frozen == math.degrees(tip(by_hand)) != 0.0
+    assert stop_here(by_hand, "on") == (SetHand({"stopped": True}),)
+    assert shown(done(by_hand, stop_here(by_hand, "on"))).frozen == math.degrees(tip(by_hand)) != 0.0
 
 
 def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: Now):
     flown = done(ready, fly(ready, 3))
-    stopped = done(flown, stop_here(flown, True))
+    stopped = done(flown, stop_here(flown, "on"))
     for one in (flown, stopped):
         back = done(one, (landed(one.hand),))
         assert (tip(back), back.hand.lifted, back.hand.stopped, back.hand.flown) == (0.0, False, False, None)

@@ -46,9 +46,10 @@ class Page:
 
 
 @pytest.fixture
-def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, tuple[Call, ...], float, bool]]:
-    """What is asked of worker processes."""
-    all_asked: list[tuple[int, tuple[Call, ...], float, bool]] = []
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, tuple[Call, ...], float]]:
+    """What is asked of worker processes; the clock stands still."""
+    all_asked: list[tuple[int, tuple[Call, ...], float]] = []
+    monkeypatch.setattr("explorer.tabs.follower.time", SimpleNamespace(monotonic=lambda: 7.0))
     monkeypatch.setattr(PoolAnswers, "ask", lambda self, *how: all_asked.append((self._urgency, *how)))
     return all_asked
 
@@ -70,12 +71,23 @@ def test_only_panels_that_are_seen_are_called(asked: list[Any]):
     assert (page.sent, asked) == ([], [])
     opened = replace(NOW, ui=Ui(drawer="details"))
     page.follower.follow(opened)
-    page.follower.follow(replace(opened, answers={LENGTH: 4}))  # Nothing has moved.
+    page.follower.follow(replace(opened, answers={LENGTH: 4}))
     page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
-    assert asked == [(4, (LENGTH,), 0.2, False), (4, (LENGTH,), 0.2, False), (4, (), 0.0, True)]
+    assert asked == [(4, (LENGTH,), 0.2), (4, (LENGTH,), 0.2), (4, (), 0.0)]
     assert len(page.sent) == 1
     page.follower.follow(replace(opened, inputs=replace(OPENING, advance_ratio=0.1)))
     assert page.sent[1:] == [{"power": 0.1}]
+
+
+def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[Any], monkeypatch: pytest.MonkeyPatch):
+    """Opened on a page at rest, it is worked on at once; what lifts the blade out is no hand."""
+    clock = iter((7.0, 7.05, 9.0, 9.1, 9.2))
+    page = Page(Panel(shown, asks=lambda now: (Asked(4, (LENGTH,), 0.2),)))
+    monkeypatch.setattr("explorer.tabs.follower.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    page.follower.follow(NOW)
+    page.follower.follow(replace(NOW, hand=replace(NOW.hand, lifted=True)))
+    page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
+    assert [round(delay, 3) for _, _, delay in asked] == [0.15, 0.0, 0.1]
 
 
 def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from explorer.export.provenance import provenance_lines
 from explorer.model.inputs import OPENING, baseline_of, inputs_of, with_rotor
 from explorer.model.session_state import Pinned
-from explorer.parts.actuate import DialMatrix
+from explorer.parts.actuate import DialNumbers
 from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
@@ -19,7 +19,7 @@ from explorer.text.design_words import twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.views.dial import front_chart, programme_words, with_wave
-from explorer.views.dial_answer import DialAnswer, Fitted, FrontDot, compared, dial_answer
+from explorer.views.dial_answer import DialAnswer, Fitted, FrontDot, compared, dial_answer, front_dots
 from rotor.actuator import (
     Host,
     default_placement,
@@ -38,7 +38,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import hub_index
+from rotor.trim.hub_loads import BAND, hub_index
 from rotor.trim.solve import solve
 from tests.actuate import foreseen
 
@@ -142,13 +142,16 @@ def lost(waves: tuple[Harmonic, ...]) -> float:
 
 
 @pytest.fixture(scope="module")
-def whole() -> DialAnswer:
-    return dial_answer(with_harmonics(BENDING, WAVES), STILL, LOSSES, 1.0)
+def whole() -> list[DialAnswer]:
+    """With every inflow model, the design's own first."""
+    models = [replace(BENDING.models, inflow=one) for one in dict.fromkeys((BENDING.models.inflow, *BAND))]
+    pairs = [[replace(one, models=each) for one in (with_harmonics(BENDING, WAVES), STILL)] for each in models]
+    return [dial_answer(*pair, LOSSES, 1.0) for pair in pairs]
 
 
 @pytest.fixture(scope="module")
-def answer(whole: DialAnswer) -> DialMatrix:
-    return whole.numbers
+def answer(whole: list[DialAnswer]) -> DialNumbers:
+    return whole[0].numbers
 
 
 def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]) -> tuple[float, float]:
@@ -158,7 +161,7 @@ def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic,
     return 100.0 * (moved.power.total / rest.power.total - 1.0), 100.0 * (index - 1.0)
 
 
-def test_what_is_foreseen_is_what_a_trim_gives(answer: DialMatrix):
+def test_what_is_foreseen_is_what_a_trim_gives(answer: DialNumbers):
     power, index = changes(BENDING, (), WAVES)
     seen = foreseen(answer, WAVES)
     assert_allclose(seen[0], power + lost(WAVES), atol=0.25)
@@ -168,8 +171,8 @@ def test_what_is_foreseen_is_what_a_trim_gives(answer: DialMatrix):
         dial_answer(with_harmonics(make_design(mu=0.3), WAVES), STILL, LOSSES, 1.0)
 
 
-def test_the_front_is_near_its_trims(whole: DialAnswer, answer: DialMatrix):
-    dots = whole.front
+def test_the_front_is_near_its_trims(whole: list[DialAnswer], answer: DialNumbers):
+    dots = front_dots(whole[0], [one.numbers for one in whole[1:]])
     assert [one.power for one in dots] == sorted(one.power for one in dots)
     assert [one.index for one in dots] == sorted((one.index for one in dots), reverse=True)
     for dot in (dots[0], dots[-1]):
@@ -182,6 +185,7 @@ def test_the_front_is_near_its_trims(whole: DialAnswer, answer: DialMatrix):
         assert full < 0.4
         assert_allclose(dot.index, index, atol=8.0)
         assert dot.over_inflows[0] <= dot.index <= dot.over_inflows[1]
+        assert foreseen(answer, dot.twist) == pytest.approx((dot.power, dot.index))
 
 
 def test_the_blade_with_the_actuator_is_compared_with_another_one():
@@ -230,12 +234,12 @@ def test_every_published_programme_is_there_with_its_source():
         assert one.kind in words
     chart = front_chart(())
     points = [one for one in chart.series if isinstance(one, Points)]
-    drawn = {name: x for one in points for name, x in zip(one.names, one.x, strict=True)}
     assert sum(len(one.x) for one in points) == sum(one.vibration_percent is not None for one in programmes())
     # Power and vibration are one point only where both belong to one input; the others stand beyond the axis of power.
-    beyond = chart.rules[0].at
-    assert {name for name, x in drawn.items() if x < beyond} == {"XH-59A 3/rev", "XH-59A 2+3/rev", "flaps, 1 to 5/rev"}
-    assert chart.span("x")[1] > max(drawn.values()) > beyond > max(chart.x.ticks[:-1])
+    beyond, drawn = chart.rules[0].at, [(x, words) for one in points for x, words in zip(one.x, one.words, strict=True)]
+    paired = [words for x, words in drawn if x < beyond]
+    assert [word in "".join(paired) for word in ("XH-59A", "flaps", "STAR")] == [True, True, False]
+    assert chart.span("x")[1] > max(x for x, _ in drawn) > beyond > max(chart.x.ticks[:-1])
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():
@@ -249,10 +253,9 @@ def test_only_where_wakes_agree_in_sign_is_anything_best():
     assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
 
 
-def test_the_dial_knows_every_wake(answer: DialMatrix):
+def test_the_dial_knows_every_wake(whole: list[DialAnswer]):
     """3/rev adds vibration with linear inflow where it takes vibration away with the lifting line."""
-    assert len(answer.inflows) == 3
-    every = [answer, *answer.inflows]
+    every = [one.numbers for one in whole]
     waves = [(Harmonic(3, math.radians(0.5), math.radians(phase)),) for phase in range(0, 360, 30)]
     indices = [[foreseen(one, wave)[1] for one in every] for wave in waves]
     assert any(min(changes) < 0.0 < max(changes) for changes in indices)

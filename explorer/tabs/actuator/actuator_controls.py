@@ -8,11 +8,8 @@ import viser
 
 from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
 from explorer.tabs.form import Form
-from explorer.tabs.live_charts import chart_box
-from explorer.text.glossary import hint
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import UNMEASURED
-from rotor.chart import DrawnChart
 from rotor.design.quantity import Slider
 from rotor.markup import tag
 from rotor.optimisation import find_concept
@@ -56,19 +53,16 @@ class ActuatorControls:
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("details")
             text("numbers")
-            text("chart")
             text("section")
             text("limits")
         with gui.add_folder("Modes and damping", expand_by_default=False):
             text("modes")
         with gui.add_folder("All actuators on this blade", expand_by_default=False):
             text("table")
-        self.stopped = gui.add_checkbox("Actuator stops here", False, hint=hint("stops_here"))
-        self._chart = texts.pop("chart")
         shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
-        self.texts = {**shows, "actuator.form": self._arrange, "actuator.chart": self._draw}
+        self.texts = {**shows, "actuator.form": self._arrange}
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
@@ -97,6 +91,3 @@ class ActuatorControls:
         if by_hand and name in DRIVES:
             self._driven()
         self._moved()
-
-    def _draw(self, chart: DrawnChart) -> None:
-        self._chart.content = tag("div.rx", chart_box(chart))

@@ -11,7 +11,7 @@ from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.lifted_scene import LiftedScene
 from explorer.tabs.background import all_known
 from explorer.tabs.context import TabContext
-from explorer.views.flight import AT_REST, landed
+from explorer.views.flight import AT_REST, BY_HAND, landed
 from explorer.views.now import Hand, SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, place_of
 from explorer.workers import solver
@@ -36,7 +36,7 @@ class ActuatorPanel:
         self._drawn: tuple[object, ...] | None = None
         self._pays = False
         """Whether the supposed actuator pays: its blade lights green."""
-        self.controls = ActuatorControls(context.gui, context.wake, lambda: self._set(flown=None))
+        self.controls = ActuatorControls(context.gui, context.wake, lambda: self._set(**BY_HAND))
         self.texts = {**self.controls.texts, "actuator.pays": self._light}
         self.inputs = self.controls.inputs
 
@@ -61,7 +61,6 @@ class ActuatorPanel:
     def _set(self, **changes: Any) -> None:
         with self._lock:  # Widgets and presses have threads of their own.
             self._hand = replace(self._hand, **changes)
-        self.controls.stopped.value = self._hand.stopped
         self._context.wake()
 
     @property
@@ -125,7 +124,7 @@ class ActuatorPanel:
 
     def reset(self) -> None:
         """Nothing driven."""
-        self.controls.place({"drives": AT_REST})
+        self.perform(SetHand(BY_HAND, {"drives": AT_REST}))
 
     def _light(self, pays: bool) -> None:
         self._pays = pays

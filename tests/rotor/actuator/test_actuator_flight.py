@@ -59,7 +59,7 @@ def test_what_is_wanted_is_reached_within_the_range_and_cut_at_its_end(kind: str
     ends = np.where(flight.wanted < flight.reach[0], *flight.reach)
     assert_allclose(flight.reached[~inside], ends[~inside], atol=1e-6)
     assert not inside.all()
-    assert_allclose(flight.reach[1] - flight.reach[0], abs(verdict(kind).installed.rest_shapes[0, -1]), rtol=1e-9)
+    assert_allclose(flight.reach[1] - flight.reach[0], abs(verdict(kind).installed.shapes[0, -1]), rtol=1e-9)
 
 
 def test_voltages_make_the_reached_twist():

@@ -11,9 +11,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven, break_even, pay_sentence, suppose, with_mass
+from rotor.actuator.optimum import ConditionPair, best_actuated
+from rotor.actuator.pay import ENOUGH, BreakEven, break_even, other_stroke, pay_sentence, with_mass
 from rotor.actuator.tables import pay_table
+from rotor.actuator.verdict import try_actuator
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -48,25 +49,26 @@ def test_on_the_line_nothing_is_saved_and_nothing_lost(rotor: str, k: int):
     assert even.net(float(even.twists[k]), float(even.masses[k])) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_a_supposed_actuator_is_trimmed_and_has_a_band():
-    """Between the points of the line, against trims from nothing; nothing saves nothing, surely."""
-    even = line()
-    twist, mass = 0.3 * float(even.twists[-1]), 0.5 * float(even.masses[-1])
-    found = suppose(even.pair, even.rates_at(twist), mass)
-    powers = [
-        solve(with_mass(replace(design, twist=LinearTwist(rate)), mass)).power.total
-        for design, rate in zip(even.pair.designs(), even.rates_at(twist), strict=True)
-    ]
-    assert found.saving == pytest.approx(even.fixed_power - float(np.mean(powers)), abs=0.1)
-    assert found.saving == pytest.approx(even.net(twist, mass), abs=0.03 * even.ideal_saving)
-    assert found.fuel_saving is not None
-    assert found.fuel_saving * found.saving > 0.0
-    assert found.band is not None
-    assert found.band > 0.0
-    nothing = suppose(even.pair, even.rates_at(0.0), 0.0)
-    assert nothing.saving == pytest.approx(0.0, abs=0.1)
-    assert nothing.band == pytest.approx(0.0, abs=1.0)
-    assert even.rates_at(2.0 * float(even.twists[-1])) == even.rates_at(float(even.twists[-1]))
+def test_another_stroke_of_an_actuator_counts_as_its_verdict_counts():
+    """Its own stroke and mass save what the verdict says, twice the stroke what an optimum of twice its shapes does."""
+    design = make_design(inflow="drees", elements=16, azimuths=36)
+    for against in ("same-blade", "best-fixed"):
+        judged = try_actuator("MFC_P1", design, against=against)
+        other, mass, own = other_stroke(judged), judged.installed.masses.aircraft, judged.attainable
+        assert other.net(own, mass) == pytest.approx(judged.net_saving, abs=0.1)
+        assert other.net(0.0, 0.0) == pytest.approx(judged.reference_power - judged.resting.power, abs=0.1)
+        assert other.net(own, other.mass_allowed(own)) == pytest.approx(min(other.net(own, 0.0), 0.0), abs=0.1)
+        assert judged.mass_allowed == pytest.approx(other.mass_allowed(own), abs=0.1)
+        assert other.twist_for(1e4) is None
+        twice = replace(judged.installed, shapes=2.0 * judged.installed.shapes)
+        twice = replace(twice, rest_shapes=2.0 * twice.rest_shapes)
+        found = best_actuated(judged.baseline.pair, judged.baseline.concept, twice, starts=[judged.resting.values])
+        assert other.net(2.0 * own, 0.0) == pytest.approx(judged.reference_power - found.power, abs=20.0)
+        paid = 0.5 * float(other.saved[0] + other.saved[-1]) / other.per_kg
+        if paid > 0.0:
+            assert other.net(other.twist_for(paid) or 0.0, paid) == pytest.approx(0.0, abs=0.1)
+    with pytest.raises(ValueError, match="adds no mass"):
+        other_stroke(try_actuator("extension_twist", design))
 
 
 def test_mass_costs_what_momentum_theory_says():
