@@ -52,18 +52,18 @@ class ExportPanel(Tab):
         self._curves = PowerCurves()
         self._stale = False
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
-        makers = {
-            "Picture": (".png", self._picture),
-            "Report": ("-report.html", self._report),
-            "Tables": ("-tables.zip", self._tables),
-            "Design file": (".json", _design_file),
-            "Jig STL": ("-jig.stl", lambda state: blade_stl(state.solution.design)),
-        }
         with context.gui.add_folder("Export"):
-            group = context.gui.add_button_group("Export", tuple(makers), hint=hint("export"))
+            for name, ending, make in (
+                ("Picture", ".png", self._picture),
+                ("Report", "-report.html", self._report),
+                ("Tables", "-tables.zip", self._tables),
+                ("Design file", ".json", _design_file),
+                ("Jig STL", "-jig.stl", lambda state: blade_stl(state.solution.design)),
+            ):
+                button = context.gui.add_button(name, color="gray", hint=hint("export"))
+                button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))
             self._state = context.gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
-        group.on_click(lambda event: self._save(event.target.value, *makers[event.target.value]))
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
 
     def show(self, state: SessionState) -> None:

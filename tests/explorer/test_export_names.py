@@ -60,8 +60,8 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
     law = design.to_dict()["twist"]
     assert f'"twist": "{law}"' in page
     assert "segments:" not in law or page.count(law) == 1, "in the design file alone"
-    curve = PowerCurve(*np.ones((3, len(SWEEP))))
-    with zipfile.ZipFile(io.BytesIO(tables_zip(one, PLAIN, curve, 65.0))) as tables:
+    known = np.ones(len(SWEEP))
+    with zipfile.ZipFile(io.BytesIO(tables_zip(one, PLAIN, PowerCurve(known, known, known), 65.0))) as tables:
         assert tables.namelist() == ["disk.csv", "blade.csv", "power.csv"]
         for table in tables.namelist():
             assert f"twist {design.twist.spec()}" in tables.read(table).decode().splitlines()[0]
