@@ -165,7 +165,8 @@
     if (name === 'more') return;
     const open = page.dataset.rail === 'open' && !state.bar?.drawer;
     if (state.bar?.drawer) RX.send('drawer', '');
-    if (name === 'rail') openRail(!open); else showTab(name, beside() || !(open && page.dataset.tab === name));
+    if (name === 'rail') showTab('controls', !open);
+    else showTab(name, beside() || !open || page.dataset.tab !== name);
   }
   function showTab(name, wanted) {
     page.dataset.tab = name;
@@ -261,8 +262,7 @@
       <label><input type="checkbox" data-do="along" ${pinned.along ? 'checked' : ''}>Fly A at the current condition
       </label>      <button data-do="pin">Unpin</button>`;
     const {left, bottom} = button.getBoundingClientRect();
-    menu.style.top = `${bottom + 6}px`;
-    menu.style.left = `${clamp(left, 8, innerWidth - 300)}px`;
+    if (bottom) menu.style.cssText = `top: ${bottom + 6}px; left: ${clamp(left, 8, innerWidth - 300)}px`;
     if (menu.hidden) { menu.hidden = false; menu.querySelector('button').focus(); }
   }
 

@@ -26,13 +26,13 @@
         turn();
       },
       end() { pointer = null; if (byHand()) release(); },
+      escape(event) {
+        pointer = null;
+        if (!held || held.by === 'key') return;
+        event.stopPropagation();
+        release(true);
+      },
     };
-  }, true);
-  // A second finger is Esc.
-  addEventListener('pointerdown', event => {
-    if (event.isPrimary || !held || held.by === 'key') return;
-    event.stopPropagation();
-    release(true);
   }, true);
 
   // Twist less that at 0.75 R [°]: a line of the twist chart.

@@ -113,6 +113,22 @@ def test_messages_are_handled_on_arrival_and_drawn_once(watched: Watched):
     assert min(drawn for _, drawn in times) == 2, times
 
 
+def test_the_picture_shrinks_while_something_is_dragged(watched: Watched):
+    """In software a smaller picture keeps up with the hand; let go it is sharp again."""
+    page, width = watched.page, "() => __viserMutable.canvas.width"
+    sharp = watched.at_rest(lambda: page.evaluate(width))
+    thumb = watched.row("Adv. ratio").get_by_role("slider").bounding_box()
+    assert thumb is not None
+    page.mouse.move(thumb["x"] + 7, thumb["y"] + 7)
+    page.mouse.down()
+    page.mouse.move(thumb["x"] + 9, thumb["y"] + 7)
+    assert page.evaluate(width) == sharp  # No drag yet.
+    page.mouse.move(thumb["x"] + 14, thumb["y"] + 7)
+    page.wait_for_function(f"most => ({width})() <= most", arg=sharp / 2 + 1)
+    page.mouse.up()
+    page.wait_for_function(f"sharp => ({width})() === sharp", arg=sharp)
+
+
 @pytest.mark.slow
 def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
     """The client draws every second, which keeps a processor busy there: every fifth time is enough; no rotor turns."""
