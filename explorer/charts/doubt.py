@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
@@ -16,13 +15,9 @@ MOST_ROWS = 6
 
 
 def card_words(band: Doubt, units: Units) -> Sureness:
-    """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
-    unit = units.power[0]
-    within, percent = unit.of(band.band), band.change_band_percent
-    words = Sureness(f"± {number(within, decimals(within))}", doubt=band.sentence)
-    if band.change and percent:
-        return replace(words, change_within=f"± {number(percent, decimals(percent))}", sure=band.sureness or "")
-    return words
+    """Beside the power, its band; the sentence has that of the change too."""
+    within = units.power[0].of(band.band)
+    return Sureness(f"± {number(within, decimals(within))}", band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:

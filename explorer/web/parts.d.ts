@@ -41,8 +41,6 @@ interface RxPresses {
   back: any;
   undo: any;
   redo: any;
-  times: any;
-  pace: any;
   play: any;
   against: any;
   apply: any;
@@ -370,8 +368,6 @@ interface RxPackedTable {
 
 interface RxPowerPart {
   within: string;
-  change_within: string;
-  sure: string;
   doubt: string;
   status: RxStatus;
   total: string;
@@ -382,7 +378,7 @@ interface RxPowerPart {
   parts: RxShare[];
   ideal: number | null;
   ideal_title: string;
-  since: RxSince | null;
+  moved: string;
   rest: string;
   why: string;
   problem: string;
@@ -392,7 +388,6 @@ interface RxStatus {
   kind: 'converged' | 'care' | 'problem';
   words: string;
   title: string;
-  measured: string;
 }
 
 interface RxShare {
@@ -401,12 +396,6 @@ interface RxShare {
   value: string;
   share: number;
   title: string;
-}
-
-interface RxSince {
-  value: string;
-  words: string;
-  kind: '' | 'good' | 'bad';
 }
 
 interface RxRidePart {
@@ -483,7 +472,6 @@ interface RxSupposePart {
 interface RxTurnPart {
   psi: number;
   playing: boolean;
-  pace: string;
   held: boolean;
 }
 

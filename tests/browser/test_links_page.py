@@ -41,7 +41,7 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     page.reload()
     watched.ready()
     watched.until(lambda: holds(app, watched, BUILT))
-    page.get_by_role("button", name="Reset design").click()
+    page.keyboard.press("r")
     watched.until(lambda: holds(app, watched, OPENING))
     page.get_by_role("button", name="Undo").click()
     watched.until(lambda: holds(app, watched, BUILT))
