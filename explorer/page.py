@@ -159,7 +159,6 @@ class Page:
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
-        self.controls.reset_button.on_click(lambda _: self._reset())
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
@@ -260,7 +259,7 @@ class Page:
         """A converged state is what the page shows from now on."""
         tracker = self.context.tracker
         tracker.solved(state.inputs, state.solution.power.total, self._pause)
-        self.follower.memory = self.follower.memory.then(state, self._now.state, tracker.reference)
+        self.follower.memory = self.follower.memory.then(state, self._now.state)
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
 

@@ -15,9 +15,9 @@ MOST_ROWS = 6
 
 
 def card_words(band: Doubt, units: Units) -> Sureness:
-    """Beside the power, its band; beside its change, that of the change and whether its sign is known."""
+    """Beside the power, its band; the sentence has that of the change too."""
     within = units.power[0].of(band.band)
-    return Sureness(f"± {number(within, decimals(within))}", band.change_words, band.sentence)
+    return Sureness(f"± {number(within, decimals(within))}", band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:

@@ -118,7 +118,7 @@ def total_power_chart(
         note += f" Engines: {number(installed)} {unit.symbol} at sea level, less at altitude; losses of gearboxes and"
         note += " what the gearbox allows are not counted, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
-            value = f"least µ {mus[least]:.2f} · top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
+            value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [role_line("reference", mus, here.main_rotor)]
     y_range = held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan))
     return Chart(
@@ -161,7 +161,7 @@ def top_speed(mus: Array, power: Array, installed: float) -> float:
 
 
 def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart, float]:
-    """Power over µ with walls and two speeds of level flight, which are pressed; and the fastest µ before them.
+    """Power over µ with walls and two speeds of level flight; and the fastest µ before them.
 
     A wall is the power of the engines, or the last trim of the sweep. Endurance is longest where power is least, range
     where power over speed is, as long as fuel flow is proportional to power (Leishman, Principles of Helicopter
@@ -184,15 +184,13 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
                 marks.append((float(fine[k]), word))
     drawn = np.array(next(line.y for line in chart.series if isinstance(line, Line) and line.colour == SAVING))[known]
 
-    def pressed(mu: float, word: str) -> Points:
+    def mark(mu: float, word: str) -> Points:
         return Points(
             "",
             (mu,),
             (float(np.interp(mu, x, drawn)),),
             SAVING,
             "ring",
-            action="speed",
-            press=(f"{mu:.3f}",),
             words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",),
             names=(word,),
             size=3.5,
@@ -201,9 +199,12 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
 
     rules = [Rule(mu, label=word, colour=LOOKS["limit"][0]) for mu, word in walls]
     *lines, now = chart.series
-    series = (*lines, *(pressed(mu, word) for mu, word in marks), now)
+    series = (*lines, *(mark(*of) for of in marks), now)
     chart = replace(chart, series=series, rules=(*chart.rules, *rules))
     return chart, min((mu for mu, _ in walls), default=float(x[-1]))
+
+
+_ALONG = Axis("r/R", (0.1, 1.0), (0.1, 1.0), ("root", "tip"))
 
 
 def alpha_chart(
@@ -229,12 +230,7 @@ def alpha_chart(
     y_range = held_range(previous, min(low, -2.0), max(high, 14.0))
     limits = _mostly_seen([role_line("limit", r, limit) for limit in (lower, upper)], y_range)
     return Chart(
-        "Angle of attack",
-        Axis("r/R", (0.1, 1.0)),
-        Axis(f"° at ψ {azimuth_deg:.0f}°", y_range),
-        (*limits, *lines),
-        value=value,
-        note=note,
+        "Angle of attack", _ALONG, Axis("° on the red blade", y_range), (*limits, *lines), value=value, note=note
     )
 
 
@@ -249,7 +245,7 @@ def lift_chart(
     peak = float(solution.disk.r[np.argmax(lines[-1].y)])
     return Chart(
         "Lift",
-        Axis("r/R", (0.1, 1.0)),
+        _ALONG,
         Axis("kN/m per blade", held_range(previous, min(0.0, low), high)),
         tuple(lines),
         value=f"peak at {peak:.2f} R",

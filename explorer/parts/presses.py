@@ -70,7 +70,7 @@ class WavePress(_Fields):
 
 
 _ALONE = (
-    *("pin", "swap", "back", "undo", "redo", "times", "pace", "play", "apply", "discard"),
+    *("pin", "swap", "back", "undo", "redo", "play", "apply", "discard"),
     *("halt", "nearest", "aim", "taken", "beat", "rival_take", "rival_end"),
 )
 """Presses whose names say it all: what comes with them is not read."""

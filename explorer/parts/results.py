@@ -12,12 +12,11 @@ Kind = Literal["", "good", "bad"]
 
 @dataclass(frozen=True)
 class Status:
-    """The chip of the power card; `measured`: how well this rotor is validated here."""
+    """The chip of the power card."""
 
     kind: Literal["converged", "care", "problem"]
     words: str
     title: str
-    measured: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,20 +31,10 @@ class Share:
 
 
 @dataclass(frozen=True)
-class Since:
-    """The change since the grab, or from the reference."""
-
-    value: str
-    words: str
-    kind: Kind
-
-
-@dataclass(frozen=True)
 class Sureness:
-    """How sure the power and its change are: both bands, whether the sign is known, and all of it as a sentence."""
+    """How sure the power is: its band, and with that of its change as a sentence."""
 
     within: str = ""
-    sure: str = ""
     doubt: str = ""
 
 
@@ -53,8 +42,9 @@ class Sureness:
 class PowerPart(Sureness):
     """The power card.
 
-    `ideal`: least induced power at this lift, as a share of all parts. `rest`: in place of `since`, while nothing has
-    changed. `problem`: why there is no trim; the numbers are those of the last one.
+    `ideal`: least induced power at this lift, as a share of all parts. `moved`: the change of power from the reference,
+    `change` its per cent; `rest`: in place of both, while nothing has changed. `problem`: why there is no trim; the
+    numbers are those of the last one.
     """
 
     status: Status
@@ -66,7 +56,7 @@ class PowerPart(Sureness):
     parts: Sequence[Share] = ()
     ideal: float | None = None
     ideal_title: str = ""
-    since: Since | None = None
+    moved: str = ""
     rest: str = ""
     why: str = ""
     problem: str = ""

@@ -22,11 +22,10 @@ class SceneLabel:
 
 @dataclass(frozen=True)
 class TurnPart:
-    """The reference blade's azimuth [°], and how the rotor turns by itself. `held`: a presenter moves the page."""
+    """The reference blade's azimuth [°], and whether the rotor turns by itself. `held`: a presenter moves the page."""
 
     psi: float
     playing: bool
-    pace: str
     held: bool
 
 

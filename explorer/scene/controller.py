@@ -31,7 +31,7 @@ from rotor import Rotor, Solution
 Range = tuple[float, float]
 _WITHIN = False, False
 """No values beyond the colour range, as far as is known."""
-TURN_RATES = {"slow": math.radians(18.0), "normal": math.radians(54.0), "fast": math.radians(162.0)}
+TURN_RATE, BEHIND_RATE = math.radians(54.0), math.radians(162.0)
 """[rad/s] at which a played rotor turns; at the normal one flapping and pitching of one blade can be followed."""
 SURFACES = {
     f"{ROTOR}/blade_0": {"roughness": 0.55},
@@ -93,7 +93,7 @@ class PageScene:
     def spin(self, spinning: bool) -> None:
         """Let the page turn the rotor by itself where nothing else does, or no more."""
         if spinning != self._spun:
-            call(self._client, "rotorScene.spin", TURN_RATES["fast"] if spinning else 0.0)
+            call(self._client, "rotorScene.spin", BEHIND_RATE if spinning else 0.0)
         self._switch(self._played, spinning)
 
     def _switch(self, played: bool, spun: bool) -> None:

@@ -25,7 +25,7 @@ from explorer.parts.frame import StepAnswer, StepControl, StepPart
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import Cover, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
-from explorer.scene.controller import SURFACES, TURN_RATES
+from explorer.scene.controller import SURFACES, TURN_RATE
 from explorer.scene.scene import COMPARED, ROTOR
 from explorer.scene.still_scene import embedded_viewer, point_record, shape_record, still_page
 from explorer.story.facts import Facts, StepChart, facts_of
@@ -139,7 +139,7 @@ def story_html(
         "points": points.records,
         **shape_record(blade_shape(first.design.rotor)),
         "surfaces": SURFACES,
-        "rate": TURN_RATES["slow"],
+        "rate": TURN_RATE / 3.0,
     }
     field = FIELDS[steps[0].field]
     opening = replace(view_of(steps[0], view), wake=False)

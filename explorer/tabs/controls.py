@@ -85,7 +85,6 @@ class DesignControls:
                 form.box(name, ROWS[name].title, getattr(start, name))
                 self._costs[name] = gui.add_html("")
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
-        self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         bridge.on("rotor", self._choose_rotor)
         bridge.on("flown", self._set_measured)
         bridge.on("speed", self._set_speed)
@@ -103,7 +102,7 @@ class DesignControls:
         self._held = held
         self._form.hold(held)
         self.stand.form.hold(held)
-        self.reset_button.disabled = self.optimise_button.disabled = held
+        self.optimise_button.disabled = held
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
@@ -159,7 +158,7 @@ class DesignControls:
                 self._form.translate(units, lambda name: slider(name, units, aircraft))
             shown = inputs if self._own is None else self._special
         law, tested = LAWS[shown.law].inputs, inputs.stand is not None
-        self._form.show({name: name in law for name in _LAW_INPUTS})
+        self._form.show({name: name in law and name not in shown.idle for name in _LAW_INPUTS})
         counting = [name for name, row in FLIGHT.items() if inputs.counts(row) and not (tested and row.in_place)]
         folded = [name for name in counting if name not in _ALWAYS and getattr(shown, name) == FLIGHT[name].default]
         in_sight = set(counting) if self._more else set(counting) - set(folded)
@@ -167,7 +166,7 @@ class DesignControls:
         chosen = tested or shown.aircraft.isolated
         self.stand.form.show({"trim": self._more or chosen})
         self._fold.content = _fold(folded, self._more, chosen)
-        self._form.disable({name: self._held or name in shown.idle for name in law})
+        self._form.disable(dict.fromkeys(law, self._held))
         if self._own is None:
             self.stand.follow(inputs)
         self._speed.content = _flight_heading(inputs.advance_ratio * inputs.tip_speed, units, tested)

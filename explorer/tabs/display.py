@@ -13,13 +13,10 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.stage import FieldPart, TurnPart
 from explorer.picture.fields import FIELDS, Field, fields_of
-from explorer.scene.controller import TURN_RATES
 from rotor.chart import bar_ticks
 
 REGIONS = ("stall", "reverse_flow", "wake", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
-TIMES = (1.0, 2.0, 4.0)
-"""How many times its twist a blade may be drawn with."""
 _COLOURS = 17
 
 
@@ -36,7 +33,7 @@ class Display:
         self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
         self._allowed = self._held = self._playing = self._fitted = self._faded = False
-        self._pace, self._stalled = "normal", ""
+        self._stalled = ""
         self._fields = list(FIELDS)
         self._range: tuple[Field, tuple[float, float]] | None = None
         self._beyond = (False, False)
@@ -44,17 +41,10 @@ class Display:
         bridge.on("region", self._switch_region)
         bridge.on("difference", lambda way: self._change(difference=way == "on" and self._allowed))
         bridge.on("azimuth", self._turn_by_hand)
-        bridge.on("times", lambda _: self._next_times())
-        bridge.on("pace", lambda _: self._next_pace())
         self._show_turn()
 
     def view(self) -> ViewState:
         return self._view
-
-    @property
-    def turn_rate(self) -> float:
-        """At which the rotor turns by itself [rad/s]."""
-        return TURN_RATES[self._pace]
 
     def set_view(self, view: ViewState) -> None:
         with self._lock:
@@ -122,21 +112,12 @@ class Display:
         if name in REGIONS or (name == "wipe" and self._allowed):
             self._change(**{name: not getattr(self._view, name)})
 
-    def _next_times(self) -> None:
-        later = [times for times in TIMES if times > self._view.exaggeration]
-        self._change(exaggeration=later[0] if later else TIMES[0])
-
-    def _next_pace(self) -> None:
-        paces = list(TURN_RATES)
-        self._pace = paces[(paces.index(self._pace) + 1) % len(paces)]
-        self._show_turn()
-
     def _turn_by_hand(self, azimuth_deg: float) -> None:
         if not self._held:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        self._bridge.set(turn=TurnPart(self._view.azimuth_deg, self._playing, self._pace, self._held))
+        self._bridge.set(turn=TurnPart(self._view.azimuth_deg, self._playing, self._held))
 
     def _show_field(self) -> None:
         if self._range is None:

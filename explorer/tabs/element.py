@@ -53,11 +53,6 @@ class Blend:
         pair = ((self.inner, 1.0 - self.weight), (self.outer, self.weight))
         return tuple((section, share) for section, share in pair if share > 0.0)
 
-    @property
-    def main(self) -> Section:
-        """The one with the larger share."""
-        return self.inner if self.weight < 0.5 else self.outer
-
     def moment(self, alpha: float, mach: float) -> float | None:
         """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
         total = 0.0
@@ -109,8 +104,6 @@ class Probe:
     section: Blend
     theta: float
     """Pitch with twist."""
-    jig: float
-    """Twist as built."""
     elastic: float | None
     """Elastic twist; None for a rigid blade."""
     phi: float
@@ -130,8 +123,6 @@ class Probe:
     cd: float
     cm: float | None
     """About the quarter chord, nose-up positive; None where the section data have no moment."""
-    moment: float | None
-    """Pitching moment as a load [N m per m]."""
     lift: float
     """Normal to the flow, tip and root loss taken off [N/m]."""
     drag: float
@@ -155,16 +146,6 @@ class Probe:
     def u(self) -> float:
         """Resultant velocity at the section [m/s]."""
         return math.hypot(self.u_t, self.u_p)
-
-    @property
-    def torque(self) -> float:
-        """About the shaft [N m per m]."""
-        return self.pull * self.radius
-
-    @property
-    def m2cn(self) -> float:
-        """M² c_n, the normal force of one chord's width over γp/2."""
-        return self.mach**2 * (self.cl * math.cos(self.alpha) + self.cd * math.sin(self.alpha))
 
     @property
     def stall_margin(self) -> float | None:
@@ -208,7 +189,6 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     if cm is not None and unsteady is not None:
         cm += at.held(unsteady.moment)
     idle = u_t < 0.0 and not design.models.reverse_flow
-    pressure = 0.5 * design.condition.density * (u_t**2 + u_p**2) * speed**2
     return Probe(
         r=r,
         psi=psi,
@@ -216,7 +196,6 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         chord=chord,
         section=section,
         theta=theta,
-        jig=float(design.twist([r])[0]),
         elastic=None if disk.elastic_twist is None else at.reaching(disk.elastic_twist),
         phi=phi,
         alpha=alpha,
@@ -228,7 +207,6 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         cl=at.held(disk.cl),
         cd=at.held(disk.cd),
         cm=None if idle else cm,
-        moment=None if cm is None or idle else pressure * chord**2 * cm,
         lift=thrust * math.cos(phi) + pull * math.sin(phi),
         drag=pull * math.cos(phi) - thrust * math.sin(phi),
         thrust=thrust,

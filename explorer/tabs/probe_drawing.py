@@ -263,26 +263,15 @@ def _times(factor: int) -> str:
 
 def _table(probe: Probe) -> Markup:
     margin = probe.stall_margin
-    efficiency = probe.cl / probe.cd if probe.cd > 0.0 else None
     entries = (
         ("probe_u_t", "Tangential U_T", f"{number(probe.u_t, 1)} m/s"),
         ("probe_mach", "Mach", number(probe.mach, 3)),
-        ("probe_u_p", "Perpendicular U_P", f"{number(probe.u_p, 1)} m/s"),
-        ("probe_cl", "C_l", number(probe.cl, 3)),
         ("probe_induced", "Induced v_i", f"{number(probe.induced, 1)} m/s"),
-        ("probe_cd", "C_d", number(probe.cd, 4)),
-        ("probe_theta", "Pitch θ", degrees(probe.theta)),
-        ("probe_ratio", "C_l/C_d", number(efficiency, 1)),
-        ("probe_phi", "Inflow φ", degrees(probe.phi)),
-        ("probe_m2cn", "M²C_n", number(probe.m2cn, 3)),
-        ("probe_moment", "Pitching moment", "–" if probe.moment is None else f"{number(probe.moment)} N m/m"),
-        ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
+        ("probe_cl", "C_l", number(probe.cl, 3)),
         ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
-        ("probe_drag", "Drag", f"{number(probe.drag)} N/m"),
-        ("probe_thrust", "Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
-        ("probe_torque", "Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
-        ("probe_jig", "Jig twist", degrees(probe.jig)),
+        ("probe_cd", "C_d", number(probe.cd, 4)),
         ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
+        ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
         ("probe_section", "Section", sections_of(probe.section)),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )

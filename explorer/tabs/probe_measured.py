@@ -14,7 +14,6 @@ from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import MEASURED, tip
 from explorer.text.readout import dash
 from rotor import Solution
-from rotor.airfoil.public_points import SOURCES, points_near
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series, drawn_chart
 from rotor.markup import Markup, group, tag
@@ -27,7 +26,7 @@ HEIGHT = 92.0
 
 
 def lift_chart(probe: Probe) -> Chart:
-    """C_l over α of this section at this Mach number, both stall angles, public points, and where the element is.
+    """C_l over α of this section at this Mach number, both stall angles, and where the element is.
 
     With dynamic stall also the way of the element around the disk, at its own Mach numbers.
     """
@@ -43,18 +42,7 @@ def lift_chart(probe: Probe) -> Chart:
     reached = [float(curve.min()), float(curve.max()), probe.cl, *loop[1, inside].tolist()]
     bottom, top = min(-1.0, *reached), max(1.6, *reached)
 
-    section = probe.section.main
-    points = [point for point in points_near(section.name, probe.table_mach) if low < math.degrees(point.alpha) < high]
-    public = Points(
-        "",
-        [math.degrees(point.alpha + section.incidence_offset) for point in points],
-        [point.cl for point in points],
-        "var(--rx-dim)",
-        "ring",
-        words=[SOURCES[point.source] for point in points],
-        size=2.6,
-    )
-    series: list[Series] = [Line("", alpha, curve, LIFT, width=1.8), public]
+    series: list[Series] = [Line("", alpha, curve, LIFT, width=1.8)]
     if inside.any():  # A line that is broken where the element is out of the picture.
         turn = np.where(inside, loop, np.nan)[:, [*range(loop.shape[1]), 0]]
         series.append(Line("a turn", loop[0, [*range(loop.shape[1]), 0]], turn[1], NOW, width=1.6))

@@ -18,7 +18,7 @@ from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist, rotate
-from explorer.scene.controller import SceneController
+from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.tabs.context import Player, Tab, TabContext
 from explorer.tabs.element import Probe, Ride, probe
 from explorer.tabs.layout import COARSE, by_hand
@@ -270,7 +270,7 @@ class ProbePanel(Tab):
             if (self._walked is not None and now != self._walked) or self._left <= 0.0:
                 self._pause()  # The user has taken the blade, or gone.
                 return
-            self._walked = (now + math.degrees(self._context.display.turn_rate) * seconds) % 360.0
+            self._walked = (now + math.degrees(TURN_RATE) * seconds) % 360.0
             self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:

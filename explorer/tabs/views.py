@@ -98,6 +98,10 @@ class TopBar:
             self._context.wake()
 
 
+_TIMES = {f"×{times:g}": times for times in (1.0, 2.0, 4.0)}
+"""How many times its twist a blade may be drawn with."""
+
+
 class SettingsPanel(Tab):
     def __init__(self, context: TabContext) -> None:
         self._context, gui, bind = context, context.gui, context.keyboard.bind
@@ -105,8 +109,10 @@ class SettingsPanel(Tab):
         self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
+        self._times = gui.add_dropdown("Twist drawn", tuple(_TIMES), hint=hint("times"))
         by_hand(self._units, lambda title: self._change(units=title))
         by_hand(self._dark, lambda dark: self._change(dark=dark))
+        by_hand(self._times, lambda title: self._change(exaggeration=_TIMES[title]))
         self._big.on_update(lambda _: self._enlarge())
         words = tag("p", "Keys: press ", tag("b", "?"), " for the list, Ctrl+K to find a command.")
         gui.add_html(tag("div.rx.rx-dim.rx-small", words))
@@ -118,6 +124,7 @@ class SettingsPanel(Tab):
     def show(self, state: SessionState) -> None:
         """Follow the view, which keys change too."""
         self._units.value, self._dark.value = state.view.units, state.view.dark
+        self._times.value = f"×{state.view.exaggeration:g}"
 
     def _change(self, **values: object) -> None:
         display = self._context.display

@@ -49,22 +49,6 @@ class Hand:
     place: tuple[float, float] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Counted:
-    """The solutions that the change since a grab lies between, and the power of the one before it [W]."""
-
-    before: Solution | None = None
-    last: Solution | None = None
-    power: float | None = None
-
-    def then(self, solution: Solution, reference: float | None) -> "Counted":
-        """With one more; `reference`: power before the grab [W], as `PowerTracker` has it."""
-        before = self.before
-        if reference != self.power:
-            before = solution if reference == solution.power.total else self.last
-        return Counted(before, solution, reference)
-
-
 @dataclass(frozen=True)
 class HeldStation:
     """The station of the blade that is in the hand, and its twist of least power with that power in W, once known."""
@@ -77,20 +61,15 @@ class HeldStation:
 class Memory:
     """What is remembered from one update to the next."""
 
-    counted: Counted = Counted()
     ranges: Mapping[str, Range] = field(default_factory=dict[str, Range])
     """Axes of charts, which hold as long as they serve."""
     latest: Mapping[str, Any] = field(default_factory=dict[str, Any])
     """The last result of the page's own work, by its name: it stands until that of the present design is known."""
 
-    def then(self, state: SessionState, last: SessionState | None, reference: float | None) -> "Memory":
-        """After a converged state and the `last` before it; `reference`: as in `Counted.then`.
-
-        What is known of one rotor says nothing of another.
-        """
+    def then(self, state: SessionState, last: SessionState | None) -> "Memory":
+        """After a converged state and the `last` before it: what is known of one rotor says nothing of another."""
         same = last is not None and last.inputs.aircraft == state.inputs.aircraft
-        counted = self.counted.then(state.solution, reference)
-        return replace(self, counted=counted, latest=self.latest if same else {})
+        return self if same else replace(self, latest={})
 
 
 @dataclass(frozen=True, eq=False)

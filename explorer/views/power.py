@@ -7,7 +7,7 @@ from typing import Any
 from explorer.charts.doubt import card_words
 from explorer.model.session_state import SessionState
 from explorer.model.units import BLANK, UNITS, Units, number
-from explorer.parts.results import HandPart, Kind, PowerPart, Share, Since, Status, Sureness
+from explorer.parts.results import HandPart, Kind, PowerPart, Share, Status, Sureness
 from explorer.text.design_words import against
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
@@ -31,7 +31,7 @@ def power_card(now: Now) -> dict[str, Any]:
     if state is None:
         card = PowerPart(status=Status("problem", "no trim", now.problem))
     else:
-        card = replace(_numbers(state, now.units), **_change(now, state), **vars(sureness(now)))
+        card = replace(_numbers(state, now.units), **_change(state, now.units), **vars(sureness(now)))
     if now.problem:
         # The button may find another.
         sentence = re.sub(r" The nearest trim found is at .*?\.(?= |$)", "", now.problem)
@@ -41,28 +41,19 @@ def power_card(now: Now) -> dict[str, Any]:
 
 
 def sureness(now: Now) -> Sureness:
-    """How sure the numbers are. While the design moves the band of the step before stays; the sign of the change, which
-    may have turned, is not told."""
+    """How sure the power is. While the design moves the band of the step before stays."""
     asked = doubted(now)
-    found, current = now.latest(asked[0]) if asked else (None, True)
-    if found is None:
-        return Sureness()
-    words = card_words(found, now.units)
-    return words if current else Sureness(words.within, doubt=words.doubt)
+    found = now.latest(asked[0])[0] if asked else None
+    return Sureness() if found is None else card_words(found, now.units)
 
 
-def _change(now: Now, state: SessionState) -> dict[str, Any]:
-    """Change since the grab, else from the reference, and why."""
-    solution, reference, pinned, units = state.solution, state.reference, state.pinned is not None, now.units
-    change, before, words = now.change, now.memory.counted.before, "since grabbed"
-    if change is None or before is None:
-        if solution.design == reference.design or not reference.converged:
-            return {"rest": "same as A" if pinned else "as built", "why": "Pull the blade tip up or down."}
-        change, before = solution.power.total - reference.power.total, reference
-        words = "vs. A" if pinned else "vs. as built"
-    value = units.watts(change, fineness(solution.power), sign=True)
-    since = Since(value, words, _kind(change, solution.power.total))
-    return {"since": since, "why": why(before, solution, units)}
+def _change(state: SessionState, units: Units) -> dict[str, Any]:
+    """Change from the reference, and why."""
+    solution, reference = state.solution, state.reference
+    if solution.design == reference.design or not reference.converged:
+        return {"rest": "same as A" if state.pinned else "as built", "why": "Pull the blade tip up or down."}
+    change = solution.power.total - reference.power.total
+    return {"moved": units.watts(change, fineness(solution.power), sign=True), "why": why(reference, solution, units)}
 
 
 def _numbers(state: SessionState, units: Units) -> PowerPart:
@@ -100,7 +91,7 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
 
 
 def _status(state: SessionState) -> Status:
-    """The chip: trimmed, or engines, stalled area, number of caveats; and how well this rotor is validated here."""
+    """The chip: trimmed, or engines, stalled area, number of caveats; its title says how well it is validated."""
     reasons = cautions(state.solution, state.pinned)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
@@ -116,8 +107,8 @@ def _status(state: SessionState) -> Status:
         words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
     else:
         title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
-        return Status("converged", "trimmed", title, record.words)
-    return Status("care", words, title, record.words)
+        return Status("converged", "trimmed", title)
+    return Status("care", words, title)
 
 
 def _kind(change: float, total: float) -> Kind:

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
-from explorer.model.inputs import Inputs
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
 from explorer.model.units import Units
 from explorer.parts.results import Worth
@@ -46,19 +45,17 @@ def worth(now: Now) -> dict[str, Any]:
     (gradient, of_now), (flight, flight_of_now) = map(now.latest, asked)
     if gradient is not None and state.solution.design == state.inputs.design():
         for name, one in twist_sensitivities(state.inputs, gradient).items():
-            rows[name] = worth_row(state.inputs, one, now.units, stale=not of_now)
+            rows[name] = worth_row(one, now.units, stale=not of_now)
     for name, one in (flight or {}).items():
-        rows[name] = worth_row(state.inputs, one, now.units, stale=not flight_of_now)
+        rows[name] = worth_row(one, now.units, stale=not flight_of_now)
     return {"worth": rows}
 
 
-def worth_row(inputs: Inputs, sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> Worth:
+def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> Worth:
     """The change of power by a step up, with its sign, and which way saves."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
     way = ways[sensitivity.saving_direction]
     value = sensitivity.value_text(units) if way else "no effect"
-    if sensitivity.name in inputs.idle:
-        value = "no effect without a change of twist"
     title = SLIDERS[sensitivity.name].label.partition(" [")[0]
     step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"

@@ -5,7 +5,7 @@
   const coloured = kind => kind ? `rxf-${kind}` : '';
 
   RX.paint('power', power => {
-    const card = part('power'), {problem, since, status, parts} = power;
+    const card = part('power'), {problem, moved, status, parts} = power;
     card.toggleAttribute('data-faded', Boolean(problem));
     const widths = parts.map(({share}) => Math.max(share, 0));
     const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
@@ -16,31 +16,26 @@
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const spoken = parts.map(one => `${one.name} ${one.value}`);
-    const change = `<div class="rxf-sub rxf-num" ${since ? '' : 'hidden'}>
+    const change = `<div class="rxf-sub rxf-num" ${moved ? '' : 'hidden'}>
       <span data-explorer="change" class="${coloured(power.kind)}">${text(power.change)}</span> vs.
       <span data-explorer="against">${text(power.against)}</span></div>`;
-    const latest = since
-      ? `<span class="${coloured(since.kind)}">${text(since.value)}</span> <small>${text(since.words)}</small>`
-      : `<span>${text(power.rest)}</span>`;
     const problemOrChange = problem
       ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
         <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
-      : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${latest}</div>
+      : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="moved">
+        <span class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span></div>${change}
         <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
     card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
         <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
         <small data-explorer="within">${text(power.within)}</small></div>
-      ${since ? '' : '<div class="rxf-sub">total power</div>'}${change}
-      <div class="rxf-sub rxf-num" data-explorer="sure" title="${text(power.doubt)}" ${power.sure ? '' : 'hidden'}>
-        ${text(power.sure)}</div></div>
+      <div class="rxf-sub">total power</div></div>
       <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
         <div>${bars}${ideal}</div><dl>${key}</dl></div>
       <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
         data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}">
-        <span>${text(status.words)}<small data-explorer="validated" ${status.measured ? '' : 'hidden'}>
-          ${text(status.measured)}</small></span></button>`;
+        <span>${text(status.words)}</span></button>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
     if (why) {
@@ -138,17 +133,15 @@
     const card = document.querySelector('.rxf-field');
     card.hidden = !field;
     if (!field) return;
-    const [menu, fit] = ['select', '.rxf-fit'].map(name => card.querySelector(name));
+    const menu = card.querySelector('select'), scale = part('scale');
     const {regions, difference, wipe} = field;
     write(menu, field.fields.map(name => `<option>${text(name)}</option>`).join(''));
     if (menu.value !== field.field) menu.value = field.field;
     menu.disabled = field.held;
     part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
-    part('scale').className = field.faded ? 'rxf-faded' : '';
-    write(part('scale'), Charts.bar(field.colours, field.ticks, field.beyond));
-    fit.dataset.value = field.fitted ? 'Default' : 'Rescale';
-    fit.textContent = field.fitted ? 'Reset' : 'Fit';
-    fit.ariaLabel = field.fitted ? 'Reset the colour range' : 'Fit the colour range';
+    scale.className = field.faded ? 'rxf-faded' : '';
+    scale.title = `Double click: ${field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)'}`;
+    write(scale, Charts.bar(field.colours, field.ticks, field.beyond));
     const shares = Object.fromEntries((plan?.regions ?? []).map(({name, words}) => [name, words.split(' · ')[0]]));
     const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {
       const stall = name === 'stall', share = text(plan ? shares[name] ?? '' : stall && field.stalled || '');
@@ -164,14 +157,14 @@
     write(part('legend'), key.join(''));
   });
 
+  part('scale').addEventListener('dblclick', () => RX.send('colours', RX.state.field.fitted ? 'Default' : 'Rescale'));
+
   RX.paint('turn', turn => {
     const row = document.querySelector('.rxf-turn'), slider = row.querySelector('input');
-    const [button, pace] = ['play', 'pace'].map(name => row.querySelector(`[data-do=${name}]`));
+    const button = row.querySelector('[data-do=play]');
     if (document.activeElement !== slider || turn.playing) slider.value = String(turn.psi);
     slider.disabled = turn.held;
     row.querySelector('output').textContent = `ψ ${Math.round(turn.psi)}°`;
-    pace.textContent = turn.pace;
-    pace.ariaLabel = `Speed of the turning rotor: ${turn.pace}`;
     write(button, RX.icon(turn.playing ? 'pause' : 'play'));
     button.ariaLabel = turn.playing ? 'Stop the rotor' : 'Turn the rotor';
   });

@@ -5,12 +5,15 @@ const Charts = (() => {
   const {text, clamp, lerp, distance, trace, closest} = Common;
   const digits = value => (value < 0 ? '−' : '')
     + Math.abs(value).toLocaleString('en', {maximumFractionDigits: Math.abs(value) < 10 ? 3 : 1, useGrouping: false});
+  // Numbers between the ends of an axis wait, where there are many charts, for the pointer: `data-between`.
+  const between = (k, ticks) => k > 0 && k < ticks.length - 1 ? ' data-between' : '';
   // A colour bar with its ticks; the triangles at its ends are for values beyond it.
   const bar = (colours, ticks, beyond = [true, true]) => {
     const triangle = end =>
       `<i style="background:${colours.at(-end)};visibility:${beyond[end] ? 'visible' : 'hidden'}"></i>`;
-    const words = ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`);
-    return `<div class="rxf-grad" title="Triangles: values beyond the range">${triangle(0)}
+    const words = ticks.map(([at, word], k) =>
+      `<span style="left:${at}%" ${between(k, ticks)}>${text(word)}</span>`);
+    return `<div class="rxf-grad">${triangle(0)}
       <i style="background:linear-gradient(90deg,${colours.join()})"></i>${triangle(1)}</div>
       <div class="rxf-ticks rxf-num">${words.join('')}</div>`;
   };
@@ -31,8 +34,6 @@ const Charts = (() => {
     const x = axis(chart.x, left, width - right), y = axis(chart.y, base, top);
     return {X: x.to, Y: y.to, atX: x.back, atY: y.back, left, right: width - right, top, base, width, height};
   }
-  // Numbers between the ends of an axis wait, where there are many charts, for the pointer: `data-between`.
-  const between = (k, ticks) => k > 0 && k < ticks.length - 1 ? ' data-between' : '';
   const rows = ({y: {ticks}}, {Y, left, right}) => ticks.map(([value, word], k) => `
     <path d="M${left} ${Y(value).toFixed(1)}H${right}" stroke="var(${value === 0 ? '--rx-faint' : '--rx-grid'})"/>
     <text x="${left - 6}" y="${(Y(value) + 4).toFixed(1)}" text-anchor="end"${between(k, ticks)}>${text(word)}</text>`

@@ -291,24 +291,23 @@
     clearTimeout(telling);  // Below the veil at once, so that the camera stands when it lifts.
     telling = setTimeout(measureCover, page.classList.contains('rx-veiled') ? 0 : 120);
   }
-  const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-views', '.rxs-figures'];
+  const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-views', '.rxf-notice', '.rxs-figures'];
   function measureCover() {
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
-    const box = name => root.querySelector(name).getClientRects()[0], notice = box('.rxf-notice');
+    const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
     const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxs-figures'] : COVERING;
     const wide = cards.map(box).filter(card => card?.width > 0.28 * stage.width);
     wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
     const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
     const low = wide.filter(card => !high.includes(card));
-    if (notice?.width > 0.6 * stage.width) high.push(notice);  // A bar beside the subject does not move the camera.
     const usual = box('.rxf-power') && !small.matches ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0;
     const above = Math.max(usual, ...high.map(card => card.bottom - stage.top));
     const below = low.length ? stage.bottom - Math.min(...low.map(card => card.top)) : 0;
     RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
   }
   RX.paint('vibration', tellCover);
-  for (const name of [...COVERING, '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of COVERING) new ResizeObserver(tellCover).observe(root.querySelector(name));
   // The card of power grows with its words: what stands below it follows.
   const power = root.querySelector('.rxf-power');
   new ResizeObserver(() => {

@@ -59,7 +59,7 @@
       if (changed(cut)) drawn += shape(cut.ghost, 'class="rxf-ghost-cut"', ghostDatum);
       drawn += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${r}"`);
       if (k < last && (odd || k === last - 1)) return;  // Every other section has numbers, none beside the tip's.
-      drawn += `<text x="${x}" y="${height - 14}" text-anchor="middle"
+      drawn += `<text x="${x}" y="${height - 14}" text-anchor="middle" data-between
           style="fill:var(--rx-ink);font-weight:620;font-size:12px">${degrees(cut.theta)}</text>
         <text x="${x}" y="${height - 1}" text-anchor="middle" data-between>${r.toFixed(2)}</text>`;
     });
@@ -69,8 +69,7 @@
     const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>
-        <button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${times}${
-          times > 1 ? ', as in the scene' : ''}</button>
+        <span class="rxf-dim">twist ×${times}${times > 1 ? ', as in the scene' : ''}</span>
         <div class="rxf-key">${key(inset.name_hint, '', inset.name)}${
           ghost ? key(inset.ghost_hint, 'data-ghost', inset.ghost_name) : ''}<span>root ← r/R → tip</span></div></div>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist, ${of}: ${spoken}">${drawn}</svg>`;

@@ -42,8 +42,6 @@ interface RxPresses {
   back: any;
   undo: any;
   redo: any;
-  times: any;
-  pace: any;
   play: any;
   apply: any;
   discard: any;
@@ -388,7 +386,6 @@ interface RxPackedTable {
 
 interface RxPowerPart {
   within: string;
-  sure: string;
   doubt: string;
   status: RxStatus;
   total: string;
@@ -399,7 +396,7 @@ interface RxPowerPart {
   parts: RxShare[];
   ideal: number | null;
   ideal_title: string;
-  since: RxSince | null;
+  moved: string;
   rest: string;
   why: string;
   problem: string;
@@ -409,7 +406,6 @@ interface RxStatus {
   kind: 'converged' | 'care' | 'problem';
   words: string;
   title: string;
-  measured: string;
 }
 
 interface RxShare {
@@ -418,12 +414,6 @@ interface RxShare {
   value: string;
   share: number;
   title: string;
-}
-
-interface RxSince {
-  value: string;
-  words: string;
-  kind: '' | 'good' | 'bad';
 }
 
 interface RxRidePart {
@@ -500,7 +490,6 @@ interface RxSupposePart {
 interface RxTurnPart {
   psi: number;
   playing: boolean;
-  pace: string;
   held: boolean;
 }
 

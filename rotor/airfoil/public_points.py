@@ -57,11 +57,6 @@ def public_points(section: str) -> tuple[PublicPoint, ...]:
     )
 
 
-def points_near(section: str, mach: float) -> tuple[PublicPoint, ...]:
-    """The points whose Mach number is within 0.05 of `mach`: what a polar at that Mach number is drawn beside."""
-    return tuple(point for point in public_points(section) if abs(point.mach - mach) <= 0.05 + 1e-9)
-
-
 @dataclass(frozen=True)
 class SectionAgreement:
     """A section table beside the points kept aside, below stall."""

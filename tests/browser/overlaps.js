@@ -65,5 +65,6 @@
       if (above.matches('.rxf-card, .rxf-menu') && box.right > edge.right + 2) cut.push(`${node.textContent.trim().slice(0, 30)} in ${name(above)}`);
     }
   }
+  for (const {element} of shown) if (element.matches('input[inputmode]:not([type=hidden])') && /\d/.test(element.value)) numbers += 1;
   return {hit, outside, hidden, nameless, cut, narrow, free, numbers, controls: shown.length, disk: disk && Math.round(disk.width)};
 }

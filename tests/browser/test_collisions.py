@@ -91,10 +91,11 @@ def optimise(watched: Watched) -> States:
     begin.click()
     page.locator("[data-explorer=notice]").wait_for(state="visible")
     yield "while it searches", "3d"
-    page.get_by_role("button", name="Stop", exact=True).first.click()
-    page.wait_for_function("() => RX.state.notice?.actions.length && !RX.state.notice.text.startsWith('Searching')")
+    page.wait_for_function("() => /kW/.test(RX.state.notice?.text)", timeout=4 * WAIT)  # It has found a design.
+    page.locator("[data-part=notice] button").first.click()
+    page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing')", timeout=4 * WAIT)
     yield "after it", "3d"
-    page.get_by_role("button", name="Discard", exact=True).first.click()
+    page.locator("[data-part=notice] [data-do=discard]").click()
     watched.section("Map")
     page.get_by_role("button", name="Compute map").click()
     watched.reads("map-least", r"Least [\d\s.]+ kW at")

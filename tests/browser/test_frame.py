@@ -21,12 +21,12 @@ def middle(watched: Watched, selector: str) -> tuple[float, float]:
 
 def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit):
     watched = visit(size=SIZE)
-    for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("since", "as built")):
+    for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("moved", "as built")):
         watched.says(part, words)
     watched.says("prompt", "Pull the blade tip up or down")
     watched.press("Δ outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden")
-    watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since")))
+    watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW", watched.text("moved")))
     watched.page.get_by_role("button", name="Undo").click()
     watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'")
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
@@ -68,7 +68,7 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     watched.until_changed(lambda: watched.text("total-power"), before)
     outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
     assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
-    watched.reads("since", "since grabbed")
+    watched.reads("moved", r"^[+−]\d+ kW$")
     watched.answered()
     x, y = middle(watched, '[data-knot="1"]')
     page.mouse.move(x, y)
@@ -94,7 +94,7 @@ def pause(watched: Watched) -> None:
 
 
 @pytest.mark.slow
-def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(watched: Watched):
+def test_one_drag_of_a_slider_with_pauses_is_one_undo(watched: Watched):
     page = watched.page
     watched.answered()
     before = kilowatts(watched, "total-power")
@@ -105,20 +105,14 @@ def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(
     page.mouse.down()
     page.mouse.move(x - 40, y, steps=5)
     pause(watched)
-    shown = kilowatts(watched, "total-power") - before  # Of two rounded powers.
-    assert abs(kilowatts(watched, "since") - shown) <= 1
     page.mouse.move(x + 60, y, steps=5)
     pause(watched)
     page.mouse.move(x + 30, y, steps=3)
     page.mouse.up()
     pause(watched)
-    after = kilowatts(watched, "total-power")
-    assert after > before
-    assert watched.text("since").endswith("since grabbed")
-    assert abs(kilowatts(watched, "since") - (after - before)) <= 1  # Each is rounded by itself.
+    assert kilowatts(watched, "total-power") > before
     page.get_by_role("button", name="Undo").click()
     watched.until(lambda: kilowatts(watched, "total-power") == before)
-    assert "grabbed" not in watched.text("since")
 
 
 def test_why_names_the_cause(watched: Watched):

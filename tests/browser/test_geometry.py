@@ -89,8 +89,7 @@ def test_a_sentence_is_not_cut_and_moves_nothing(sized: Watched, size: tuple[int
     watched, page = sized, sized.page
     stands: list[object] = []
     for value, why in (("−1 kW", _WHY[0]), ("−9.2 kW", _WHY[1]), ("+128 kW", _WHY[2])):
-        since = {"value": value, "words": "since grabbed", "kind": ""}
-        page.evaluate("([since, why]) => RX.set({power: {...RX.state.power, since, why}})", [since, why])
+        page.evaluate("([moved, why]) => RX.set({power: {...RX.state.power, moved, why}})", [value, why])
         page.wait_for_function("why => document.querySelector('.rxf-why')?.title === why", arg=why)
         watched.drawn()
         stands.append(page.evaluate(_STANDS))

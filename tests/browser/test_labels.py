@@ -20,7 +20,7 @@ _FAULTS = """() => {
     return found.filter(r => r.width > 1 && r.height > 4); };
   const name = e => e.innerText.trim().replace(/\\s+/g, ' ').slice(0, 50);
   // What is one line by intention: a widget's label, a button, a tab, a row of a read-out.
-  for (const e of document.querySelectorAll('label, button, .rxf-chip small, [role=tab], .rx-line > span, .rx td')) {
+  for (const e of document.querySelectorAll('label, button, [role=tab], .rx-line > span, .rx td')) {
     if (!shown(e) || !name(e) || e.closest('.mantine-Notification-root')) continue;
     const rects = pieces(e);
     if (!rects.length) continue;

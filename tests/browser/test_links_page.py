@@ -45,7 +45,7 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
         watched.row(label).get_by_role("textbox").input_value() for label in ("Δ inboard [°/R]", "Break point [r/R]")
     ]
     assert shown == ["-2.0", "0.79"], "rounded, while the design is exact"
-    page.get_by_role("button", name="Reset design").click()
+    page.keyboard.press("r")
     watched.until(lambda: holds(app, watched, OPENING))
     page.get_by_role("button", name="Undo").click()
     watched.until(lambda: holds(app, watched, BUILT))

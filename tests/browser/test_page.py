@@ -37,9 +37,11 @@ def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.until(lambda: mu() == pytest.approx(fastest))
     assert page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]").inner_text() == "limit: engines"
     page.mouse.up()
-    watched.answered(wholly=True)
-    page.locator(".rxf-chart [data-do=speed]").first.click()
-    watched.until(lambda: 0.1 < mu() < 0.2)  # Endurance: where power is least.
+    page.mouse.move(*watched.at_rest(dot))
+    page.mouse.down()
+    page.mouse.move(x - 100, y, steps=4)
+    page.mouse.up()
+    watched.until(lambda: mu() < 0.9 * fastest)
     watched.answered(wholly=True)
     page.mouse.dblclick(*watched.at_rest(dot))
     watched.until(lambda: mu() == pytest.approx(fastest))
@@ -110,11 +112,10 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
 
 @pytest.mark.slow
 def test_the_card_says_how_sure_the_change_is(watched: Watched):
-    """Beside the power its band, below its change that of the change; what they consist of under *How far to trust*."""
+    """Beside the power its band; that of the change, and what they consist of, under *How far to trust this*."""
     page = watched.page
     watched.press("Δ outboard", "ArrowLeft", 5)
-    watched.until(lambda: re.fullmatch(r"± [0-9.]+ %: (sure|likely|cannot be told)", watched.text("sure")))
-    assert re.fullmatch(r"± \d+", watched.text("within"))
+    watched.until(lambda: re.fullmatch(r"± \d+", watched.text("within")))
     watched.drawer("trust")
     page.locator(".rx-doubt tr").first.wait_for()
     assert page.locator(".rx-doubt tr").count() >= 5

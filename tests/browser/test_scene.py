@@ -169,14 +169,3 @@ def test_the_scene_dresses_its_surfaces(watched: Watched):
             return head?.metalness === 0.55 && field?.depthWrite === false;
         }"""
     )
-
-
-def test_the_speed_of_play_is_chosen_beside_the_button(watched: Watched):
-    button = watched.page.locator(".rxf-turn [data-do=pace]")
-    names = []
-    for _ in range(3):
-        names.append(button.inner_text())
-        assert button.get_attribute("aria-label") == f"Speed of the turning rotor: {names[-1]}"
-        button.click()
-        watched.until_changed(button.inner_text, names[-1])
-    assert names == ["normal", "fast", "slow"]

@@ -12,16 +12,11 @@ from rotor.trim.doubt import Doubt, DoubtRow, OtherModels
 ROWS = tuple(DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 1e2 * (8 - k)) for k in range(8))
 
 
-def test_the_card_has_the_band_of_power_and_of_its_change():
-    words = card_words(Doubt(900e3, ROWS, against=905e3), SI)
-    assert words.within == "± 14"
-    assert words.sure == "± 0.16 %: sure"
-    assert card_words(Doubt(900e3, ROWS, against=905e3), AVIATION).within == "± 19"
-
-
-def test_without_a_change_there_is_the_band_of_power_alone():
-    words = card_words(Doubt(900e3, ROWS), SI)
-    assert (words.within, words.sure) == ("± 14", "")
+def test_the_card_has_the_band_of_power_and_that_of_its_change_as_a_sentence():
+    doubt = Doubt(900e3, ROWS, against=905e3)
+    assert (card_words(doubt, SI).within, card_words(doubt, AVIATION).within) == ("± 14", "± 19")
+    assert card_words(doubt, SI).doubt == doubt.sentence
+    assert "sure" in doubt.sentence
 
 
 @pytest.mark.parametrize("against", [None, 905e3])

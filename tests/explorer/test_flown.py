@@ -12,8 +12,6 @@ from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of, first_condition, measured_conditions
 from explorer.model.units import SI
 from explorer.sharing.share import code_of, inputs_from
-from explorer.tabs.element import probe
-from explorer.tabs.probe_drawing import probe_panel
 from explorer.tabs.probe_measured import beside_measured, correlation, measured_panel
 from explorer.text.readout import open_drag_area
 from explorer.text.status import cautions, validated
@@ -172,14 +170,6 @@ class TestAirloads:
     @pytest.mark.parametrize("inputs", [OPENING, with_rotor(OPENING, "bo105"), replace(GAZELLE, advance_ratio=0.0)])
     def test_none_in_hover_and_for_a_rotor_without(self, inputs: Inputs):
         assert beside_measured(solve(inputs.design()), 0.75) is None
-
-
-@pytest.mark.parametrize(
-    ("name", "source"), [("gazelle", "rotor table"), ("hart2", "section table of the HART II test")]
-)
-def test_the_probe_names_the_source_of_the_section_s_public_points(name: str, source: str):
-    solution = solve(with_rotor(OPENING, name).design())
-    assert source in probe_panel(probe(solution, 0.75, math.radians(65.0)), solution)
 
 
 def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():

@@ -18,7 +18,6 @@ from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.tabs.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe_measured import lift_chart
 from rotor.aero.switches import with_switches
-from rotor.chart import Points
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -81,8 +80,6 @@ def test_its_loads_add_up_to_the_trim(solution: Solution):
     assert_allclose(cell @ [p.thrust for p in all_of_them], solution.ct * design.thrust_unit, rtol=1e-12)
     shaft = (disk.r * disk.dr @ disk.dcq).sum() / len(disk.psi) * design.power_unit
     assert_allclose(cell @ [p.power for p in all_of_them], shaft, rtol=1e-12)
-    torque = cell @ [p.torque for p in all_of_them]
-    assert_allclose(torque * rotor.angular_speed, shaft, rtol=1e-12)
 
 
 @given(r=st.floats(0.14, 1.0), psi=st.floats(-7.0, 14.0))
@@ -97,11 +94,11 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, steady: Solution):
     assert_allclose(math.hypot(p.lift, p.drag), math.hypot(p.thrust, p.pull), rtol=1e-12)
     assert_allclose(p.thrust, p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi), atol=1e-9 * abs(p.lift) + 1e-9)
     assert p.cd > 0.0
-    assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, p.m2cn, *p.stall))
+    assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, *p.stall))
 
 
 def test_loads_are_the_coefficients_times_the_pressure(fast: Solution):
-    """q c C_l, q c C_d and q c² C_m by hand; the lifting line takes no loss factor off.
+    """q c C_l and q c C_d by hand; the lifting line takes no loss factor off.
 
     Radial friction and, in unsteady flow, apparent mass would add.
     """
@@ -112,10 +109,8 @@ def test_loads_are_the_coefficients_times_the_pressure(fast: Solution):
         p = probe(fast, float(disk.r[i]), float(disk.psi[j]))
         pressure = 0.5 * density * p.u**2 * p.chord
         assert_allclose((p.lift, p.drag), (pressure * p.cl, pressure * p.cd), rtol=1e-9, atol=1e-9)
-        assert p.cm is not None
-        assert p.moment == pytest.approx(pressure * p.chord * p.cm, rel=1e-12)
     thesis = solve(CASES["thesis"]).require()
-    assert probe(thesis, 0.75, 1.0).moment is None  # The document's polar has no moment.
+    assert probe(thesis, 0.75, 1.0).cm is None  # The document's polar has no moment.
 
 
 def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
@@ -221,15 +216,6 @@ class TestDrawing:
         panel = probe_panel(p, fast)
         assert "reverse flow" in panel
         assert "retreating side" in panel
-
-    def test_public_data_stand_beside_the_section(self, fast: Solution):
-        """RANS of SC1095 at Mach 0.5, 4 deg: C_l 0.631."""
-        p = replace(probe(fast, 0.9, math.radians(90.0)), table_mach=0.49, alpha=math.radians(4.2))
-        assert p.section.main.name == "sc1095"
-        _, public, *_ = lift_chart(p).series
-        assert isinstance(public, Points)
-        assert (4.0, 0.631) in [(round(x, 3), y) for x, y in zip(public.x, public.y, strict=True)]
-        assert len(public.x) == 7 + 3 + 4  # Points of Mach 0.45 and 0.5 between −15° and 20°.
 
     def test_the_point_lies_on_the_lift_curve(self, steady: Solution):
         """At a station exactly; between two as near as the stations are."""

@@ -108,7 +108,7 @@ class TestPowerChange:
             curve.design[:] = np.where((mus > 0.06) & (mus < 0.4), a / mus + b * mus**3, math.nan)
         plain = total_power_chart(curve, 0.2, 420e3)
         chart, fastest = with_speeds(plain, curve, design)
-        pressed = {one.names[0]: one.x[0] for one in chart.series if isinstance(one, Points) and one.action == "speed"}
+        pressed = {one.names[0]: one.x[0] for one in chart.series if isinstance(one, Points) and one.mark == "ring"}
         assert pressed == {
             "endurance": pytest.approx((a / (3.0 * b)) ** 0.25, abs=0.002),
             "range": pytest.approx((a / b) ** 0.25, abs=0.002),

@@ -167,12 +167,12 @@ def result(run: SearchRun, units: Units = SI) -> Markup:
     return _block(parts)
 
 
-def details(run: SearchRun, units: Units = SI) -> Markup:
-    """What the optimum is made of, how flat it is, and what else was found."""
+def details(run: SearchRun) -> Markup:
+    """What the optimum is made of, and how flat it is."""
     optimum = run.optimum
     if optimum is None or optimum.best is None:
         return Markup()
-    return _block(_optimum(optimum, run.concept, units), "details")
+    return _block(_optimum(optimum, run.concept), "details")
 
 
 def _block(parts: list[Markup], name: str = "found") -> Markup:
@@ -193,28 +193,18 @@ def _saving(title: str, power: float, reference: float | None, units: Units) -> 
     )
 
 
-def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
+def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
     best = optimum.best
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
-    doubts = {band.parameter: band for band in optimum.doubt_band}
     rows, notes = list[Content](), [optimum.message]
     if bands:
-        ranges = f"range within 0.1 % of the least power{'; by what is uncertain' if doubts else ''}"
-        rows.append(tag("tr.rx-dim.rx-small", tag("td.rx-num", ranges, colspan=4)))
+        rows.append(tag("tr.rx-dim.rx-small", tag("td.rx-num", "range within 0.1 % of the least power", colspan=4)))
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
         band, digits = bands.get(parameter.name), 1 if parameter.angular else 2
         reach = ""
         if band is not None:
             reach = f"{number(parameter.shown(band.low), digits)} … {number(parameter.shown(band.high), digits)}"
-        if (sure := doubts.get(parameter.name)) is not None:
-            reach += f"; {number(parameter.shown(sure.low), digits)} … {number(parameter.shown(sure.high), digits)}"
-            unit = parameter.shown_unit
-            moved = ((words, number(parameter.shown(by), digits, sign=True)) for words, by in sure.causes)
-            causes = ", ".join(
-                f"{words} {by} {unit}" for words, by in moved if by[0] in "+−"
-            )  # Else it rounds to none.
-            notes += [f"{parameter.title} is moved most by {causes}."] if causes else []
         rows.append(
             tag(
                 "tr",
@@ -228,9 +218,6 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:
         notes.append(f"Vibration index {number(best.index, 1)} %.")
-    others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
-    if others:
-        notes.append(f"Other {'minimum' if len(others) == 1 else 'minima'}: {', '.join(others)}.")
     return [tag("table", rows), tag("div.rx-dim.rx-small", " ".join(notes))]
 
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.airfoil.decks import DECK_MACH, smooth_cap, wave_drag, with_lost_suction
-from rotor.airfoil.public_points import agreement, points_near
+from rotor.airfoil.public_points import agreement
 from rotor.airfoil.sections import load_installed, load_section
 
 DECKS = ("sc1095", "sc1094r8", "naca0012", "naca63a015")
@@ -73,13 +73,6 @@ def test_zero_lift_moves_up_beyond_mach_08() -> None:
     """The deck lifts nothing at about +1 deg at Mach 0.9 and −0.4 deg at Mach 0.8."""
     zero = np.rad2deg(load_section("sc1095").zero_lift_alpha([0.8, 0.9]))
     assert_allclose(zero[1] - zero[0], 1.5, atol=0.1)
-
-
-def test_public_points_near_a_mach_number() -> None:
-    near = points_near("sc1095", 0.68)
-    assert {point.mach for point in near} == {0.7}
-    assert {point.source for point in near} == {"umd-net", "cr-166309"}
-    assert points_near("naca0012", 0.3) == ()
 
 
 @pytest.mark.parametrize("name", DECKS)
