@@ -138,11 +138,7 @@ class FittedCamera:
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following or self._held:
             return
-        if self._put is None:
+        if self._put is None or abs(camera.aspect / self._put[1] - 1.0) > _RESHAPED:
             self._aim(self._fit)
-            return
-        position, aspect, since = self._put
-        if abs(camera.aspect - aspect) > _RESHAPED * aspect:
-            self._aim(self._fit)
-        elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
+        elif time.monotonic() - self._put[2] > _SETTLES and np.linalg.norm(camera.position - self._put[0]) > _TAKEN:
             self._following = False
