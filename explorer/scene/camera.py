@@ -140,8 +140,5 @@ class FittedCamera:
     def _moved(self, camera: viser.CameraHandle) -> None:
         if not self._following or self._held:
             return
-        if self._put is None:
-            self._aim(self._fit)
-            return
-        if abs(camera.aspect - self._put) > _RESHAPED * self._put:
+        if self._put is None or abs(camera.aspect / self._put - 1.0) > _RESHAPED:
             self._aim(self._fit)

@@ -50,9 +50,10 @@
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
     const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
-    const alone = held && page.dataset.rubber !== 'curve' && RX.small.matches;  // Without a word around it.
-    const [left, right, top, bottom] = alone ? [12, 12, 12, 12] : wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
-      : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
+    const alone = held && RX.small.matches && page.dataset.rubber !== 'curve';  // No words.
+    const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
+      : wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
+        : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
     return {
       width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
       x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,

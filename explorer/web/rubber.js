@@ -74,7 +74,7 @@
     if (!blade || !viewer().camera || !viewer().canvas) return [middle, middle];
     const [canvas, stage] = [viewer().canvas, place].map(of => of.getBoundingClientRect());
     return [.12, 1].map(share => project(blade, [share * length, 0, 0]))
-      .map(({left, top}) => [left + canvas.left - stage.left, top + canvas.top - stage.top]);
+      .map(point => [point.left + canvas.left - stage.left, point.top + canvas.top - stage.top]);
   }
 
   RX.paint('rubber', grabbed => {
@@ -168,7 +168,7 @@
       + (shift > .6 ? drawArc(blade, best, point) + drawNumbers(blade, cuts, share, point) + drawScale(one) : '');
     page.style.setProperty('--rx-shown', String(Math.min(1, 1.6 * shift)));
     words.style.cssText = `left:${box.x + .5 * box.w}px;max-width:${box.w - 20}px`;
-    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, with Shift 1° · ← → another station · Enter keeps it · Esc takes it back'
+    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, Shift 1° · ← → another station · Enter keeps it · Esc takes it back'
       : finger ? ' lift the finger to keep · a second finger takes it back'
         : ` drawn ×${TIMES} · release to keep · Esc takes it back`;
     const station = RX.state.hand?.place ?? `${one.titles[one.at]} ${one.r.toFixed(2)} R`;
