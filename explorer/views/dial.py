@@ -40,7 +40,6 @@ _LEAST = 0.02
 _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
-UNMEASURED = "Not validated: we found no measured power benefit of active twist. Published savings are computed."
 _URGENCY, _LATER, _STILL = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
@@ -134,6 +133,16 @@ def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart
     )
 
 
+def validation_words() -> str:
+    """What the dial rests on."""
+    measured = [one.vibration_percent for one in programmes() if one.kind != "computed" and one.vibration_percent]
+    least, most = -max(high for _, high in measured), -min(low for low, _ in measured)
+    return (
+        "Not validated: we found no measured power benefit of active twist; published savings are computed. In wind "
+        f"tunnels blades with n/rev pitch or twist lost {number(least)} to {number(most)} % of their vibration."
+    )
+
+
 def _set_words(now: Now) -> str:
     """What these inputs have that the dial does not show: by file, link or measured condition too."""
     inputs = now.inputs
@@ -202,29 +211,19 @@ def _dot_words(dot: FrontDot) -> str:
 
 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
-    """The front beside what other programmes reached: with power where both belong to one input, else at the side."""
-    shown = [result for result in programmes() if result.vibration_percent is not None]
-    paired = [result for result in shown if result.together and result.power_change_percent is not None]
-    powers = [0.0, *(dot.power for dot in dots), *(result.power_change_percent or 0.0 for result in paired)]
-    low, high = math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6)
-    alone = [result for result in shown if result not in paired]
+    """The front beside what other programmes reached, where power and vibration belong to one input."""
+    shown = [result for result in programmes() if result.together and result.power_change_percent is not None]
+    powers = [0.0, *(dot.power for dot in dots), *(result.power_change_percent or 0.0 for result in shown)]
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
-    column = 0.09 * (high - low)
-    end = high + column * (len(alone) + 0.5)
-    ticks = tuple(at for at in round_ticks(low, high, 4) if at < high)
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
     line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
-    computed = [result for result in shown if result.kind == "computed"]
-    measured = [result for result in shown if result.kind != "computed"]
-    named = ("published, measured", measured), ("computed", computed)
-    published = [_published(label, results, high, column, alone) for label, results in named]
     best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
     return Chart(
         "Vibration by power",
-        Axis("power [%]", (low, end), (*ticks, 0.5 * (high + end)), (*map(tick_text, ticks), "vibration alone")),
+        Axis("power [%]", (math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6))),
         Axis("changes [%]", (-100.0, most), tuple(at for at in _VIBRATIONS if at < most)),
-        (*spreads, *published, *(best if dots else ())),
-        (Rule(high, colour=_FAINT, dashes=""), Rule(0.0, colour=_FAINT, dashes="")),
+        (*spreads, _published(shown), *(best if dots else ())),
+        (Rule(0.0, colour=_FAINT, dashes=""),),
     )
 
 
@@ -244,21 +243,14 @@ def _pressed(dots: Sequence[FrontDot], agreed: bool) -> Points:
     )
 
 
-def _published(
-    label: str, shown: Sequence[Programme], high: float, column: float, alone: Sequence[Programme]
-) -> Points:
-    """Programmes at their power, or where they are one of those `alone` in a column of its own beyond `high`."""
+def _published(shown: Sequence[Programme]) -> Points:
     ends = [result.vibration_percent or (0.0, 0.0) for result in shown]
-    places = [
-        high + column * (alone.index(result) + 0.75) if result in alone else result.power_change_percent or 0.0
-        for result in shown
-    ]
     return Points(
-        label,
-        places,
+        "published, computed",
+        [result.power_change_percent or 0.0 for result in shown],
         [0.5 * (low + high) for low, high in ends],
         "var(--rx-dim)",
-        "ring" if label == "computed" else "dot",
+        "ring",
         scatter=[0.5 * abs(high - low) for low, high in ends],
         words=[programme_words(result) for result in shown],
         size=4.5,

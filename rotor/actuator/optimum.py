@@ -88,14 +88,12 @@ def best_twist(
     design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: from these starts and no others."""
-    return _search(((design,), (1.0,)), concept, None, starts, alone=alone)
+    return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone)
 
 
-def best_fixed(
-    pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
-) -> TwistOptimum:
-    """The concept's fixed twist of least mean power; `alone`: from these starts and no others."""
-    return _search((pair.designs(), pair.shares), concept, None, starts, alone=alone)
+def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
+    """The concept's fixed twist of least mean power."""
+    return _search((pair.designs(), pair.shares, ()), concept, None, starts)
 
 
 def best_actuated(
@@ -108,35 +106,26 @@ def best_actuated(
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
     """Least mean power with the actuator, within its range times `scale`; `near`: trims to begin with, by condition."""
-    return _search((pair.designs(), pair.shares), concept, (installed, scale), starts, near=near)
+    return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
 
 
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
-    """Least power at one condition of a blade that keeps its twist, each swing within its bounds, (segments, 2).
-
-    near: a trim to begin with.
-    """
-    reached = _Task(((design,), (1.0,)), None, (installed, 1.0), bounds, [near]).descend(())
+    """Least power at one condition of a blade that keeps its twist; bounds of swings, (segments, 2); a trim near it."""
+    reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
 
 
-_Flights = tuple[tuple[Design, ...], tuple[float, ...]]
-"""Designs at their conditions, and the shares of time."""
+_Flights = tuple[tuple[Design, ...], tuple[float, ...], Sequence[Solution]]
+"""Designs at their conditions, the shares of time, and trims to begin with: one for each, or none."""
 _Fitted = tuple[InstalledActuator, float] | None
 """An actuator, and the part of its range that is used."""
 _AT_REST = (0.0, 0.0)
 
 
 def _search(
-    flights: _Flights,
-    concept: Concept,
-    fitted: _Fitted,
-    starts: Sequence[Sequence[float]],
-    *,
-    alone: bool = False,
-    near: Sequence[Solution] = (),
+    flights: _Flights, concept: Concept, fitted: _Fitted, starts: Sequence[Sequence[float]], *, alone: bool = False
 ) -> TwistOptimum:
     installed, driven = fitted and fitted[0], bool(fitted and fitted[1])
     if installed is not None and installed.host.kind == "retrofit":
@@ -144,12 +133,12 @@ def _search(
         if isinstance(installed.actuator, PiezoPly):
             low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
-        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), near) for ends in either]
+        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes)) for ends in either]
         jigs: list[Sequence[float]] = [()]
     else:
         segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
         bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
-        tasks, jigs = [_Task(flights, concept, fitted, bounds, near)], list(starts)
+        tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
             flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
@@ -166,16 +155,10 @@ class _Task:
     """One descent; each trim starts from the previous one."""
 
     def __init__(
-        self,
-        flights: _Flights,
-        concept: Concept | None,
-        fitted: _Fitted,
-        swings: Sequence[tuple[float, float]] | Array,
-        near: Sequence[Solution] = (),
+        self, flights: _Flights, concept: Concept | None, fitted: _Fitted, swings: Sequence[tuple[float, float]] | Array
     ) -> None:
-        """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition.
-        near: trims to begin with, by condition."""
-        (self.designs, self.shares), self.concept = flights, concept
+        """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
+        (self.designs, self.shares, near), self.concept = flights, concept
         self.trims: list[Solution | None] = [*near] or [None] * len(self.designs)
         self.segments, self.shapes = 0, np.zeros((0, len(STATIONS)))
         if fitted:
@@ -194,8 +177,6 @@ class _Task:
         if first is None:
             return None
         unit = first[0]
-        if not free.any():
-            return self._optimum(x0, unit)
 
         def scaled(x: Array) -> tuple[float, Array]:
             power = self._power(x)
@@ -203,21 +184,18 @@ class _Task:
                 return 1.0 + float(np.sum((x - x0) ** 2)), 2.0 * (x - x0)
             return power[0] / unit, power[1] / unit
 
-        bounds = [(0.0, float(f)) for f in free]
-        options = {"maxiter": 60, "ftol": 1e-9}
-        ended = slsqp(scaled, x0, bounds=bounds, options=options)
-        x = np.asarray(np.clip(ended.x, 0.0, 1.0), dtype=np.float64)
-        final = self._power(x)
-        if final is None or final[0] > unit:
-            x, final = x0, self._power(x0)
+        x, final = x0, first
+        if free.any():
+            bounds, options = [(0.0, float(f)) for f in free], {"maxiter": 60, "ftol": 1e-9}
+            ended = slsqp(scaled, x0, bounds=bounds, options=options)
+            x = np.asarray(np.clip(ended.x, 0.0, 1.0), dtype=np.float64)
+            final = self._power(x)
+            if final is None or final[0] > unit:
+                x, final = x0, self._power(x0)
         assert final is not None
-        return self._optimum(x, final[0])
-
-    def _optimum(self, x: Array, power: float) -> TwistOptimum:
-        """What a scaled point means, as it was trimmed last."""
         values, each = self._split(x)
         swings = tuple(tuple(row) for row in each.tolist()) if self.segments else ()
-        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), power)
+        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0])
 
     def _split(self, x: Array) -> tuple[list[float], Array]:
         """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
@@ -331,6 +309,6 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         concept = restrict(concept, breaks)
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
     first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
-    # Without breaks the other starts are those of before.
-    better = best_fixed(pair, concept, [fixed.values, first.values, second.values], alone=not breaks)
+    starts = [fixed.values, first.values, second.values]  # Without breaks the others are those of before.
+    better = _search((pair.designs(), pair.shares, ()), concept, None, starts, alone=not breaks)
     return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

@@ -18,7 +18,7 @@ from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import pinned_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
-from explorer.views.dial import front_chart, programme_words, with_wave
+from explorer.views.dial import front_chart, validation_words, with_wave
 from explorer.views.dial_answer import DialAnswer, Fitted, FrontDot, compared, dial_answer, front_dots
 from rotor.actuator import (
     Host,
@@ -226,19 +226,13 @@ def test_a_dot_moves_one_harmonic_alone():
     assert [one.per_rev for one in with_wave(WAVES, 5, 0.4, 0.0)] == [2, 3, 5]
 
 
-def test_every_published_programme_is_there_with_its_source():
-    for one in programmes():
-        words = programme_words(one)
-        assert one.source in words
-        assert one.kind in words
-    chart = front_chart(())
-    points = [one for one in chart.series if isinstance(one, Points)]
-    assert sum(len(one.x) for one in points) == sum(one.vibration_percent is not None for one in programmes())
-    # Power and vibration are one point only where both belong to one input; the others stand beyond the axis of power.
-    beyond, drawn = chart.rules[0].at, [(x, words) for one in points for x, words in zip(one.x, one.words, strict=True)]
-    paired = [words for x, words in drawn if x < beyond]
-    assert [word in "".join(paired) for word in ("XH-59A", "flaps", "STAR")] == [True, True, False]
-    assert chart.span("x")[1] > max(x for x, _ in drawn) > beyond > max(chart.x.ticks[:-1])
+def test_published_programmes_are_told_with_their_sources():
+    """As points where power and vibration belong to one input; what wind tunnels measured of vibration, in words."""
+    (points,) = [one for one in front_chart(()).series if isinstance(one, Points)]
+    shown = [one for one in programmes() if one.together]
+    assert list(points.x) == [one.power_change_percent for one in shown]
+    assert [one.source in words for one, words in zip(shown, points.words, strict=True)] == [True] * 3
+    assert "lost 50 to 95 % of their vibration" in validation_words()
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():

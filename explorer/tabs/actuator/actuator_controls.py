@@ -9,7 +9,7 @@ import viser
 from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
 from explorer.tabs.form import Form
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
-from explorer.views.dial import UNMEASURED
+from explorer.views.dial import validation_words
 from rotor.design.quantity import Slider
 from rotor.markup import tag
 from rotor.optimisation import find_concept
@@ -40,7 +40,7 @@ class ActuatorControls:
         with gui.add_folder("Twist at n/rev"):
             gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
             text("per_rev")
-            gui.add_html(tag("div.rx.rx-dim.rx-small", UNMEASURED, data_explorer="unmeasured"))
+            gui.add_html(tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured"))
         with gui.add_folder("Placement and blade", expand_by_default=False):
             form.span("chord", "Chord [c]", (0.0, 0.95), start.chord, 0.05, "chord_range")
             form.menu("blade", "Blade type", BLADES, entry="blade_type")
