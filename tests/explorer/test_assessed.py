@@ -79,10 +79,9 @@ def screen(now: Now) -> dict[str, list[str]]:
     )
     report = re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI))
     settled, (total,) = DIAL.view(now)["dial"].settled, [bar.text for bar in flight["earns"].bars if bar.total]
-    row = re.findall(r'rx-num">([^<]*)<', rail["actuator.table"].partition("rxa-chosen")[2])
     ends = "…".join(f"{math.degrees(end):+.2f}" for end in value.reach).replace("-", "−")
 
-    found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}", row[1]]
+    found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
     read("mass", "# kg:", rail["actuator.numbers"])
     read("mass", "for # kg", part.said)
@@ -99,7 +98,7 @@ def screen(now: Now) -> dict[str, list[str]]:
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
     read("power over the flight", "here, (?:needs |saves )?# ±", part.said)
     read("power over the flight", "(?:needs|saves) # ±", report)
-    found["power over the flight"] += [total.lstrip("+−"), row[2].lstrip("+−")]
+    found["power over the flight"] += [total.lstrip("+−")]
     read("vibration", r"vibration # %", part.vibration)
     found["vibration"].append(f"{settled.index[0]:+.0f}".replace("-", "−"))
     return found

@@ -56,8 +56,6 @@ class ActuatorControls:
             text("limits")
         with gui.add_folder("Modes and damping", expand_by_default=False):
             text("modes")
-        with gui.add_folder("All actuators on this blade", expand_by_default=False):
-            text("table")
         shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
