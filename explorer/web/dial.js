@@ -176,10 +176,13 @@
     });
     return [...circles, ...sizes, ...rays, ...angles].join('');
   }
+  // Amplitude that steady voltage and the other harmonics leave to the chosen one.
+  const within = ({room, whole, harmonics}) => Math.max(room * whole - peak(harmonics.filter(n => n !== chosen)), 0);
+  const beyond = dial => dial.whole && wave(chosen)[0] > within(dial) + .005;
   function dialSvg(size) {
     const {dial, dial_matrix: matrix} = RX.state, places = placing(size), {reach, middle, scale, spot} = places;
     const [amplitude, phase] = wave(chosen), [x, y] = spot(amplitude, phase).map(v => v.toFixed(1));
-    const room = Math.max(dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen)), 0);
+    const room = within(dial);
     const ring = `<circle cx="${middle}" cy="${middle}" r="${scale * Math.min(room, reach)}" class="rxd-ring">
       <title>Reach of the actuator: ${room.toFixed(2)}° at ${chosen}/rev with the voltage that is left</title>
       </circle>`;
@@ -189,7 +192,7 @@
       ${drawGrid(dial, places)}${matrix ? drawField(size) : ''}${dial.whole ? ring : ''}
       <path d="M${middle} ${middle}L${x} ${y}" stroke="var(--rx-blade)" stroke-width="2"/>
       <circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
-      <circle data-dot ${dial.whole && amplitude > room + .005 ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
+      <circle data-dot ${beyond(dial) ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
         tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev"
         aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
         <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
@@ -259,7 +262,7 @@
     const {dial, dial_matrix: matrix, assessed} = RX.state, [amplitude, phase] = wave(chosen), now = change();
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
-      <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
+      <span class="rxf-dim">at phase ${phase.toFixed(0)}°${beyond(dial) ? ', out of reach' : ''}</span></p>`;
     const wait = dial.computing || !now
       ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;
