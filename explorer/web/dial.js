@@ -131,7 +131,8 @@
   }
   // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
   function drawField(size) {
-    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all, {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
+    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all;
+    const {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
     const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
     const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
       const {path, points} = contour(power, level), free = points.map(([x, y]) => [EDGE + step * x, EDGE + step * y])
@@ -200,8 +201,10 @@
   // Less vibration green, more red: changes [%] of full colour.
   const LESS = 70, MORE = 160, tint = value =>
     Math.round(190 * Math.min(Math.abs(value) / (value > 0 ? MORE : LESS), 1) ** .8);
-  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => `color-mix(in srgb,
-    var(${part > 0 ? '--rx-bad' : '--rx-good'}) ${(tint(part * (part > 0 ? MORE : LESS)) / 2.55).toFixed()}%, var(--rx-paper))`);
+  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => {
+    const [tone, full] = part > 0 ? ['bad', MORE] : ['good', LESS];
+    return `color-mix(in srgb, var(--rx-${tone}) ${(tint(part * full) / 2.55).toFixed()}%, var(--rx-paper))`;
+  });
   const COLOUR_KEY = `<div>vibration [%]</div>${Charts.bar(shades,
     [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
   function shade(canvas, size) {
