@@ -17,7 +17,7 @@ from explorer.views.flight import BY_HAND
 from explorer.views.now import Asked, Effect, Now, Panel, SetHand
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.verdict import Verdict, verdict_sentence
+from rotor.actuator.verdict import Verdict
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
 from rotor.markup import Content, Markup, tag
@@ -54,7 +54,6 @@ def view(now: Now) -> dict[str, Any]:
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed),
-        "actuator.details": words.details_panel(verdict),
         "actuator.numbers": words.fit_panel(installed, verdict),
         "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
@@ -121,18 +120,13 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
 def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:
     """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
     rows = [_row(id, outcomes.get(id), id == question.actuator, units) for id in actuators()]
-    titles = (
-        "Actuator",
-        ("range", tag("br"), "°"),
-        ("kg in", tag("br"), "all"),
-        ("needs", tag("br"), units.power[0].symbol),
-        "verdict",
-    )
+    needs = "needs", tag("br"), units.power[0].symbol
+    titles = "Actuator", ("range", tag("br"), "°"), ("kg in", tag("br"), "all"), needs, "verdict"
     head = tag("tr", [tag("th", title) for title in titles])
     first, second = question.pair.advance_ratios
     note = (
         f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. Range: twist from end to end. "
-        "▲: some data not verified. Hover over a verdict for the full text."
+        "▲: some data not verified."
     )
     table = tag("table.rxa-table", head, rows)
     return tag("div.rx", table, tag("div.rx-dim.rx-small", note), data_explorer="actuator-table")
@@ -151,7 +145,7 @@ def _row(id: str, outcome: Outcome | None, chosen: bool, units: Units) -> Markup
             mass_parts(outcome.installed)["in all"].removesuffix(" kg"),
             balance(outcome, units)[-1][-1],
         )
-        verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
+        verdict = tag("td.rx-num", words, class_=kind)
         cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
     name = tag("td", id.replace("_", " "), care if actuator.provenance.recalled else None, title=actuator.name)
     return tag("tr", name, cells, class_="rxa-chosen" if chosen else None)

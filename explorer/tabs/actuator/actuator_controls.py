@@ -51,7 +51,6 @@ class ActuatorControls:
             form.menu("concept", "Concept", titles, entry="actuator_concept")
             form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
         with gui.add_folder("Reach and limits", expand_by_default=False):
-            text("details")
             text("numbers")
             text("section")
             text("limits")
