@@ -1,6 +1,6 @@
 """The rail of Actuate: what stands between its widgets, what they are called, and how the blade in the hand moves them.
 
-Above the widgets stands why there is no verdict; below them twist now, reach, limits, modes and all actuators.
+Above the widgets stands why there is no verdict; below them twist now, reach, limits and modes.
 """
 
 import math
@@ -8,19 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, Outcome, Question
-from explorer.model.units import Units, number
-from explorer.text.readout import balance, mass_parts
+from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs
 from explorer.views import actuator_words as words
 from explorer.views.actuated import built, in_actuate, problem
 from explorer.views.flight import BY_HAND
 from explorer.views.now import Asked, Effect, Now, Panel, SetHand
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
-from rotor.markup import Content, Markup, tag
 
 _STILL = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
@@ -33,14 +29,15 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: Now) -> tuple[Asked, ...]:
-    """The chosen actuator's verdict comes behind searches and maps; what is folded at first, behind its flight."""
+    """The chosen actuator's verdict comes behind searches and maps; others once what would pay shows them beside it;
+    modes, which are folded at first, behind its flight."""
     if (one := built(now)) is None:
         return ()
     first, *others = one.tasks.values()
-    if one.outcome is None or (one.flight_task is not None and one.flight is None):
-        others = []
-    modes = (one.modes_task,) if others and one.modes_task is not None else ()
-    return Asked(3, (first,), _STILL), Asked(7, tuple(others), _IDLE), Asked(8, modes, _IDLE)
+    flown = one.flight is not None or isinstance(one.outcome, str)
+    modes = (one.modes_task,) if flown and one.modes_task is not None else ()
+    beside = tuple(others) if flown and now.hand.on_stage else ()
+    return Asked(3, (first,), _STILL), Asked(7, beside, _IDLE), Asked(8, modes, _IDLE)
 
 
 def view(now: Now) -> dict[str, Any]:
@@ -54,12 +51,10 @@ def view(now: Now) -> dict[str, Any]:
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed),
-        "actuator.details": words.details_panel(verdict),
         "actuator.numbers": words.fit_panel(installed, verdict),
         "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
         "actuator.modes": words.modes_panel(one.modes),
-        "actuator.table": table_panel(one.outcomes, one.question, now.units),
     }
 
 
@@ -116,54 +111,6 @@ def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
     start, whole = now.hand.pulled
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
     return (SetHand(BY_HAND, {"drives": drives}),)
-
-
-def table_panel(outcomes: Mapping[str, Outcome | None], question: Question, units: Units) -> Markup:
-    """All actuators on this blade for this question, one row each; those in `outcomes` have an answer."""
-    rows = [_row(id, outcomes.get(id), id == question.actuator, units) for id in actuators()]
-    titles = (
-        "Actuator",
-        ("range", tag("br"), "°"),
-        ("kg in", tag("br"), "all"),
-        ("needs", tag("br"), units.power[0].symbol),
-        "verdict",
-    )
-    head = tag("tr", [tag("th", title) for title in titles])
-    first, second = question.pair.advance_ratios
-    note = (
-        f"µ {first:g} ↔ {second:g}, {question.host.label}, half the time each. Range: twist from end to end. "
-        "▲: some data not verified. Hover over a verdict for the full text."
-    )
-    table = tag("table.rxa-table", head, rows)
-    return tag("div.rx", table, tag("div.rx-dim.rx-small", note), data_explorer="actuator-table")
-
-
-def _row(id: str, outcome: Outcome | None, chosen: bool, units: Units) -> Markup:
-    actuator = find_actuator(id)
-    care = " ", tag("span.rxa-bad", "▲", title="some data not verified")
-    cells: Content = tag("td.rx-num.rx-dim", "computing…", colspan=4)
-    if isinstance(outcome, str):
-        cells = tag("td.rx-num.rxa-bad", "cannot be built", colspan=4, title=outcome)
-    elif outcome is not None:
-        words, kind = _short_verdict(outcome)
-        numbers = (
-            number(math.degrees(outcome.attainable), 1),
-            mass_parts(outcome.installed)["in all"].removesuffix(" kg"),
-            balance(outcome, units)[-1][-1],
-        )
-        verdict = tag("td.rx-num", words, class_=kind, title=verdict_sentence(outcome))
-        cells = [*(tag("td.rx-num", text) for text in numbers), verdict]
-    name = tag("td", id.replace("_", " "), care if actuator.provenance.recalled else None, title=actuator.name)
-    return tag("tr", name, cells, class_="rxa-chosen" if chosen else None)
-
-
-def _short_verdict(verdict: Verdict) -> tuple[str, str]:
-    """A few words, and the class that colours them."""
-    if verdict.pays:
-        return "pays", "rx-less"
-    if not verdict.feasible:
-        return "too weak", "rxa-bad"
-    return "costs more" if verdict.net_saving <= 0.0 else "cannot be built", "rxa-bad"
 
 
 def actuator_titles() -> dict[str, str]:

@@ -15,7 +15,7 @@ from rotor.actuator.catalogue import Actuator, PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import ActuatorStability, Limit
 from rotor.actuator.pictures import Part, section_picture
-from rotor.actuator.verdict import Verdict, verdict_details, verdict_sentence
+from rotor.actuator.verdict import Verdict
 from rotor.markup import Attribute, Markup, group, tag
 from rotor.units import typographic
 
@@ -68,14 +68,6 @@ def problem_panel(outcome: Outcome | None) -> Markup:
     if not isinstance(outcome, str):
         return Markup()
     return tag("div.rxa-box.rxa-wrong", outcome, data_explorer="no-verdict")
-
-
-def details_panel(verdict: Verdict | None) -> Markup:
-    """The verdict over the flight in words, and what it rests on."""
-    if verdict is None:
-        return Markup()
-    words = tag("b", verdict_sentence(verdict)), " ", verdict_details(verdict)
-    return tag("div.rx.rx-small", *words, data_explorer="verdict-details")
 
 
 def limit_words(name: str) -> str:

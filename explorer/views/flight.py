@@ -6,7 +6,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,6 @@ from explorer.views.assessed import assessed
 from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.stopped import Flown, as_flown
-from rotor.arrays import Array
 from rotor.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
 AT_REST = (0.0,) * MOST_SEGMENTS
@@ -31,7 +29,6 @@ HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
 _LEAST = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
-_GAIN, _LOSS = "var(--rxa-fill-gain)", "var(--rxa-fill-loss)"
 
 
 def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
@@ -109,7 +106,7 @@ def _failed_words(there: Flown, units: Units) -> str:
 
 
 def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
-    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach; green where flown at a gain.
+    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach.
 
     `frozen`: twist of an actuator that has stopped [°], the same wherever it flies.
     """
@@ -120,10 +117,9 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
         curves = np.concatenate((wanted, reached, reach))
         low, high = min(low, float(curves.min())), max(high, float(curves.max()))
         at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
-        for a, b, gains in _stretches(at, flight.net_saving):
-            series.append(Band("", (a, b), (reach[0],) * 2, (reach[1],) * 2, _GAIN if gains else "var(--rx-dim)"))
         series += [
-            Band("", at, held, wanted, _LOSS),
+            Band("", at, *(np.full(len(at), end) for end in reach), "var(--rx-dim)"),
+            Band("", at, held, wanted, "var(--rxa-fill-loss)"),
             Line("reached", at, reached, "var(--rx-accent)", width=4.0),
             Line("wanted", at, wanted, "var(--rx-ink)"),
         ]
@@ -132,13 +128,6 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
         series.append(Line("stopped", (0.0, last), (frozen, frozen), "var(--rxa-loss)", "6 4", width=2.4))
     margin = 0.06 * (high - low)
     return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
-
-
-def _stretches(at: Array, net: Array) -> list[tuple[float, float, bool]]:
-    """Where the flight gains and where it does not, from place to place."""
-    changes = [k for k in range(len(at) - 1) if (net[k] > 0.0) != (net[k + 1] > 0.0)]
-    ends = [at[0], *(at[k] + (at[k + 1] - at[k]) * net[k] / (net[k] - net[k + 1]) for k in changes), at[-1]]
-    return [(a, b, bool(np.interp(0.5 * (a + b), at, net) > 0.0)) for a, b in pairwise(ends)]
 
 
 def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:

@@ -131,7 +131,8 @@
   }
   // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
   function drawField(size) {
-    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all, {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
+    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all;
+    const {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
     const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
     const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
       const {path, points} = contour(power, level), free = points.map(([x, y]) => [EDGE + step * x, EDGE + step * y])
@@ -176,10 +177,13 @@
     });
     return [...circles, ...sizes, ...rays, ...angles].join('');
   }
+  // Amplitude that steady voltage and the other harmonics leave to the chosen one.
+  const within = ({room, whole, harmonics}) => Math.max(room * whole - peak(harmonics.filter(n => n !== chosen)), 0);
+  const beyond = dial => dial.whole && wave(chosen)[0] > within(dial) + .005;
   function dialSvg(size) {
     const {dial, dial_matrix: matrix} = RX.state, places = placing(size), {reach, middle, scale, spot} = places;
     const [amplitude, phase] = wave(chosen), [x, y] = spot(amplitude, phase).map(v => v.toFixed(1));
-    const room = Math.max(dial.room * dial.whole - peak(dial.harmonics.filter(n => n !== chosen)), 0);
+    const room = within(dial);
     const ring = `<circle cx="${middle}" cy="${middle}" r="${scale * Math.min(room, reach)}" class="rxd-ring">
       <title>Reach of the actuator: ${room.toFixed(2)}° at ${chosen}/rev with the voltage that is left</title>
       </circle>`;
@@ -189,7 +193,7 @@
       ${drawGrid(dial, places)}${matrix ? drawField(size) : ''}${dial.whole ? ring : ''}
       <path d="M${middle} ${middle}L${x} ${y}" stroke="var(--rx-blade)" stroke-width="2"/>
       <circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
-      <circle data-dot ${dial.whole && amplitude > room + .005 ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
+      <circle data-dot ${beyond(dial) ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
         tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev"
         aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
         <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
@@ -197,8 +201,10 @@
   // Less vibration green, more red: changes [%] of full colour.
   const LESS = 70, MORE = 160, tint = value =>
     Math.round(190 * Math.min(Math.abs(value) / (value > 0 ? MORE : LESS), 1) ** .8);
-  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => `color-mix(in srgb,
-    var(${part > 0 ? '--rx-bad' : '--rx-good'}) ${(tint(part * (part > 0 ? MORE : LESS)) / 2.55).toFixed()}%, var(--rx-paper))`);
+  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => {
+    const [tone, full] = part > 0 ? ['bad', MORE] : ['good', LESS];
+    return `color-mix(in srgb, var(--rx-${tone}) ${(tint(part * full) / 2.55).toFixed()}%, var(--rx-paper))`;
+  });
   const COLOUR_KEY = `<div>vibration [%]</div>${Charts.bar(shades,
     [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
   function shade(canvas, size) {
@@ -259,7 +265,7 @@
     const {dial, dial_matrix: matrix, assessed} = RX.state, [amplitude, phase] = wave(chosen), now = change();
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
-      <span class="rxf-dim">at phase ${phase.toFixed(0)}°</span></p>`;
+      <span class="rxf-dim">at phase ${phase.toFixed(0)}°${beyond(dial) ? ', out of reach' : ''}</span></p>`;
     const wait = dial.computing || !now
       ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;

@@ -28,14 +28,16 @@ from explorer.picture import lifted_blade as lifted
 from explorer.picture.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
 from explorer.tabs.background import PoolAnswers
+from explorer.text.readout import balance
 from explorer.views import actuator_words
-from explorer.views.actuator import ACTUATOR, FormLook, pull, table_panel
+from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.actuator_words import section_svg
+from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.now import SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
-from rotor.actuator.verdict import Verdict, verdict_sentence
+from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
 from rotor.processes import JobEnded, JobEvent, JobFailed, JobStarted
@@ -173,17 +175,13 @@ def verdict() -> Verdict:
 
 
 def test_the_verdict_is_told_whole(verdict: Verdict):
-    question = question_of(ActuatorInputs(), DESIGN)
-    assert verdict_sentence(verdict)[:40] in actuator_words.details_panel(verdict)
     numbers = actuator_words.fit_panel(verdict.installed, verdict)
     assert re.search(r"twist required \d", numbers)
     limits = actuator_words.limits_panel(verdict)
     assert all(actuator_words.limit_words(limit.name) in limits for limit in verdict.limits)
     assert "torsion least" not in limits
     assert re.search(r"stable down to \d+ % of its torsional stiffness", limits)
-    table = table_panel({"MFC_P1": verdict}, question, SI)
-    assert table.count("computing…") == len(ALL) - 1
-    assert "▲" in table  # Recalled data are marked.
+    assert "▲" in limits  # Recalled data are marked.
 
 
 def test_modes_stand_beside_those_of_the_blade_with_its_actuator(verdict: Verdict):
@@ -199,10 +197,8 @@ def test_modes_stand_beside_those_of_the_blade_with_its_actuator(verdict: Verdic
 
 
 def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
-    assert actuator_words.details_panel(None) == actuator_words.problem_panel(verdict) == ""
+    assert actuator_words.problem_panel(verdict) == ""
     assert "no such blade" in actuator_words.problem_panel("no such blade")
-    question = question_of(ActuatorInputs(), DESIGN)
-    assert table_panel({}, question, SI).count("computing…") == len(ALL)
 
 
 def asked(name: str) -> Call:
@@ -323,14 +319,8 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     """What comes through the pipe has everything that the tab shows, at a hundredth of the size."""
     small = lean_verdict(question_of(ActuatorInputs(), DESIGN))
     assert len(pickle.dumps(small)) < 0.03 * len(pickle.dumps(verdict))
-    question = question_of(ActuatorInputs(), DESIGN)
     page = [
-        (
-            actuator_words.details_panel(one),
-            actuator_words.fit_panel(one.installed, one),
-            actuator_words.limits_panel(one),
-            table_panel({"MFC_P1": one}, question, SI),
-        )
+        (actuator_words.fit_panel(one.installed, one), actuator_words.limits_panel(one), balance(one, SI))
         for one in (verdict, small)
     ]
     assert page[0] == page[1]
@@ -345,15 +335,17 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     rest = ACTUATOR.view(now)
     assert rest == ACTUATOR.view(replace(now))
     assert "at rest" in rest["actuator.now"]
-    assert rest["actuator.details"] == rest["actuator.verdict"] == rest["actuator.limits"] == ""
-    assert rest["actuator.table"].count("computing…") == len(ALL)
+    assert rest["actuator.verdict"] == rest["actuator.limits"] == ""
     assert [(one.urgency, one.delay, len(one.calls)) for one in ACTUATOR.asks(now)] == [
-        (3, 0.4, 1), (7, 2.5, len(ALL) - 1), (8, 2.5, 0)
+        (3, 0.4, 1), (7, 2.5, 0), (8, 2.5, 0)
     ]  # fmt: skip
     judged = ACTUATOR.view(told(ACTUATOR, now, lean_verdict=verdict))
-    assert verdict_sentence(verdict) in judged["actuator.details"]
     assert "computing…" in judged["actuator.modes"]
-    assert "actuator_stability" in asked_by(ACTUATOR, told(ACTUATOR, now, lean_verdict=verdict))
+    flown = told(FLIGHT, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
+    assert ACTUATOR.asks(flown)[1].calls == ()
+    paying = replace(flown, hand=replace(flown.hand, on_stage=True))
+    assert len(ACTUATOR.asks(paying)[1].calls) == len(ALL) - 1
+    assert "actuator_stability" in asked_by(ACTUATOR, flown)
     refused = ACTUATOR.view(told(ACTUATOR, now, lean_verdict="No such blade."))
     assert "No such blade." in refused["actuator.verdict"]
 
@@ -392,5 +384,5 @@ def test_the_lifted_blade_is_pulled_from_where_it_was_taken():
     assert isinstance(taken, SetHand)
     held = replace(now, hand=replace(now.hand, **taken.changes))
     for share, drive in ((0.5, -30.0), (4.0, -100.0)):
-        assert pull(held, share) == (SetHand({"flown": None}, {"drives": (drive,) * MOST_SEGMENTS}),)
+        assert pull(held, share) == (SetHand(BY_HAND, {"drives": (drive,) * MOST_SEGMENTS}),)
     assert pull(actuate(with_rotor(INPUTS, "s61")), None) == ()

@@ -145,8 +145,8 @@ def lost(waves: tuple[Harmonic, ...]) -> float:
 def whole() -> list[DialAnswer]:
     """With every inflow model, the design's own first."""
     models = [replace(BENDING.models, inflow=one) for one in dict.fromkeys((BENDING.models.inflow, *BAND))]
-    pairs = [[replace(one, models=each) for one in (with_harmonics(BENDING, WAVES), STILL)] for each in models]
-    return [dial_answer(*pair, LOSSES, 1.0) for pair in pairs]
+    flown = with_harmonics(BENDING, WAVES)
+    return [dial_answer(replace(flown, models=one), replace(STILL, models=one), LOSSES, 1.0) for one in models]
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,6 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.text.readout import needs
-from explorer.views.actuator_words import details_panel
 from explorer.views.assessed import ASSESSED, assessed, effect_asked
 from explorer.views.flight import earns_state
 from rotor.actuator.verdict import Against, Verdict, kw, reference, try_actuator
@@ -44,7 +43,6 @@ def test_report_rail_and_command_say_the_same(against: Against):
     assert one.net_band is not None
     assert sentence == [f"Against {reference(one)} it {needs(one, SI)} over the flight."]
     assert f"± {kw(one.net_band)}" in printed.splitlines()[0]
-    assert f"<b>{printed.splitlines()[0]}</b>" in details_panel(one)
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
     of_command = re.findall(r"^  (?:gross|stiffness|mass|drive|net)[^-\d]*(-?[\d.]+) kW", printed, re.MULTILINE)

@@ -51,14 +51,11 @@ class ActuatorControls:
             form.menu("concept", "Concept", titles, entry="actuator_concept")
             form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
         with gui.add_folder("Reach and limits", expand_by_default=False):
-            text("details")
             text("numbers")
             text("section")
             text("limits")
         with gui.add_folder("Modes and damping", expand_by_default=False):
             text("modes")
-        with gui.add_folder("All actuators on this blade", expand_by_default=False):
-            text("table")
         shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
