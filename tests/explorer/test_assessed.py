@@ -98,8 +98,9 @@ def screen(now: Now) -> dict[str, list[str]]:
     chosen = re.findall(r'rx-num">([^<]*)<', found["power over the flight"].pop())
     found["power over the flight"].append(chosen[2].lstrip("+−"))
     found["mass"].append(chosen[1])
-    read("vibration", r"vibration # %", part.vibration)
-    found["vibration"].append(f"{settled.index[0]:+.0f}".replace("-", "−"))
+    told = min(settled.index) * max(settled.index) > 0.0
+    read("vibration", r"vibration # %" if told else r"cannot be told \(#…", part.vibration)
+    found["vibration"].append(f"{settled.index[0] if told else min(settled.index):+.0f}".replace("-", "−"))
     return found
 
 
