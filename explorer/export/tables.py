@@ -8,15 +8,13 @@ from explorer.charts.doubt import MOST_ROWS
 from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
 from explorer.export.contents import DesignReport, ReportEntry, on_board
-from explorer.model.inputs import PRESET_TITLES
 from explorer.model.stand import stand_of
-from explorer.model.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, degrees, in_both, number
+from explorer.model.units import TONNE, Units, degrees, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_name
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of
-from rotor.design.quantities import BESIDE
 from rotor.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
 from rotor.trim.doubt import decimals
@@ -84,37 +82,17 @@ def comparison(report: DesignReport) -> Markup:
     )
 
 
-def _load(design: Design) -> list[tuple[str, str]]:
-    """What the rotor carries and where, or the test."""
-    condition, stand = design.condition, stand_of(design)
-    set_here = [row for row in BESIDE.values() if row.of(design) != row.default]
-    beside = [(row.heading, in_both(row, row.of(design))) for row in set_here]
-    if stand is not None:
-        return [*beside, ("Test stand", stand_words(stand))]
-    return [
-        *beside,
-        ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
-        ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
-    ]
-
-
 def conditions(solution: Solution) -> Markup:
-    """Flight condition, rotor and models."""
+    """Air, rotor and grid; the flight and the models stand above."""
     design = solution.design
-    condition, rotor = design.condition, design.rotor
+    rotor = design.rotor
     rows: list[Row] = [
-        ("Advance ratio µ", number(condition.advance_ratio, 3)),
-        ("Airspeed", SI.airspeed(design.airspeed)),
-        *_load(design),
-        ("Air density", f"{number(condition.density, 4)} kg/m³"),
+        ("Air density", f"{number(design.condition.density, 4)} kg/m³"),
         ("Radius, tip speed", f"{number(rotor.radius, 3)} m, {number(rotor.tip_speed, 1)} m/s"),
         ("Blades, solidity", f"{rotor.blades}, {number(rotor.solidity, 4)}"),
-        ("Preset", PRESET_TITLES.get(design.preset, design.preset)),
-        ("Inflow", inflow_words(design)),
-        ("Physics", physics_words(design)),
         ("Grid", "{} elements × {} azimuths".format(*grid_of(design))),
     ]
-    return _table("Condition and model", rows)
+    return _table("Air and rotor", rows)
 
 
 def trim(solution: Solution) -> Markup:

@@ -59,12 +59,6 @@ def form_of(row: Quantity, units: "Units") -> Slider:
     return form
 
 
-def in_both(row: Quantity, value: float) -> str:
-    """A number in the unit of its name, in both systems where they differ: `5.0 m/s · 984 ft/min`."""
-    forms = [form for form in (row.slider, row.aviation) if form]
-    return " · ".join(Unit(form.unit or row.symbol, form.size).text(value, form.digits) for form in forms)
-
-
 def shown(row: Quantity, value: float, units: "Units") -> float:
     """The place of an input on its slider."""
     return value if row.aviation is None else value * row.input_size / form_of(row, units).size

@@ -165,6 +165,8 @@ def _vibration(value: Assessed) -> str:
         return "" if value.here is None else "no vibration is told here"
     told = value.vibration[0], min(value.vibration), max(value.vibration)
     own, low, high = (number(change, 0, sign=True) for change in told)
+    if told[1] * told[2] <= 0.0:
+        return f"vibration cannot be told ({low}…{high} %)"
     return f"vibration {own} % ({low}…{high})"
 
 

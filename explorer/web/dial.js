@@ -58,8 +58,7 @@
     const [low, high] = ends(index), range = (from, to) => `${fixed(from)}…${fixed(to)} %`;
     if (high < 0) return `takes ${fixed(-index[0])} % (${range(-high, -low)}) of the vibration`;
     if (low > 0) return `adds ${fixed(index[0])} % (${range(low, high)}) to the vibration`;
-    const band = `${signed(low, 0)}…${signed(high, 0)} %`;
-    return `vibration ${signed(index[0], 0)} % (${band}: inflow models disagree)`;
+    return `vibration cannot be told (${signed(low, 0)}…${signed(high, 0)} %)`;
   }
   // Power and vibration in one sentence.
   function verdict() {
