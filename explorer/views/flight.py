@@ -101,8 +101,8 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
 
 def _failed_words(there: Flown, units: Units) -> str:
     """How it flies with the twist frozen."""
-    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % of controls left"
-    return f"stopped: {units.watts(there.power)}, {number(100.0 * there.stalled_area, 1)} % of disk stalled{left}"
+    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
+    return f"stopped: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
 
 
 def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
