@@ -118,7 +118,7 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
         low, high = min(low, float(curves.min())), max(high, float(curves.max()))
         at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
         series += [
-            Band("", at, *(np.full(len(at), end) for end in reach), "var(--rx-dim)"),
+            Band("", at, np.full(len(at), reach[0]), np.full(len(at), reach[1]), "var(--rx-dim)"),
             Band("", at, held, wanted, "var(--rxa-fill-loss)"),
             Line("reached", at, reached, "var(--rx-accent)", width=4.0),
             Line("wanted", at, wanted, "var(--rx-ink)"),
