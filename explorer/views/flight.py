@@ -101,8 +101,8 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
 
 def _failed_words(there: Flown, units: Units) -> str:
     """How it flies with the twist frozen."""
-    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % of controls left"
-    return f"stopped: {units.watts(there.power)}, {number(100.0 * there.stalled_area, 1)} % of disk stalled{left}"
+    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
+    return f"stopped: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
 
 
 def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
@@ -118,7 +118,7 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
         low, high = min(low, float(curves.min())), max(high, float(curves.max()))
         at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
         series += [
-            Band("", at, *(np.full(len(at), end) for end in reach), "var(--rx-dim)"),
+            Band("", at, np.full(len(at), reach[0]), np.full(len(at), reach[1]), "var(--rx-dim)"),
             Band("", at, held, wanted, "var(--rxa-fill-loss)"),
             Line("reached", at, reached, "var(--rx-accent)", width=4.0),
             Line("wanted", at, wanted, "var(--rx-ink)"),
