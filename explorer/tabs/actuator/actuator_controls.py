@@ -10,6 +10,7 @@ from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
 from explorer.tabs.form import Form
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import validation_words
+from rotor.actuator.verdict import Against
 from rotor.design.quantity import Slider
 from rotor.markup import tag
 from rotor.optimisation import find_concept
@@ -27,7 +28,7 @@ class ActuatorControls:
             texts[name] = gui.add_html("")
 
         start = ActuatorInputs()
-        self._against = start.against
+        self._against: Against = start.against
         form = self.form = Form(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
