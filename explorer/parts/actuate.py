@@ -99,10 +99,11 @@ class Bar:
 
 @dataclass(frozen=True)
 class EarnsPart:
-    """The balance of power that the actuator needs."""
+    """The balance of power that the actuator needs: in this flight (`here`), or over the mission."""
 
     kind: Kind
     unit: str
+    here: bool = False
     where: str = ""
     bars: tuple[Bar, ...] = ()
     fuel: str = ""

@@ -87,6 +87,7 @@ PRESSES: dict[str, Any] = {
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
     "against": Literal["same-blade", "best-fixed"],
     "suppose": _Switch | SupposePress,
+    "balance": Literal["here", "flight"],
     "map_at": MapPress,
     "pull": _Pull,
     "wiped": Annotated[float, Meta(ge=-1.0, le=2.0)],

@@ -4,7 +4,7 @@ Below it, what an actuator saves and costs in words: one place for card, rail an
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -279,11 +279,14 @@ def digits_of(power: float, units: Units) -> int:
     return 0 if round(abs(units.power[0].of(power)), 1) >= 10.0 else 1
 
 
-def balance(verdict: Verdict, units: Units) -> list[tuple[str, float, str]]:
-    """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up."""
-    digits = digits_of(verdict.net_saving, units)
-    exact = [-units.power[0].of(power) for _, power in verdict.savings]
-    names = ["its twist" if name == "gross" else name for name, _ in verdict.savings]
+def balance(savings: Sequence[tuple[str, float]], units: Units) -> list[tuple[str, float, str]]:
+    """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up.
+
+    savings: as `Verdict.savings`.
+    """
+    digits = digits_of(sum(power for _, power in savings), units)
+    exact = [-units.power[0].of(power) for _, power in savings]
+    names = ["its twist" if name == "gross" else name for name, _ in savings]
     written = adding(exact, digits)
     rows = zip((*names, "in all"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
     return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]

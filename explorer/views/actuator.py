@@ -52,7 +52,6 @@ def view(now: Now) -> dict[str, Any]:
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed),
         "actuator.numbers": words.fit_panel(installed, verdict),
-        "actuator.section": words.section_svg(installed, inputs.drive_shares(installed)),
         "actuator.limits": words.limits_panel(verdict),
         "actuator.modes": words.modes_panel(one.modes),
     }

@@ -1,11 +1,9 @@
 """Words, numbers and the drawn section of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
-from functools import lru_cache
 
 import numpy as np
 
-from explorer.charts.svg import line, polygon, text
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import number
@@ -14,9 +12,8 @@ from explorer.text.readout import mass_words
 from rotor.actuator.catalogue import Actuator, PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import ActuatorStability, Limit
-from rotor.actuator.pictures import Part, section_picture
 from rotor.actuator.verdict import Verdict
-from rotor.markup import Attribute, Markup, group, tag
+from rotor.markup import Markup, tag
 from rotor.units import typographic
 
 TIP = "What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air."
@@ -110,70 +107,3 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
 def _limit(limit: Limit) -> Markup:
     sentence = tag("span", tag("b", limit_words(limit.name)), f" {typographic(limit.sentence)}")
     return tag("div", tag("span.rx-good", "✓") if limit.ok else tag("span.rxa-bad", "✕"), sentence)
-
-
-_WIDTH, _HEIGHT = 312.0, 92.0
-_MIDDLE = 46.0
-_PLY = 3.4
-"""Plies are drawn this thick [px]; to scale they would be half a pixel."""
-_GAP = 0.2
-
-
-@lru_cache(maxsize=32)
-def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> Markup:
-    """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
-    middle = len(shares) // 2
-    share = shares[middle]
-    picture = section_picture(installed, exaggerate=1.6)
-    scale = (_WIDTH - 12.0) / picture.chord
-    looks: dict[str, dict[str, Attribute]] = {
-        "spar": {"fill": "#5c6b80"},
-        "skin": {"fill": "#9aa3ad"},
-        "web": {"fill": "#3f4b5c"},
-        "outline": {"fill": "rgba(128,128,128,.14)", "stroke": "currentColor", "stroke_width": 0.7},
-        "tube": {"fill": css(drive_colour(share)), "stroke": "currentColor", "stroke_width": 0.6},
-    }
-    marks = [
-        _ply(part, scale, share)
-        if part.role == "ply"
-        else polygon(((6.0 + scale * y, _MIDDLE - scale * z) for y, z in part.points), **looks[part.role])
-        for part in picture.parts
-    ]
-    box, label = f"0 0 {_WIDTH:g} {_HEIGHT:g}", "Section of the blade with its plies"
-    drawn = tag("svg", marks, _scale(installed), viewBox=box, width="100%", role="img", aria_label=label)
-    return tag("div.rx", drawn, tag("div.rx-dim.rx-small", _caption(installed, middle + 1)), data_explorer="section")
-
-
-def _ply(part: Part, scale: float, share: float) -> Markup:
-    """A band outside the contour along the ply's own line."""
-    along = part.points[: len(part.points) // 2] * scale
-    upper = "upper" in part.label.rsplit(",", 1)[-1]
-    offset = (_GAP + 0.5 * _PLY) * (1.0 if upper else -1.0)
-    points = " ".join(f"{6.0 + x:.1f},{_MIDDLE - y - offset:.1f}" for x, y in along)
-    return group(
-        tag("polyline.rx-ply", points=points, fill="none", stroke="currentColor", stroke_width=_PLY + 1.2),
-        tag("polyline", points=points, fill="none", stroke=css(drive_colour(share)), stroke_width=_PLY),
-    )
-
-
-def _scale(installed: InstalledActuator) -> Markup:
-    front, rear = installed.placement.chord
-    ends = (0.0, front, rear, 1.0) if isinstance(installed.actuator, PiezoPly) else (0.0, 1.0)
-    marks: list[Markup] = []
-    for end in ends:
-        x = 6.0 + (_WIDTH - 12.0) * end
-        marks.append(line((x, 76.0), (x, 80.0), width=0.8))
-        place = "start" if end < 0.03 else "end" if end > 0.97 else "middle"
-        if not (0.0 < end < 0.08 or 0.9 < end < 1.0):
-            marks.append(text(x, 90.0, f"{end:g} c", 12.5, anchor=place))
-    return group(marks, line((6.0, 78.0), (_WIDTH - 6.0, 78.0), width=0.5))
-
-
-def _caption(installed: InstalledActuator, segment: int) -> str:
-    labels = [part.label for part in section_picture(installed).parts]
-    walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
-    plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), installed.actuator.name)
-    front, rear = installed.placement.chord
-    where = f" per side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
-    shown = f" Segment {segment}." if len(installed.shapes) > 1 else ""
-    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Wall and ply thickness exaggerated."

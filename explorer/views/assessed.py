@@ -6,7 +6,7 @@ Tip twist is that in flight, at the tip, nose up positive: what the actuator add
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from explorer.views.actuated import Built, built, in_actuate
 from explorer.views.dial_answer import HARMONICS, Fitted, compared
 from explorer.views.now import Asked, Effect, Now, Panel, SetHand
 from explorer.workers.call import Call
-from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, PiezoPly, effect, other_stroke
+from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, PiezoPly, effect, other_stroke, powers
 from rotor.actuator.verdict import Against, count
 
 _URGENCY, _STILL = 6, 1.0
@@ -100,11 +100,41 @@ def here(now: Now) -> EffectInFlight | str | None:
     found, on_blade = now.answers.get(now.of(effect_asked)), now.of(fitted)
     if not isinstance(found, EffectInFlight) or on_blade is None:
         return found
+    drive = _drive(now, on_blade)
+    return EffectInFlight(tuple(power + drive for power in found.power), found.index, found.band)
+
+
+def _drive(now: Now, on_blade: Fitted) -> float:
+    """Power that the drive takes in this flight [W]."""
     losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
     drive = sum(losses.get(one.per_rev, 0.0) * math.degrees(one.amplitude) ** 2 for one in now.inputs.twist_per_rev)
     verdict = one.verdict if (one := built(now)) is not None and now.hand.actuator.driven else None
-    drive += 0.0 if verdict is None else verdict.drive.hold_power
-    return EffectInFlight(tuple(power + drive for power in found.power), found.index, found.band)
+    return drive + (0.0 if verdict is None else verdict.drive.hold_power)
+
+
+def parts_asked(now: Now) -> Call | None:
+    """Trims of the blade compared with, with the twist, and with the stiffness too; None where not all are known."""
+    pair, one = now.of(pair_compared), built(now)
+    if pair is None or one is None or now.state is None or now.sliders is None:
+        return None
+    twisted, _ = compared(now.state.solution.design, now.sliders, None) or pair
+    return Call(powers, ((pair[1], twisted, one.installed.on(twisted)),))
+
+
+def parts_here(now: Now) -> tuple[tuple[str, float], ...]:
+    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is that of `here`."""
+    found, on_blade, known = now.answers.get(now.of(parts_asked)), now.of(fitted), now.of(here)
+    if not isinstance(found, tuple) or on_blade is None or not isinstance(known, EffectInFlight):
+        return ()
+    bare, twisted, stiff = cast("tuple[float, float, float]", found)
+    drive = _drive(now, on_blade)
+    stiffness = (("stiffness", twisted - stiff),) if twisted != stiff else ()
+    return (
+        ("gross", bare - twisted),
+        *stiffness,
+        ("mass", stiff - bare - known.power[0] + drive),
+        ("drive", 0.0 - drive),
+    )
 
 
 def assessed(now: Now) -> Assessed | None:

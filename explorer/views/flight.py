@@ -15,7 +15,7 @@ from explorer.model.units import Units, number
 from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
 from explorer.views.actuated import Built, built, in_actuate
-from explorer.views.assessed import assessed
+from explorer.views.assessed import assessed, parts_asked, parts_here
 from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.stopped import Flown, as_flown
@@ -52,7 +52,9 @@ def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
     verdict = None if wrong else one.verdict or now.memory.latest.get("verdict")
-    earns = earns_state(verdict, one.verdict is not None, now.units, wrong)
+    earns = (
+        _earns_here(now, wrong) if now.hand.here else earns_state(verdict, one.verdict is not None, now.units, wrong)
+    )
     return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
@@ -147,16 +149,32 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     if verdict is None:
         return state
     used = None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
-    rows = balance(verdict, units)
-    bars = (Bar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
     return replace(
         state,
         where=pair_words(verdict),
-        bars=tuple(bars),
+        bars=_bars(verdict.savings, units),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
     )
+
+
+def _earns_here(now: Now, problem: str) -> EarnsPart:
+    """The same in this flight; nothing is drawn until it is known."""
+    parts, hovers = now.of(parts_here), now.inputs.advance_ratio == 0.0
+    speed = 0.0 if now.sliders is None else now.inputs.advance_ratio * now.sliders.rotor.tip_speed
+    return EarnsPart(
+        "ready" if parts else "problem" if problem else "computing",
+        now.units.power[0].symbol,
+        here=True,
+        where="in hover" if hovers else f"at {now.units.speed[0].text(speed)}",
+        bars=_bars(parts, now.units) if parts else (),
+    )
+
+
+def _bars(savings: Sequence[tuple[str, float]], units: Units) -> tuple[Bar, ...]:
+    rows = balance(savings, units)
+    return tuple(Bar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
 
 
 def _sign(text: str) -> Sign:
@@ -165,7 +183,14 @@ def _sign(text: str) -> Sign:
 
 def asks(now: Now) -> tuple[Asked, ...]:
     one = built(now) if in_actuate(now.ui) else None
-    return () if one is None or one.flight_task is None else (Asked(4, (one.flight_task,), 0.0),)
+    parts = now.of(parts_asked) if now.hand.here else None
+    calls = (*((parts,) if parts else ()), *((one.flight_task,) if one and one.flight_task else ()))
+    return (Asked(4, calls, 0.0),) if calls else ()
+
+
+def choose(now: Now, which: str) -> tuple[Effect, ...]:
+    """The balance of power here, or over the flight."""
+    return (SetHand({"here": which == "here"}),)
 
 
 def fly(now: Now, x: float) -> tuple[Effect, ...]:
@@ -217,4 +242,10 @@ def _driven(now: Now, x: float | None) -> dict[str, Any]:
     return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
 
 
-FLIGHT = Panel(view, asks=asks, remember=remember, reacts=follow_flight, presses={"fly": fly, "fails": stop_here})
+FLIGHT = Panel(
+    view,
+    asks=asks,
+    remember=remember,
+    reacts=follow_flight,
+    presses={"fly": fly, "fails": stop_here, "balance": choose},
+)

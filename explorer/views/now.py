@@ -36,7 +36,8 @@ class Hand:
     `lifted`: the blade with its actuator is out of the rotor. `flown`: where on the flight bar the voltages follow the
     flight; None where a hand set them. `stopped`: the actuator has; voltages stay as they are, wherever it flies.
     `pulled`: drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds.
-    `on_stage`: what would pay is shown in place of the balance of power. `place`: range of twist [°] and mass of all
+    `on_stage`: what would pay is shown in place of the balance of power. `here`: that is of this flight, else of the
+    mission. `place`: range of twist [°] and mass of all
     blades [kg] of the supposed actuator; None until it is dragged.
     """
 
@@ -46,6 +47,7 @@ class Hand:
     stopped: bool = False
     pulled: tuple[tuple[float, ...], float] = (), 0.0
     on_stage: bool = False
+    here: bool = False
     place: tuple[float, float] | None = None
 
 

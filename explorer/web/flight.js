@@ -142,8 +142,10 @@
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     return {svg, width, height};
   }
-  function drawBalance({bars, unit, where, fuel, fuel_kind, fuel_note}) {
-    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b>
+  function drawBalance({bars, unit, here, where, fuel, fuel_kind, fuel_note}) {
+    const scopes = [['here', 'here', here], ['flight', 'over the flight', !here]].map(([name, words, chosen]) =>
+      `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
+    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>

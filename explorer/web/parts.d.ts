@@ -79,6 +79,7 @@ interface RxPresses {
   fly: number;
   against: 'same-blade' | 'best-fixed';
   suppose: 'on' | 'off' | RxSupposePress;
+  balance: 'here' | 'flight';
   map_at: RxMapPress;
   pull: number | null;
   wiped: number;
@@ -241,6 +242,7 @@ interface RxDialNumbers {
 interface RxEarnsPart {
   kind: 'ready' | 'computing' | 'problem';
   unit: string;
+  here: boolean;
   where: string;
   bars: RxBar[];
   fuel: string;

@@ -18,7 +18,7 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
-from rotor.actuator.harmonic import EffectInFlight, effect, steady_room, tip_amplitude
+from rotor.actuator.harmonic import EffectInFlight, effect, powers, steady_room, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
@@ -58,6 +58,7 @@ __all__ = (
     "judge",
     "other_stroke",
     "pay_sentence",
+    "powers",
     "programmes",
     "standard_flight",
     "steady_room",

@@ -16,7 +16,7 @@ from rotor.design.design import Design
 from rotor.optimisation.doubt import mean_doubt
 from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import analyse
+from rotor.trim.solve import analyse, solve
 
 
 def tip_amplitude(installed: InstalledActuator) -> float:
@@ -76,6 +76,16 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
                 here, there = (hub_index(trim.adjoint) for trim in trims)
                 index.append(100.0 * (here / there - 1.0))
     return EffectInFlight(tuple(power), tuple(index), None if doubt is None else doubt.change_band)
+
+
+def powers(designs: Sequence[Design]) -> tuple[float, ...]:
+    """Power of each design as `effect` counts it [W]. RuntimeError where one does not trim."""
+    known = dict[Design, float]()
+    for design in designs:
+        if design not in known:
+            solution = solve(design).require()
+            known[design] = solution.power.total + _pitching(solution)
+    return tuple(known[design] for design in designs)
 
 
 def _pitching(solution: Solution) -> float:

@@ -1,83 +1,15 @@
-"""Arrays for drawings and charts: section with plies, twist under voltage, required and attainable twist."""
+"""Arrays for drawings and charts: twist under voltage, where the electronics are, what would pay."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly, TorqueTube
+from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pay import BreakEven
-from rotor.actuator.section import passive_skin, passive_wall, section_spec, skin, web_line
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line
-from rotor.dynamics.structure import structure_data, uh60a_structure
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """A filled polygon of the cut through the blade."""
-
-    role: str
-    """outline, spar, skin, web, ply or tube."""
-    points: Array
-    """(y aft, z up) from the leading edge [m], (points, 2), closed by its ends."""
-    label: str
-
-
-@dataclass(frozen=True, eq=False)
-class SectionPicture:
-    """Parts of the section cut, in drawing order."""
-
-    parts: tuple[Part, ...]
-    chord: float
-    """[m]"""
-
-
-def section_picture(installed: InstalledActuator, *, exaggerate: float = 1.0) -> SectionPicture:
-    """Outline, walls and plies; wall and ply thickness times `exaggerate`, to make 0.3 mm visible."""
-    structure = uh60a_structure(float(installed.beam.r[-1]))
-    spec, placement, actuator = section_spec(structure, installed.host), installed.placement, installed.actuator
-    data = structure_data()["section"]
-    retrofit = installed.host.kind == "retrofit"
-    outline = np.concatenate([skin(spec, "upper", 0.0, 1.0)[::-1], skin(spec, "lower", 0.0, 1.0)[1:]])
-    parts = [Part("outline", outline, "SC1095")]
-    rear = float(data["spar_web_c"] if retrofit else data["box_end_c"])
-    plies_inside = not retrofit and isinstance(actuator, PiezoPly)
-    wall = exaggerate * (passive_skin(spec, actuator, placement) if plies_inside else passive_wall(spec))
-    name = "titanium spar" if retrofit else "glass torsion box"
-    role = "spar" if retrofit else "skin"
-    for side in ("upper", "lower"):
-        parts.append(Part(role, ribbon(skin(spec, side, 0.0, rear), wall, inward=side), f"{name}, {side}"))
-        if retrofit:
-            thin = 1e-3 * float(data["aft_skin_mm"]) * exaggerate
-            parts.append(Part("skin", ribbon(skin(spec, side, rear, 1.0), thin, inward=side), f"aft skin, {side}"))
-    web = web_line(spec, rear)
-    parts.append(Part("web", np.concatenate([web, (web - [wall, 0.0])[::-1]]), "web"))
-    if isinstance(actuator, PiezoPly):
-        thickness = placement.plies * actuator.thickness * exaggerate
-        for side in ("upper", "lower"):
-            line = skin(spec, side, *placement.chord)
-            out = "lower" if side == "upper" else "upper"
-            ply = ribbon(line, thickness, inward=out if retrofit else side)
-            degrees = math.degrees(placement.angle)
-            parts.append(Part("ply", ply, f"{placement.plies} × {actuator.name}, ±{degrees:.0f}°, {side}"))
-    elif isinstance(actuator, TorqueTube):
-        turn = np.linspace(0.0, 2.0 * np.pi, 49)
-        middle = skin(spec, "upper", 0.25, 0.26, 2)[0] + skin(spec, "lower", 0.25, 0.26, 2)[0]
-        ring = 0.5 * middle + 0.5 * actuator.diameter * np.column_stack([np.cos(turn), np.sin(turn)])
-        parts.append(Part("tube", ring, actuator.name))
-    return SectionPicture(tuple(parts), spec.chord)
-
-
-def ribbon(line: Array, thickness: float, *, inward: str) -> Array:
-    """A line thickened to one side: `inward` of the upper skin is down, of the lower skin up."""
-    along = np.column_stack([np.gradient(line[:, 0]), np.gradient(line[:, 1])])
-    normal = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
-    normal *= np.where(normal[:, 1] > 0.0, 1.0, -1.0)[:, None]  # Up.
-    offset = line + (thickness if inward == "lower" else -thickness) * normal
-    return np.concatenate([line, offset[::-1]])
 
 
 @dataclass(frozen=True, eq=False)

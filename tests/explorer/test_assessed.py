@@ -26,7 +26,7 @@ from rotor.actuator import with_actuator_mass
 from rotor.actuator.verdict import Against, Verdict
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
-from tests.actuate import actuate, asked, told
+from tests.actuate import actuate, asked, done, told
 
 INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
 DRIVEN = (77.0,) * MOST_SEGMENTS
@@ -64,6 +64,16 @@ def known(now: Now) -> tuple[Assessed, Verdict]:
     return value, value.one.verdict
 
 
+def balance_here(now: Now) -> dict[str, str]:
+    """Each part of the power in this flight, as written."""
+    flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
+    assert FLIGHT.view(flown)["earns"].kind == "computing"
+    flown = told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"]))
+    part = FLIGHT.view(flown)["earns"]
+    assert (part.kind, part.here, part.where) == ("ready", True, "at 159 km/h")
+    return {bar.name: bar.text for bar in part.bars}
+
+
 def screen(now: Now) -> dict[str, list[str]]:
     """Every number of all panels of Actuate, by its quantity."""
     found: dict[str, list[str]] = defaultdict(list)
@@ -99,6 +109,7 @@ def screen(now: Now) -> dict[str, list[str]]:
     read("power over the flight", "here, (?:needs |saves )?# ±", part.said)
     read("power over the flight", "(?:needs|saves) # ±", report)
     found["power over the flight"] += [total.lstrip("+−")]
+    found["power here"].append(balance_here(now)["in all"].lstrip("+−"))
     told = min(settled.index) * max(settled.index) > 0.0
     read("vibration", r"vibration # %" if told else r"cannot be told \(#…", part.vibration)
     found["vibration"].append(f"{settled.index[0] if told else min(settled.index):+.0f}".replace("-", "−"))
@@ -112,6 +123,11 @@ def test_every_number_on_the_screen_is_the_same_number(against: Against, drives:
     found = screen(now)
     assert {name: set(values) for name, values in found.items() if len(set(values)) > 1} == {}
     assert len(found) == 6
+    parts = balance_here(now)
+    *each, total = (float(text.replace("−", "-")) for text in parts.values())
+    assert sum(each) == pytest.approx(total, abs=1e-9)  # What is written adds up.
+    if against == "same-blade" and not any(drives):
+        assert float(parts["its twist"]) == 0.0
     title = dict(card(now).baselines)[against]
     assert DIAL.view(now)["dial"].against == f"the {title}"
     assert (" at 77 % of its voltage" in card(now).title) == any(drives)

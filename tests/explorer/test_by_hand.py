@@ -41,6 +41,7 @@ SENT: dict[str, Any] = {
     "azimuth": 30.0,
     "fly": 1.5,
     "suppose": "on",
+    "balance": "here",
     "map_at": [0.2, 0.8],
     "pull": 0.5,
     "wiped": 0.4,

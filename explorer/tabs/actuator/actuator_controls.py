@@ -53,7 +53,6 @@ class ActuatorControls:
             form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("numbers")
-            text("section")
             text("limits")
         with gui.add_folder("Modes and damping", expand_by_default=False):
             text("modes")
