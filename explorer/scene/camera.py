@@ -41,8 +41,6 @@ class FittedCamera:
         self._held = False
         self._arrives = 0.0
         """When a flight of the camera ends."""
-        self._wanted: float | None = None
-        """The tilt that `follow` was given while the camera was held."""
         self._put: float | None = None
         """Width over height of the canvas that it was aimed for last."""
         client.camera.fov = FIELD_OF_VIEW
@@ -83,13 +81,10 @@ class FittedCamera:
 
     def follow(self, tilt: float) -> None:
         """Go with the shaft tilt [rad], until the user takes over."""
-        if self._held:
-            self._wanted = tilt
-            return
         if abs(tilt - self._tilt) < _LEAST_TILT:
             return
         self._tilt = tilt
-        if self._view is not None and self._view != "blade" and self._following:
+        if self._view not in (None, "blade") and self._following and not self._held:
             self.aim(self._view)
 
     @property
@@ -109,11 +104,10 @@ class FittedCamera:
             self._aim(self._fit, eased=time.monotonic() < self._arrives)
 
     def hold(self, held: bool) -> None:
-        """Stand still while the blade is in the user's hand; what was to be followed meanwhile is followed then."""
+        """Stand still while the blade is in the user's hand; then fit what tilt, canvas and cards are by now."""
         self._held = held
-        wanted, self._wanted = self._wanted, None
-        if not held and wanted is not None:
-            self.follow(wanted)
+        if not held and self._following:
+            self._aim(self._fit)
 
     def hold_shot(self, shot: Shot) -> None:
         """Show a part of the rotor from one side; the camera flies there."""

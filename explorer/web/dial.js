@@ -286,15 +286,20 @@
     Object.assign(place, {stamp, matrix});
     const {dataset: focus} = place.contains(document.activeElement) ? document.activeElement : place;
     const again = 'dot' in focus ? '[data-dot]' : focus.harmonic ? `[data-harmonic="${focus.harmonic}"]` : null;
-    const size = large ? Math.min(place.clientHeight - 218, width / 2 - 24, 780) : Math.min(width, 300);
-    const frontWidth = large ? width - size - 44 : width, frontHeight = large ? size + 20 : 228;
+    // Enlarged, the front and what is read stand beside the dial where that leaves it large enough.
+    const most = Math.min(place.clientHeight - 194, width / 2 - 24, 780), beside = large && most > 180;
+    const size = beside ? most : Math.min(width, 300), frontWidth = beside ? width - size - 44 : width;
+    const frontHeight = beside ? Math.max(Math.min(place.clientHeight - 284, size + 20), 120) : 228;
+    place.toggleAttribute('data-beside', beside);
+    const reading = '<div class="rxd-read" data-explorer="dial-read"></div>';
     const button = large
       ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>'
       : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>';
     write(place, `<div class="rxd-side"><div class="rxd-row"></div>
         <div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div>
-        <div class="rxf-dim rxd-key"></div><div class="rxd-read" data-explorer="dial-read"></div></div>
-      <div class="rxd-side"><div class="rxd-front"></div>${large ? '' : button}</div>${large ? button : ''}`);
+        <div class="rxf-dim rxd-key"></div>${beside ? '' : reading}</div>
+      <div class="rxd-side"><div class="rxd-front"></div>${beside ? reading : ''}${large ? '' : button}</div>
+      ${large ? button : ''}`);
     const [row, canvas, round, key, read, front] =
       ['.rxd-row', 'canvas', '.rxd-round > div', '.rxd-key', '.rxd-read', '.rxd-front']
         .map(name => place.querySelector(name));

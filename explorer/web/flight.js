@@ -191,12 +191,11 @@
     const {svg, width, height} = room();
     if (!chart || !svg) return;
     const place = Charts.frame(chart, width, height, {top: 22, bottom: 32}), {X, Y, left, right, top, base} = place;
-    const [twist, mass] = held?.at ?? given, {x, y} = chart.series.find(one => one.dashes), end = y.length - 1;
+    const [twist, mass] = held?.at ?? given;
     const spot = [clamp(X(twist), left, right), clamp(Y(mass), top, base)];
     /** @type {[string, number, number, string][]} */
     const signs = [['pays', right - 6, base - 4, 'pays']];
-    if (width > 420) signs.push(['costs', right - 6, top + 12, 'mass costs more than twist saves']);
-    if (width > 420 && y[end] !== null) signs.push(['drive', X(x[end]), Y(y[end]) + 13, 'half goes to the drive']);
+    if (width > 420) signs.push(['costs', right - 6, 12, 'mass costs more than twist saves']);
     const taken = signs.map(([, to, low, word]) => [to - 6.2 * word.length, low - 10, to, low + 3]);
     taken.push([spot[0] - 11, spot[1] - 11, spot[0] + 11, spot[1] + 11]);
     const said = signs.map(([name, to, low, word]) =>

@@ -301,8 +301,11 @@
     wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
     const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
     const low = wide.filter(card => !high.includes(card));
-    const usual = box('.rxf-power') && !small.matches ? (stage.width > 470 ? 118 : 70) + (state.vibration ? 30 : 0) : 0;
-    const above = Math.max(usual, ...high.map(card => card.bottom - stage.top));
+    // The verdict, in columns or as a sentence, hides the vibration.
+    const flown = page.hasAttribute('data-flight') && (stage.width > 900 ? 156 : 100);
+    const usual = stage.width > 470 ? flown || (state.vibration ? 156 : 126) : state.vibration ? 100 : 70;
+    const told = box('.rxf-power') && !small.matches;
+    const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top));
     const below = low.length ? stage.bottom - Math.min(...low.map(card => card.top)) : 0;
     RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
   }

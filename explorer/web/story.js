@@ -103,8 +103,11 @@ window.makeStory = (column, figures, report) => {
   // Lines over what is moved, with the present place on each.
   const drawChart = (figure, answer, stop) => {
     if (!answer) { figure.innerHTML = ''; return; }
+    // As high as it fits above the control, which stays in sight.
+    const part = figure.closest('section'), [from, to] = [part, figure].map(one => one.getBoundingClientRect().top);
+    const free = list.clientHeight - (to - from) - part.querySelector('.rxs-control').offsetHeight;
     const dots = (answer.dots[stop] ?? []).map(([x, y, colour]) => ({kind: 'points', x: [x], y: [y], colour, size: 6}));
-    const height = innerHeight < 800 ? 118 : innerHeight < 1000 ? 146 : 190, width = Math.max(figure.clientWidth, 260);
+    const height = clamp(free - 52, 100, 190), width = Math.max(figure.clientWidth, 260);
     Charts.fill(figure, {...answer.chart, series: [...answer.chart.series, ...dots]}, {width, height});
   };
 
