@@ -131,7 +131,9 @@
     earns.hidden = !balance;
     if (!balance) { earns.innerHTML = ''; return; }
     earns.toggleAttribute('data-faded', balance.kind !== 'ready' && !other);
+    const begins = other && !earns.hasAttribute('data-suppose');
     earns.toggleAttribute('data-suppose', Boolean(other));
+    if (begins && RX.small.matches) RX.showTab('charts', true);  // The sentence that begins it is above.
     if (other) drawBreakEven(other);
     else drawBalance(balance);
   });

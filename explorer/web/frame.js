@@ -168,11 +168,11 @@
     if (name === 'rail') showTab('controls', !open);
     else showTab(name, beside() || !open || page.dataset.tab !== name);
   }
-  function showTab(name, wanted) {
+  const showTab = RX.showTab = (name, wanted) => {
     page.dataset.tab = name;
     openRail(wanted);
     RX.again('plan', 'strip', 'inset', 'fly', 'earns');
-  }
+  };
   const openRail = RX.openRail = wanted => {
     if (wanted) page.dataset.rail = 'open'; else delete page.dataset.rail;
     sayOpen();
@@ -296,7 +296,7 @@
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
     const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
-    const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxs-figures'] : COVERING;
+    const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxf-notice', '.rxs-figures'] : COVERING;
     const wide = cards.map(box).filter(card => card?.width > 0.28 * stage.width);
     wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
     const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
@@ -315,6 +315,7 @@
   const power = root.querySelector('.rxf-power');
   new ResizeObserver(() => {
     if (power.offsetHeight) root.style.setProperty('--rx-power', `${power.offsetTop + power.offsetHeight}px`);
+    if (small.matches) tellCover();  // There it is as high as its mode wants, whatever it says.
   }).observe(power);
   // Drawn for their size; the plan hides them.
   for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));

@@ -3,7 +3,7 @@
 () => {
   const seen = element => element.checkVisibility({opacityProperty: true, visibilityProperty: true})
     && !element.closest('script, style, noscript, option, title, .mantine-Notification-root, .rxf-said, [inert], .cm-editor');
-  const SVG = 'http://www.w3.org/2000/svg', PANEL = '.rxf-label, .rxf-card, .rxf-bar, .rxf-strip, .rxf-notice, .rxf-prompt, .rxf-menu, .rxs-column, [data-dock-region], [data-part]';
+  const SVG = 'http://www.w3.org/2000/svg', PANEL = '.rxf-label, .rxf-card, .rxf-bar, .rxf-grip, .rxf-strip, .rxf-notice, .rxf-prompt, .rxf-menu, .rxs-column, [data-dock-region], [data-part]';
   const name = element => { const of = element.closest(PANEL); return of ? of.dataset.explorer || of.dataset.part || of.dataset.dockRegion || String(of.getAttribute('class')).split(' ').at(-1) : element.tagName; };
   const alpha = colour => { const all = colour.match(/[\d.]+/g) ?? [0, 0, 0, 0]; return colour === 'none' || colour === 'transparent' ? 0 : Number(all[3] ?? 1); };
   const block = element => { while (element.namespaceURI === SVG ? element.tagName !== 'text' : getComputedStyle(element).display.startsWith('inline') && getComputedStyle(element).display !== 'inline-flex') element = element.parentElement; return element; };

@@ -27,6 +27,7 @@ def send(watched: Watched, *message: Any) -> None:
 
 def found(watched: Watched, view: str) -> list[str]:
     """What is wrong in this state."""
+    watched.page.mouse.move(1, 1)  # Where it pressed last it would bring the hint of what stands there now.
     faults: list[str] = watched.at_rest(lambda: watched.page.evaluate(COLLIDE))
     if view:
         faults += watched.at_rest(lambda: watched.page.evaluate(FRAME, view))
