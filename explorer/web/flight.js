@@ -133,7 +133,10 @@
     earns.toggleAttribute('data-faded', balance.kind !== 'ready' && !other);
     const begins = other && !earns.hasAttribute('data-suppose');
     earns.toggleAttribute('data-suppose', Boolean(other));
-    if (begins && RX.small.matches) RX.showTab('charts', true);  // The sentence that begins it is above.
+    if (begins && RX.small.matches) {  // Its drawing goes to the head of the sheet, whatever began it.
+      RX.showTab('charts', true);
+      earns.closest('.rxf-sheet').scrollTop = 0;
+    }
     if (other) drawBreakEven(other);
     else drawBalance(balance);
   });

@@ -92,8 +92,13 @@
     }
   });
   // Marks: dots and handles, lines that are no grid. A word within a larger dot is its name, and a halo may lie on a line.
+  // A handle that lies wholly behind a panel is not seen: the controls stay where they are while the held blade has the window.
+  const behind = ({element, box}) => {
+    const panel = covers({element, box})?.closest(PANEL), edge = panel?.getBoundingClientRect();
+    return panel && !panel.matches('.rxf-label') && !panel.contains(element) && edge.left <= box.left && edge.right >= box.right && edge.top <= box.top && edge.bottom >= box.bottom;
+  };
   const marks = [...document.querySelectorAll('svg circle, .mantine-Slider-thumb')].filter(seen).map(element => ({element, box: element.getBoundingClientRect(), style: getComputedStyle(element)}))
-    .filter(({element, box, style}) => box.width > 3 && box.width < 40 && (element.namespaceURI !== SVG || alpha(style.fill) > .3 || alpha(style.stroke) > .3));
+    .filter(({element, box, style}) => box.width > 3 && box.width < 40 && (element.namespaceURI !== SVG || alpha(style.fill) > .3 || alpha(style.stroke) > .3)).filter(mark => !behind(mark));
   for (const {element, box: dot} of marks) for (const {said, box, panel} of open) {
     const [wide, high] = [Math.min(box.right, dot.right) - Math.max(box.left, dot.left), Math.min(box.bottom, dot.bottom) - Math.max(box.top, dot.top)];
     const within = box.top >= dot.top - 1 && box.bottom <= dot.bottom + 1 && Math.abs(box.left + box.right - dot.left - dot.right) < 4;
