@@ -189,7 +189,7 @@
     const label = `${chosen}/rev: ${amplitude.toFixed(2)}° at phase ${phase.toFixed(0)}°`;
     return `<svg class="rxd-dial" width="${size}" height="${size}" viewBox="0 0 ${size} ${size}" role="group"
         aria-label="Twist at ${chosen}/rev, amplitude by phase">
-      ${drawGrid(dial, places)}${matrix ? drawField(size) : ''}${dial.whole ? ring : ''}
+      ${dial.whole ? ring : ''}${drawGrid(dial, places)}${matrix ? drawField(size) : ''}
       <path d="M${middle} ${middle}L${x} ${y}" stroke="var(--rx-blade)" stroke-width="2"/>
       <circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
       <circle data-dot ${beyond(dial) ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
@@ -311,7 +311,7 @@
     }
     write(round, dialSvg(size));
     write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, vibration', 'lines: power',
-      dial.whole ? 'ring: reach' : ''].filter(Boolean).join(' · ') : '');
+      dial.whole ? 'ring: reach' : ''].filter(Boolean).map(words => `<span>${words}</span>`).join(' · ') : '');
     write(read, readout());
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
