@@ -49,8 +49,8 @@
     if (problem) RX.say(problem);
   });
 
-  // What the actuator moves, costs and gives, in place of the power without its mass; where there is little room, in one
-  // sentence.
+  // What the actuator moves, costs and gives, in place of the power without its mass; where there is little room, in
+  // one sentence.
   RX.paint(['assessed', 'power'], (one, power) => {
     const card = part('verdict'), shown = Boolean(one) && !power?.problem;
     card.hidden = !shown;
@@ -70,14 +70,14 @@
       <div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
-          'What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air')}
+          'What the actuator adds in flight, at the tip, positive nose up: the air takes 1 to 10 % of it')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
         ${column('gives', one.here
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'This actuator on board. ± by uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
+          'With it on board. ± by uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.here ? one.said : `${one.said} ${wait}`)} </span>${pays}
       </p>`);
@@ -85,7 +85,7 @@
   // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
   const suppose = paced(place => RX.send('suppose', place), 80);
   drag(part('verdict'), '[data-pays]', (button, {clientX}) => {
-    const {range, kilograms, pays} = RX.state.assessed, size = parseFloat(button.textContent);
+    const {range, kilograms} = RX.state.assessed, size = parseFloat(button.textContent);
     const mass = button.textContent.includes('kg'), at = share => mass
       ? [range, Math.max(size * share, .1)] : [Math.min(size * share, 20), kilograms];
     RX.send('suppose', 'on');
@@ -140,7 +140,8 @@
     menu.disabled = field.held;
     part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
     scale.className = field.faded ? 'rxf-faded' : '';
-    scale.title = `Double click: ${field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)'}`;
+    const other = field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)';
+    scale.title = `Double click: ${other}`;
     write(scale, Charts.bar(field.colours, field.ticks, field.beyond));
     const shares = Object.fromEntries((plan?.regions ?? []).map(({name, words}) => [name, words.split(' · ')[0]]));
     const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {

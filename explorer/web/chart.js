@@ -53,8 +53,8 @@ const Charts = (() => {
       <text x="${x}" y="${y}" text-anchor="${anchor}" data-axis>${text(label)}</text>`;
   }
   // Where the name of a point or of a rule stands: it meets no mark and no other name, and crosses the lines least;
-  // empty where there is no such place, and it waits for the pointer. Letters are as wide as they usually are: to ask for
-  // their true width costs a layout with every answer. `taken`: boxes of all else there, left, top, right, bottom.
+  // empty where there is no such place, and it waits for the pointer. Letters are as wide as they usually are: to ask
+  // for their true width costs a layout with every answer. `taken`: boxes of all else there, left, top, right, bottom.
   const LETTER = 6.9, HIGH = 9, DEEP = 3;  // [px]
   const FLAT = size => [
     ['middle', 0, -size - 4], ['middle', 0, size + 12], ['start', size + 4, 4], ['end', -size - 4, 4],
@@ -155,9 +155,9 @@ const Charts = (() => {
   }
   let clips = 0;
   // Everything within the axes; dots that lie beyond them stand at their edge.
-  function inside(chart, axes, taken = []) {
-    const {series, rules = []} = chart, {left, right, top, base} = axes, clip = `rxc${clips++ % 256}`;
-    const place = {...axes, settle: placer(chart, axes, taken)};
+  function inside(chart, room, taken = []) {
+    const {series, rules = []} = chart, {left, right, top, base} = room, clip = `rxc${clips++ % 256}`;
+    const place = {...room, settle: placer(chart, room, taken)};
     const ruled = rules.map(one => rule(one, place));
     const dots = series.filter(({kind, mark}) => kind === 'points' && mark !== 'ring');
     const drawn = series.filter(one => !dots.includes(one)).map(one => DRAWN[one.kind](one, place));
@@ -216,8 +216,8 @@ const Charts = (() => {
     const lines = chart.series.filter(one => one.kind === 'line' && one.x.length > 2);
     if (x < place.left || x > place.right || !lines.length) return rest();
     read = element;
-    const distance = value => Math.abs(place.X(value) - x);
-    const nearest = lines.at(-1).x.reduce((best, value) => distance(value) < distance(best) ? value : best);
+    const away = value => Math.abs(place.X(value) - x);
+    const nearest = lines.at(-1).x.reduce((best, value) => away(value) < away(best) ? value : best);
     const values = lines.map(one => [one.colour, one.y[one.x.indexOf(nearest)]])
       .filter(([, value]) => value !== undefined && value !== null)
       .map(([colour, value]) => `<span style="color:${colour}">${digits(value)}</span>`);

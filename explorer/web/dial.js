@@ -200,9 +200,9 @@
   // Less vibration green, more red: changes [%] of full colour.
   const LESS = 70, MORE = 160, tint = value =>
     Math.round(190 * Math.min(Math.abs(value) / (value > 0 ? MORE : LESS), 1) ** .8);
-  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(part => {
-    const [tone, full] = part > 0 ? ['bad', MORE] : ['good', LESS];
-    return `color-mix(in srgb, var(--rx-${tone}) ${(tint(part * full) / 2.55).toFixed()}%, var(--rx-paper))`;
+  const shades = [-1, -.75, -.5, -.25, 0, .25, .5, .75, 1].map(share => {
+    const [tone, full] = share > 0 ? ['bad', MORE] : ['good', LESS];
+    return `color-mix(in srgb, var(--rx-${tone}) ${(tint(share * full) / 2.55).toFixed()}%, var(--rx-paper))`;
   });
   const COLOUR_KEY = `<div>vibration [%]</div>${Charts.bar(shades,
     [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
@@ -271,7 +271,8 @@
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
     const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', foreseen' : ''}`;
-    return `${head}${meter('Power', now.power, whole, .05, `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`)}
+    const needed = `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`;
+    return `${head}${meter('Power', now.power, whole, .05, needed)}
       ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
       ${dim(assessed ? against : `${verdict()}, ${against}`)}${wait}
       ${held && matrix && !calm.matches ? dim(`Shaking of the cabin drawn × ${dial.exaggerated}, slowed`) : ''}`;

@@ -86,14 +86,14 @@
     const {field, unit, held} = RX.state.plan, {y, radius, width} = layout, high = y - radius - 38;
     const {colours, ticks} = RX.state.field, from = width - 170, low = y + radius + 46;
     const stops = colours.map((colour, k) => `<stop offset="${k / (colours.length - 1)}" stop-color="${colour}"/>`);
-    const words = ticks.map(([at, word]) =>
-      `<text x="${from + 1.5 * at}" y="${low + 30}" text-anchor="middle">${text(word)}</text>`);
+    const numbers = ticks.map(([percent, word]) =>
+      `<text x="${from + 1.5 * percent}" y="${low + 30}" text-anchor="middle">${text(word)}</text>`);
     const shares = regions.map(({name, title, words}, k) => `<text x="20" y="${low + 18 * k}">
       <tspan style="fill:${COLOURS[name]};font-weight:640">${text(title)}</tspan><tspan
         dx="7">${text(words)}</tspan></text>`);
     return `<linearGradient id="rxk">${stops.join('')}</linearGradient>
       <text x="${from + 75}" y="${low}" text-anchor="middle">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text>
-      <rect x="${from}" y="${low + 7}" width="150" height="9" fill="url(#rxk)"/>${words.join('')}
+      <rect x="${from}" y="${low + 7}" width="150" height="9" fill="url(#rxk)"/>${numbers.join('')}
       <path d="M${width - 92} ${high - 4}h22" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>
       <text x="${width - 64}" y="${high}">${held}</text>${shares.join('')}`;
   }
@@ -226,8 +226,8 @@
   // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
   function sizeOf(element) {
-    const {length} = element.querySelectorAll('dt'), pin = element.matches('[data-pin]');
-    const kind = `${length} ${pin} ${RX.state.plan.field}`;
+    const {length} = element.querySelectorAll('dt'), pinned = element.matches('[data-pin]');
+    const kind = `${length} ${pinned} ${RX.state.plan.field}`;
     return sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
   }
   const within = (left, top, [w, h]) => [clamp(left, 8, layout.width - w - 8), clamp(top, 8, layout.height - h - 8)];
@@ -273,11 +273,11 @@
     const spot = pointer && where(pointer), dot = 'fill="var(--rx-accent)" stroke="#fff" stroke-width="2"';
     const ring = 'fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"';
     cursor.innerHTML = (RX.state.plan.held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
-      + pins.map(pin => circleAt(where(pin), 4.5, dot)).join('')
+      + pins.map(one => circleAt(where(one), 4.5, dot)).join('')
       + (spot ? circleAt(spot, 5, 'fill="none" stroke="#fff" stroke-width="2"')
         + circleAt(spot, 6.5, 'fill="none" stroke="#000" stroke-opacity=".5"') : '');
     // Where a pin is, its card says the same.
-    reading.hidden = !spot || !tables.alpha || pins.some(pin => distance(where(pin), spot) < 8);
+    reading.hidden = !spot || !tables.alpha || pins.some(one => distance(where(one), spot) < 8);
     if (reading.hidden) return;
     reading.innerHTML = card(pointer);
     placeReading(reading, pointer);
@@ -286,8 +286,8 @@
     const all = place.querySelector('[data-pins]');
     const buttons = k => `<button data-ride-at="${k}" title="One slow turn with this section">Ride</button>
       <button data-unpin="${k}" aria-label="Unpin this reading" title="Unpin">×</button>`;
-    write(all, tables.alpha ? pins.map((pin, k) =>
-      `<div class="rxf-card rxf-reading" data-pin>${card(pin, buttons(k))}</div>`).join('') : '');
+    write(all, tables.alpha ? pins.map((spot, k) =>
+      `<div class="rxf-card rxf-reading" data-pin>${card(spot, buttons(k))}</div>`).join('') : '');
     placePins([...all.children]);
   }
 

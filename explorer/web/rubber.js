@@ -254,11 +254,11 @@
       .filter(([, power]) => power ?? null).map(([name, power, colour]) => {
         const words = `${name} ${fixed(power, digits)}`, wide = 7 * words.length + 8;
         return {name, colour, words, wide, x: X(power), at: X(power)};
-      }).sort((one, other) => one.x - other.x);
+      }).sort((first, second) => first.x - second.x);
     let end = from - 20;
-    for (const one of marks) end = (one.at = Math.max(one.at, end + one.wide / 2)) + one.wide / 2;
+    for (const mark of marks) end = (mark.at = Math.max(mark.at, end + mark.wide / 2)) + mark.wide / 2;
     end = to + 20;
-    for (const one of marks.toReversed()) end = (one.at = Math.min(one.at, end - one.wide / 2)) - one.wide / 2;
+    for (const mark of marks.toReversed()) end = (mark.at = Math.min(mark.at, end - mark.wide / 2)) - mark.wide / 2;
     const named = marks.map(({name, colour, words, x, at}) => `<path d="M${x} ${y - 7}v14" stroke="var(${colour})"
       stroke-width="${name === 'before' ? 2 : 4}" stroke-linecap="round"/>${
       label(at, y + 33, words, {css: `fill:var(${colour});font-weight:620`})}`);
