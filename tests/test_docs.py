@@ -72,7 +72,7 @@ def names_of_the_page() -> set[str]:
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
         found |= {value for value in constants if isinstance(value, str)}
     for path in (*(page / "web").glob("*.html"), *(page / "web").glob("*.js")):
-        found |= set(re.findall(r">([^<>]+)<", text(path)))
+        found |= {name.strip() for name in re.findall(r">([^<>]+)<", text(path))}
     return found
 
 

@@ -139,22 +139,19 @@ class TestControls:
         r = np.linspace(0.13, 1.0, 50)
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
-    def test_the_break_point_is_inert_while_there_is_no_change(self, controls: DesignControls):
+    def test_the_break_point_is_shown_where_it_has_an_effect(self, controls: DesignControls):
         place, built = controls._form._handles["built_division"], Inputs(law="builtin")
         changed, moved = replace(built, built_outer=-1.0), replace(built, built_division=0.7)
         assert built.design().twist == moved.design().twist  # It has no effect indeed.
-        for inputs, inert in ((built, True), (changed, False), (built, True)):
+        for inputs, shown in ((built, False), (changed, True), (built, False)):
             controls.refresh(inputs, SI)
-            assert place.disabled is inert
+            assert place.visible is shown
         controls.hold(True)
         controls.refresh(changed, SI)
         assert place.disabled
         controls.hold(False)
         controls.refresh(changed, SI)
         assert not place.disabled
-        controls.hold(False)
-        controls.refresh(built, SI)
-        assert place.disabled
         assert not controls._form._handles["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):

@@ -130,7 +130,7 @@ class TestFirstAnswer:
         power, design, flight = self.words(app, "?d=1;linear:-12;mu=0.33")
         solution = solve(make_design(twist="linear:-12", mu=0.33))
         assert power == f"{number(solution.power.total / 1e3)} kW"
-        assert (design, flight.split(" · ")[0]) == ("UH-60A · Linear, −12\u00a0°/R", "µ 0.330")
+        assert (design, flight.split(" · ")[0]) == ("UH-60A · linear −12\u00a0°/R", "µ 0.330")
 
     def test_another_address_waits_its_turn_and_a_bad_one_has_no_words(self):
         first = FirstAnswers(lambda: OPENING)
