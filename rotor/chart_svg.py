@@ -152,9 +152,6 @@ def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: f
 def _beside(place: Place, name: str, series: Points) -> Markup:
     """The name of a point, where its series says."""
     x, y = place
-    if series.beside == "upward":
-        turned = f"translate({x + 4.0:.1f} {y - series.size - 4.0:.1f}) rotate(-90)"
-        return tag("g", _text(0.0, 0.0, name, "start"), fill="currentColor", transform=turned)
     down = series.size + 12.0 if series.beside == "below" else -series.size - 4.0
     return tag("g", _text(x, y + down, name), fill="currentColor")
 

@@ -12,7 +12,6 @@ from rotor.user_input import extra_module
 _BESIDE: dict[str, dict[str, Any]] = {
     "above": {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"},
     "below": {"xytext": (0, -12), "textcoords": "offset points", "ha": "center"},
-    "upward": {"xytext": (0, 6), "textcoords": "offset points", "ha": "center", "rotation": 90},
 }
 _MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 

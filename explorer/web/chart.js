@@ -62,7 +62,6 @@ const Charts = (() => {
   ];
   const PLACES = {
     above: FLAT, below: size => [FLAT(size)[1], ...FLAT(size)],
-    upward: (size, wide) => [['up', 4, -size - 4], ['up', 4, size + 4 + wide], ...FLAT(size)],
     rule: (_, wide, high) => [-3, wide + 4 - high].flatMap(dy => [['up', -4, dy], ['up', 12, dy]]),
   };
   function placer({series, rules = []}, {X, Y, left, right, top, base}, taken) {
