@@ -121,7 +121,9 @@ class FittedCamera:
     def _aim(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         camera = self._client.camera
         self._fit, self._following = fitted, True
-        target = fitted(camera.aspect)
+        if self._reshaped:
+            self._put = camera.aspect
+        target = fitted(self._put or camera.aspect)
         self._arrives = time.monotonic() + _FLIGHT if eased else 0.0
         if eased:
             call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
@@ -129,10 +131,12 @@ class FittedCamera:
             with self._client.atomic():
                 camera.position = target.position
                 camera.look_at = target.look_at
-        self._put = camera.aspect
+
+    @property
+    def _reshaped(self) -> bool:
+        """Whether the canvas has another shape than it was aimed for."""
+        return self._put is None or abs(self._client.camera.aspect / self._put - 1.0) > _RESHAPED
 
     def _moved(self, camera: viser.CameraHandle) -> None:
-        if not self._following or self._held:
-            return
-        if self._put is None or abs(camera.aspect / self._put - 1.0) > _RESHAPED:
+        if self._following and not self._held and self._reshaped:
             self._aim(self._fit)
