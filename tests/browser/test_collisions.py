@@ -93,7 +93,7 @@ def optimise(watched: Watched) -> States:
     page.locator("[data-explorer=notice]").wait_for(state="visible")
     yield "while it searches", "3d"
     page.wait_for_function("() => /kW/.test(RX.state.notice?.text)", timeout=4 * WAIT)  # It has found a design.
-    page.locator("[data-part=notice] button").first.click()
+    send(watched, "halt")  # Not by its button: where the search has ended meanwhile, *Apply* stands there.
     page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing')", timeout=4 * WAIT)
     yield "after it", "3d"
     page.locator("[data-part=notice] [data-do=discard]").click()
