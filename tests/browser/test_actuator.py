@@ -92,7 +92,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     assert not page.locator(".rxf-strip").first.is_visible()
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     labels, bar = page.locator('[data-explorer="labels"]'), page.locator(".rxf-fly-bar input")
-    labels.get_by_text("Drive electronics").wait_for(timeout=VERDICT)
+    labels.get_by_text("kg of electronics").wait_for(timeout=VERDICT)
     rest, still = angle(watched), watched.text("actuator-now")
     bar.fill("3")
     watched.until_changed(lambda: watched.text("actuator-now"), still)
@@ -118,7 +118,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     assert page.evaluate("() => RX.state.flight === null && RX.state.earns === null")
     watched.mode("actuate")
     watched.reads("actuator-now", "at rest")  # What the flight drove is at rest again.
-    labels.get_by_text("Drive electronics").wait_for()
+    labels.get_by_text("kg of electronics").wait_for()
 
 
 @pytest.mark.slow
