@@ -149,4 +149,4 @@ def _thickest(loop: Array) -> float:
     nose = int(np.argmin(loop[:, 0]))
     place = np.linspace(float(loop[nose, 0]), float(loop[:, 0].max()), 201)
     upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
-    return float(np.abs(np.interp(place, *upper.T) - np.interp(place, *lower.T)).max())
+    return float(np.abs(np.interp(place, upper[:, 0], upper[:, 1]) - np.interp(place, lower[:, 0], lower[:, 1])).max())
