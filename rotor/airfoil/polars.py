@@ -70,8 +70,8 @@ _NAMES = {
 """Other names of columns."""
 _MOST_ANGLES = 2000
 _MOST_POLARS = 60
-_HEAD, _LONGEST_HEAD, _LONGEST_HEADING = 40, 8000, 400
-"""Lines and characters above a heading that are looked at, and characters of a heading; XFOIL writes twelve lines."""
+_HEAD, _LONGEST_HEAD, _LONGEST_HEADING = 80, 20_000, 400
+"""Lines and characters above a heading that are looked at, and characters of a heading; AeroDyn writes fifty lines."""
 _SAME_ANGLE = 1e-6
 """[deg]"""
 _ALIKE = (0.02, 0.002)

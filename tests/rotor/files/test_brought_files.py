@@ -93,7 +93,9 @@ POLAR_FILES = {
     "capitals, blanks, further columns": "Name, Mach , RE, Alpha_deg, CL, CD, CM\n"
     + table(f"x, 0.3, 3.24e6, {COMMAS}"),
     "quotes and semicolons": '"mach";"reynolds";"alpha";"cl";"cd";"cm"\n' + table(SEMICOLONS).replace(".", ","),
-    "AeroDyn": "! Mach 0.3\n 3.24   Re  ! in millions\n 73 NumAlf\n!  Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n"
+    "AeroDyn": "! Mach 0.3\n 3.24   Re  ! in millions\n"
+    + 45 * " 1.7 T_f0 ! a time constant\n"
+    + " 73 NumAlf\n!  Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n"
     + f"{table(BLANKS)}! end\n",
     "QBlade": f"REYNOLDS 3.24e6\nMACH 0.3\nAOA CL CD CM\n{table(BLANKS)}",
 }
