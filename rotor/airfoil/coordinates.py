@@ -35,7 +35,7 @@ def read_coordinates(text: str, name: str) -> Array:
     """The outline in `text`, (n, 2): from the upper trailing edge forward around the nose, x aft and y up [chord].
 
     Repeated points are dropped; a sharp trailing edge is both first and last. Coordinates in per cent or in millimetres
-    are divided by the chord. Raises ValueError with one sentence that names the line of `name` and the remedy.
+    are divided by their width in x. Raises ValueError with one sentence that names the line of `name` and the remedy.
     """
     points, lines, words = _rows(text, name)
     counts, left = points[0], len(points) - 1
