@@ -38,7 +38,7 @@ OUTLINES = {
     "Lednicer with counts": f"NACA 2412\n 21. 21.\n\n{LEDNICER}",
     "Lednicer in per cent": f"21 21\n{rows(100.0 * UPPER[::-1])}{rows(100.0 * LOWER)}",
     "both sides headed": f"Upper\n{rows(UPPER)}Lower\n{rows(LOWER[::-1])}",
-    "credit": f"NACA 2412\n{rows(POINTS)}\nDrawn in 1998, with 41 points\n",
+    "credit": f"NACA 2412\n{rows(POINTS)}\nDrawn in 1998, with 41 points\nMoment(cm0): -0,05\n",
     "two headings": f"NACA 2412\nof 4 digits, 12 %\n{rows(POINTS)}",
     "heading of two numbers": f"2412 12\n{rows(POINTS)}",
     "commas": rows(POINTS, "{:.6f}, {:.6f}"),
