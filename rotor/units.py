@@ -13,6 +13,26 @@ GRAVITY = 9.80665
 """Standard gravity [m/s²] (ISO 2533)."""
 
 
+_UNITS = {
+    "_deg": "°",
+    "_percent": "%",
+    "_kt": "kt",
+    "_kg": "kg",
+    "_m": "m",
+    "_m_s": "m/s",
+    "_n": "N",
+    "_nm": "N m",
+    "_w": "W",
+    "_ms": "ms",
+    "_per_rev": "/rev",
+}
+
+
+def unit_of(name: str) -> str:
+    """The unit in which the key of a file, or the column of a table, ends; empty without one. Quantities say theirs."""
+    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
+
+
 def degrees_text(angle: float) -> str:
     """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
     exact = math.degrees(angle)

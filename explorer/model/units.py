@@ -98,7 +98,7 @@ class Units:
         if value == row.default:
             return ""
         form, falls = form_of(row, self), bool(row.below) and value < 0.0
-        unit = Unit(form.unit or row.symbol, form.size)
+        unit = Unit(form.unit or row.unit, form.size)
         return f"{row.below if falls else row.short} {unit.text(abs(value) if falls else value, form.digits)}"
 
     def beside(self, condition: FlightCondition) -> list[str]:

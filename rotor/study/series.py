@@ -150,7 +150,7 @@ def sweep(
 
 
 if sweep.__doc__:  # Python drops docstrings when it is asked to.
-    words = (f"{name}: {row.what} [{row.symbol}]." for name, row in SWEPT.items() if name != "mu")
+    words = (f"{name}: {row.what} [{row.unit}]." for name, row in SWEPT.items() if name != "mu")
     sweep.__doc__ = sweep.__doc__.replace("{arguments}", "\n        ".join(words))
 
 

@@ -177,8 +177,13 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
         said["installed-power"] = (
-            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
-            "and less at altitude."
+            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level on "
+            "a standard day, and less at altitude or in warmer air."
+        )
+    elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
+        said["engines-of-a-standard-day"] = (
+            f"The engines' {1e-3 * installed:.0f} kW are those of a standard day at sea level: in warmer air engines "
+            "give less, which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
         said["controls"] = f"The trim needs more than the controls give: {', '.join(beyond)}."
