@@ -94,10 +94,10 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
     """κ and its ideal bound."""
     kappa = "κ = Pi/(CT·λ0) ", tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa")
     bound: Content = f"ideal: {not_bounded(solution.design)}"
-    if ideal is not None:
-        unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
+    if ideal is not None and solution.induced_power_factor:
         theory = " (momentum theory)" if solution.design.hovering else ""
-        power, factor = tag("b", units.watts(ideal)), f", κ {number(ideal / unit, 2)}{theory}"
+        least = solution.induced_power_factor * ideal / solution.power.induced
+        power, factor = tag("b", units.watts(ideal)), f", κ {number(least, 2)}{theory}"
         bound = "ideal ", power, factor
     return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 

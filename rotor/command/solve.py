@@ -165,8 +165,8 @@ def report(solution: Solution) -> str:
             less, more = (end.power.total / 1e3 for end in band)
             between = f"{less:.1f} … {more:.1f} kW for drag areas {low:g} … {high:g} m²"
             lines += [f"{'total':<12}{between}: the sources leave that open"]
-        merit = solution.figure_of_merit
-        lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
+        merit, factor = solution.figure_of_merit, solution.induced_power_factor
+        lines += ["", f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
         lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
         if design.condition.stand is not None:
             lift, drag = solution.lift_and_drag
