@@ -10,7 +10,7 @@ import numpy as np
 
 from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
-from explorer.model.units import BLANK, SI, Units, adding, number
+from explorer.model.units import BLANK, SI, WATT, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, PiezoPly, Verdict
@@ -70,7 +70,7 @@ def open_drag_area(design: Design) -> tuple[float, float] | None:
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     """The total in both units of power, and its change."""
     large, small = units.power
-    total = large.text(power.total, fineness(power))
+    total = large.text(power.total, fineness(power, units))
     return tag(
         "div.rx-line.rx-base",
         tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
@@ -116,9 +116,9 @@ def direction(percent: float) -> str:
     return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
 
 
-def fineness(power: PowerBudget) -> int:
-    """Decimals of a power: one for a light helicopter, none for a heavy one."""
-    return 1 if power.total < 2e5 else 0
+def fineness(power: PowerBudget, units: Units = SI) -> int:
+    """Decimals of a power: one for a light helicopter, none for a heavy one; in watts likewise."""
+    return 1 if power.total < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
 def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
@@ -128,9 +128,9 @@ def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | Non
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
-        tag("td.rx-num", units.watts(value, fineness(power))),
+        tag("td.rx-num", units.watts(value, fineness(power, units))),
         tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:19%"),
-        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power), sign=True), style="width:25%"),
+        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power, units), sign=True), style="width:25%"),
         title=tip(_MEANT.get(title, name)),
     )
 
@@ -261,7 +261,7 @@ def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBud
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
-    fine = fineness(power)
+    fine = fineness(power, units)
     if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))

@@ -33,6 +33,7 @@ from rotor.engine.waves import waves_at
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
+from rotor.units import power_unit
 from rotor.user_input import check_suffix, write_whole
 
 
@@ -267,8 +268,10 @@ class Solution:
         if self.converged:
             others = [name for name in ("climb", "damping") if getattr(self.power, name)]
             parts = ("induced", "profile", "parasite", *others, "tail")
-            kilowatts = ", ".join(f"{part} {getattr(self.power, part) / 1e3:.1f}" for part in parts)
-            power = f"power {self.power.total / 1e3:.1f} kW: {kilowatts}"
+            values = {part: getattr(self.power, part) for part in ("total", *parts)}
+            symbol, size = power_unit(*values.values())
+            total, *others = (f"{value / size:z.1f}" for value in values.values())
+            power = f"power {total} {symbol}: {', '.join(map(' '.join, zip(parts, others, strict=True)))}"
         return f"{self.design}\n{state}\n{power}"
 
     @property

@@ -21,6 +21,7 @@ from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.power import HubMoment
 from rotor.trim.solution import Caveat, Solution
+from rotor.units import power_text
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -136,13 +137,13 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         said["control-power"] = (
-            f"Pitch links and actuators put {control_power / 1e3:.1f} kW into the pitching blades; that is not part of "
-            "the power here."
+            f"Pitch links and actuators put {power_text(control_power, 1)} into the pitching blades; that is not part "
+            "of the power here."
         )
     if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
         said["torque-without-drag"] = (
-            f"Only the thrust is trimmed, so the shaft's torque carries {power.shaft / 1e3:.0f} kW; with the drag of "
-            f"the airframe the rotor takes {power.main_rotor / 1e3:.0f} kW, the sum of its parts."
+            f"Only the thrust is trimmed, so the shaft's torque carries {power_text(power.shaft)}; with the drag of "
+            f"the airframe the rotor takes {power_text(power.main_rotor)}, the sum of its parts."
         )
     return said
 
@@ -177,12 +178,12 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
         said["installed-power"] = (
-            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level on "
+            f"The rotors take {power_text(power.total)}; the engines give {power_text(installed)} at sea level on "
             "a standard day, and less at altitude or in warmer air."
         )
     elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
         said["engines-of-a-standard-day"] = (
-            f"The engines' {1e-3 * installed:.0f} kW are those of a standard day at sea level: in warmer air engines "
+            f"The engines' {power_text(installed)} are those of a standard day at sea level: in warmer air engines "
             "give less, which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
