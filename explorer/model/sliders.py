@@ -63,9 +63,12 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
     """The slider as it is shown in these units, for this aircraft."""
     if name == "mass_t":
         return _weight(aircraft, units)
-    if name == "advance_ratio" and aircraft.isolated:
-        return replace(SLIDERS[name], high=0.75)
-    return form_of(ROWS[name], units)
+    form = form_of(ROWS[name], units)
+    if aircraft.isolated and name in ("advance_ratio", "climb_m_s"):  # A rotor of a propeller too.
+        row = ROWS[name]
+        high = (row.high_on_stand or row.high) / form.size
+        return replace(form, high=high, low=-high if row.low < 0.0 else form.low)
+    return form
 
 
 def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:

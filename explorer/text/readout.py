@@ -31,12 +31,12 @@ def part_titles(*designs: Design) -> dict[str, str]:
     That of the climb is among them where one of the designs climbs or descends.
     """
     tested = [design.condition.stand is not None for design in designs]
-    if all(tested):
-        return _ON_A_STAND
     titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
+    titles = _ON_A_STAND if all(tested) else titles
     if not any(design.condition.climb_speed for design in designs):
         return titles
-    return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
+    titles = {**titles, "climb": "Climb"}
+    return {name: titles[name] for name in PARTS if name in titles}
 
 
 def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:

@@ -159,6 +159,7 @@ def report(solution: Solution) -> str:
                 "induced": power.induced,
                 "profile": power.profile,
                 "propulsive": power.parasite,
+                **({"climb": power.climb} if design.condition.climb_speed else {}),
             }
         symbol, size = power_unit(*powers.values())
         lines += ["", *(f"{name:<12}{value / size:z10.1f} {symbol}" for name, value in powers.items())]

@@ -133,7 +133,8 @@ class FlightCondition:
     stand: Stand | None = None
     """The inputs of a test of the rotor alone, which has neither weight nor drag to balance; None in flight."""
     climb_speed: float = 0.0
-    """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
+    """V_c, rate of climb [m/s], negative in descent; on a test stand that of vertical wind, down. Air density is that
+    of the altitude: the climb of an instant."""
 
     rotor_speed_percent: float = 100.0
     """Ω over that of the rotor file [%]; the tail rotor is geared to it."""
@@ -149,11 +150,6 @@ class FlightCondition:
                 row.check(getattr(self, row.field), tested)
         if self.advance_ratio < SLOWEST_FLIGHT:
             object.__setattr__(self, "advance_ratio", 0.0)
-        if self.stand is not None and self.climb_speed:
-            raise ValueError(
-                f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
-                "through the disk"
-            )
         if self.stand is not None and self.stand.tip_mach is not None and self.rotor_speed_percent != 100.0:
             raise ValueError(
                 f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast "

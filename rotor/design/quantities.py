@@ -160,15 +160,17 @@ _CONDITION = (
         "viscosity follow; the power of the engines does not. | section 2",
     ),
     Quantity(
-        "climb_m_s", "number", "rate of climb, negative in descent (default 0); preset flight", unit="m/s",
+        "climb_m_s", "number", "rate of climb, negative in descent; on a stand wind from above; preset flight",
+        unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
-        plain="level flight", low=-20.0, high=20.0, default=0.0, in_flight=True, axial=True, examples=(-5, 0, 5),
+        plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
         key="climb_m_s", word="climb", section="fixed", told=True, input="climb_m_s",
         slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
         aviation=Slider(
             "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0
         ),
-        hint="Rate of climb, negative in descent; µ is of the horizontal speed. | section 2",
+        hint="Rate of climb, negative in descent; µ is of the horizontal speed. On a test stand: wind from above. "
+        "| section 2",
     ),
     Quantity(
         "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays", unit="%",

@@ -115,7 +115,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     if off := switched_off(models):
         names = ", ".join(switch.title.lower() for switch in off)
         said["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
-    if not models.flapping and trim.mu > 0.0:
+    if not design.flaps and trim.mu > 0.0:
         said["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
             said["rigid-blades-linear-inflow"] = (
@@ -163,7 +163,7 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
         )
     if design.condition.climb_speed < 0.0:
         inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
-        descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
+        descent, edge = (-design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
         if descent > -VORTEX_RING_ONSET and edge < math.inf:
             said["vortex-ring"] = (
                 f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
@@ -266,9 +266,10 @@ def _nearest_to_stall(margin: Array, r: Array) -> str:
 def _rigid(moment: HubMoment) -> str:
     side = "retreating" if moment.roll >= 0.0 else "advancing"
     nose = "up" if moment.pitch >= 0.0 else "down"
+    unit, size = ("kN m", 1e3) if moment.size >= 1e4 else ("N m", 1.0)
     return (
-        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
-        f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
+        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / size:.0f} {unit} rolling to the {side} side "
+        f"and {abs(moment.pitch) / size:.0f} {unit} nose-{nose}."
     )
 
 
@@ -286,14 +287,14 @@ LARGEST_TILT = math.radians(40.0)
 def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> str:
     """Why a trim that closes is refused all the same, as a sentence; empty where nothing speaks against it."""
     state, design = elements.state, problem.design
-    lighter = "lower the mass, the altitude or the speed"
+    lighter = _advice(design)
     checks = (
-        ("coning", state.coning, LARGEST_FLAPPING, "check the blade's mass and flap inertia, or lower the mass"),
+        ("coning", state.coning, LARGEST_FLAPPING, f"check the blade's mass and flap inertia, or {lighter}"),
         ("flapping", math.hypot(state.flap_1c, state.flap_1s), LARGEST_FLAPPING, lighter),
         ("collective", state.collective, LARGEST_CONTROL, lighter),
         ("cyclic", math.hypot(state.cyclic_1c, state.cyclic_1s), LARGEST_CONTROL, lighter),
-        ("shaft tilt", state.shaft_tilt, LARGEST_TILT, "raise the mass, or lower the speed or the drag area"),
-        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, "stiffen the blade, or lower the mass"),
+        ("shaft tilt", state.shaft_tilt, LARGEST_TILT, _HEAVIER),
+        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, f"stiffen the blade, or {lighter}"),
     )
     for name, value, largest, remedy in checks:
         if not abs(value) <= largest:
@@ -302,12 +303,34 @@ def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> s
                 f"±{math.degrees(largest):.0f}°, where these equations no longer hold: {remedy}."
             )
     loading = total.thrust / design.rotor.solidity
-    if design.hovering and loading > HOVER_LIMIT:
+    if design.hovering and abs(loading) > HOVER_LIMIT:
         return (
             f"Not trimmed: hover needs C_T/σ {loading:.3f}, and rotors have reached about {HOVER_LIMIT:g} with every "
-            "blade element at its maximum lift: lower the mass or the altitude."
+            f"blade element at its maximum lift: {lighter}."
         )
     return ""
+
+
+_HEAVIER = "raise the mass, or lower the speed or the drag area"
+
+
+def _tilt(design: Design) -> float:
+    """Shaft tilt [rad] at which thrust overcomes drag."""
+    drag, down = design.drag_parts
+    return math.atan2(drag, design.weight_coefficient + down)
+
+
+def _advice(design: Design) -> str:
+    """What brings a flight or a test nearer to a trim."""
+    condition = design.condition
+    if condition.stand is not None:
+        given = "change the collective" if condition.stand.collective is not None else "lower the thrust"
+        return given if design.hovering else f"{given} or the advance ratio"
+    if _tilt(design) > LARGEST_TILT:
+        return _HEAVIER
+    lower = ["load factor"] if condition.load_factor > 1.0 else []
+    lower += ["mass", "altitude"] if design.hovering else ["mass", "altitude", "speed"]
+    return f"lower the {', the '.join(lower[:-1])} or the {lower[-1]}"
 
 
 def _largest_twist(elements: BladeElements) -> float:
@@ -329,11 +352,17 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     condition = design.condition
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
-    share = _share(stalled, reached)
+    share, advice = _share(stalled, reached), _advice(design)
+    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.beside))
     if design.hovering:
         return (
-            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that "
-            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the mass or the altitude."
+            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
+            f"needs; {advice}."
+        )
+    if _tilt(design) > LARGEST_TILT:
+        return (
+            f"Not trimmed: drag tilts the shaft by {math.degrees(_tilt(design)):.0f}° at {what} and advance ratio "
+            f"{condition.advance_ratio:.3f}, and these equations hold to {math.degrees(LARGEST_TILT):.0f}°: {advice}."
         )
     near = easier_condition(design, reached)
     how_far = ""
@@ -342,19 +371,18 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     elif reached > 0.0:
         how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (
-        f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
-        f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
-        f"Lower the mass, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
+        f"Not trimmed: {what} and advance ratio {condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
+        f"{advice[:1].upper()}{advice[1:]}{'' if design.flaps else ', or let the blades flap'}."
     )
 
 
 def stalled_sentence(design: Design, stalled: float, mass: float | None, mu: float | None) -> str:
     """Why a trim with very much stall has no power, with the largest mass and advance ratio that have one."""
-    remedy = "Lower the thrust or the advance ratio."
+    advice = _advice(design)
+    remedy = f"{advice[:1].upper()}{advice[1:]}."
     if design.condition.stand is None:
         largest = [f"{math.floor(mass)} kg at this speed"] if mass is not None else []
         largest += [f"advance ratio {math.floor(1e3 * mu) / 1e3:.3f} at this mass"] if mu is not None else []
-        remedy = "Lower the mass, the altitude or the speed."
         remedy = f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
         remedy = f"The largest that trims is {largest[0]}." if len(largest) == 1 else remedy
     return (

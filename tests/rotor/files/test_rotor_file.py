@@ -63,6 +63,29 @@ def polar_file(polar: Polar) -> str:
     )
 
 
+def test_a_rotor_alone_needs_neither_mass_nor_spring():
+    """Power in hover is that of any mass, and a rigid blade has none to flap with; without a mass γ is 8."""
+    text = GOOD.partition("[airframe]")[0].replace("flap_hinge_m = 0.2\n", "")
+    bare = text.replace("blade_mass_kg = 40.0\n", "")
+    rigid = bare.replace("blades = 3", 'blades = 3\nhub = "hingeless"\nprecone_deg = 2.0')
+    powers = list[float]()
+    for craft in map(read, (text, bare, rigid)):
+        powers.append(solve(make_design(rotor=craft, hover=True, stand={"ct_over_sigma": 0.08})).require().power.shaft)
+    assert_allclose(powers, powers[0], rtol=1e-9)
+    assumed, held = read(bare), read(rigid)
+    assert_allclose(1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12)
+    assert "no blade_mass_kg: the blades flap as those of Lock number 8" in assumed.remarks[0]
+    assert not held.remarks
+    flown = solve(make_design(rotor=held, mu=0.15, stand={"ct_over_sigma": 0.08})).require()
+    assert_allclose(math.degrees(flown.controls.coning), 2.0)
+    assert (flown.controls.cyclic_1s, flown.controls.flap_1s) == (0.0, 0.0)
+    assert flown.hub_moment.roll > 0.0  # More lift on the advancing side.
+    assert "rigid-blades" in {caveat.name for caveat in flown.caveats}
+    bends = 'structure = "uh60a"\n[airframe]'
+    with pytest.raises(ValueError, match="a hingeless blade that can bend needs it"):
+        read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
+
+
 def test_a_minimal_file_is_enough():
     craft = read(GOOD)
     rotor, blade = craft.rotor, craft.rotor.blade
