@@ -32,6 +32,8 @@ def add_sweep(commands: Any) -> None:
     words = "power of one or more twists over speed, mass, altitude or another quantity of flight"
     parser = common.add_command(commands, "sweep", run_sweep, words)
     common.add_design_arguments(parser, twists=True, ranges=True)
+    words = "one of the twists: a further column has power relative to it"
+    parser.add_argument("--relative-to", metavar="TWIST", help=words)
     common.add_output_arguments(parser)
 
 
@@ -45,7 +47,9 @@ def run_sweep(args: argparse.Namespace) -> int:
             design.at(**cast(Any, {name: step}))
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
-    solutions = SweepTable(tuple(solution for each in tables for solution in each))
+    solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
+    if args.relative_to:
+        solutions = solutions.relative_to(common.design_from(args, args.relative_to).twist.spec())
     found = sweep_table(solutions, args.over)
     if args.csv:
         found.write(args.csv)
@@ -75,6 +79,8 @@ def _sweep_column(name: str, level: bool, fine: int) -> str:
     head = "|" if level and name.startswith("climb") else f"|{name}"
     if name == "twist":
         return f"{name}{head}|<"
+    if name == "change_percent":
+        return f"{name}|change %|+.2f|.3f"
     if name.endswith("_kw"):
         return f"{name}{head}|.{1 + fine}f|.{2 + fine}f"
     shown = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"

@@ -39,6 +39,9 @@ MOST_STALLED = 0.25
 """Part of the thrust that stalled sections carry beyond which there is no power. Measured rotors have up to 22 % (a
 tilted XV-15). Beyond the largest lift a rotor balances the same weight once more, at a multiple of the power, with 33
 to 56 % of the thrust stalled and 19 to 44 % of the disk: the share of the disk does not tell the two apart."""
+LEAST_ASPECT_RATIO = 10.0
+"""R/c below which thrust at a given collective is not trusted. Our choice: that of Caradonna and Tung's rotor (NASA
+TM-81232) is 6, those of the other rotors compared here 10.7 and more."""
 CONTROL_SHARE = 0.005
 """Power of pitch links and actuators over that of the main rotor from which it is named. Our choice."""
 FAST_PITCH = 0.2
@@ -100,6 +103,12 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
     if design.preset == "thesis" and design.aircraft.stated is None:
         said["thesis-models"] = (
             f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade."
+        )
+    stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
+    if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
+        said["small-aspect-ratio"] = (
+            f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
+            "and Tung, of 6, a quarter to a half more than was measured in hover. Give the thrust instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (

@@ -86,6 +86,16 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
         read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
 
 
+def test_thrust_at_a_collective_is_not_trusted_on_short_blades():
+    text = GOOD.partition("[airframe]")[0]
+    for chord, told in ((0.45, False), (0.6, True)):  # R/c 11.1 and 8.3.
+        craft = read(text.replace("[0.30, 0.20]", f"[{chord}, {chord}]"))
+        for stand in ({"collective_deg": 8.0}, {"ct_over_sigma": 0.05}):
+            found = solve(make_design(rotor=craft, hover=True, stand=stand)).require()
+            names = {caveat.name for caveat in found.caveats}
+            assert ("small-aspect-ratio" in names) == (told and "collective_deg" in stand)
+
+
 def test_a_minimal_file_is_enough():
     craft = read(GOOD)
     rotor, blade = craft.rotor, craft.rotor.blade
