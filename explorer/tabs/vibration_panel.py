@@ -10,7 +10,7 @@ from dataclasses import replace
 from explorer.charts.strip import Role
 from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.model.session_state import SessionState
-from explorer.model.units import number
+from explorer.model.units import UNITS, number
 from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
@@ -108,7 +108,7 @@ class VibrationPanel:
             rigid = self._rigid[1]
             if rigid.converged:
                 added = solution.power.total - rigid.power.total
-                words = f"{self._context.units.watts(added, 1, sign=True)} here"
+                words = f"{UNITS[state.view.units].watts(added, 1, sign=True)} here"
         self._context.controls.show_bending(words[:1].upper() + words[1:])
 
     def _draw(self) -> None:

@@ -244,7 +244,7 @@ class TestSweep:
         changed = table.relative_to("linear:-4")
         powers = [one.power.total for one in table]
         by_hand = [100.0 * (power / powers[k] - 1.0) for power, k in zip(powers, (2, 3, 2, 3), strict=True)]
-        assert_allclose(changed.changes, by_hand)
+        assert changed.changes == pytest.approx(by_hand)
         assert changed.to_dict()["change_percent"] == list(changed.changes)
         assert by_hand[0] != 0.0 == by_hand[2]
         drawn = rotor.plot_power(changed)
