@@ -164,7 +164,11 @@ def report(schedule: Schedule) -> str:
                 f"Additional saving from variable twist {gain.gain / size:.1f} {symbol} "
                 f"({100 * gain.share:.2f} %)."
             )
-            if (sure := schedule.gain_doubt(concept.name)) is not None and sure.change_band is not None:
+            if (
+                (sure := schedule.gain_doubt(concept.name)) is not None
+                and sure.change_band is not None
+                and sure.sureness
+            ):
                 sentence += f" Known to ± {sure.change_band / size:.1f} {symbol}: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
