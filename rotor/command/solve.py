@@ -162,7 +162,8 @@ def report(solution: Solution) -> str:
                 **({"climb": power.climb} if design.condition.climb_speed else {}),
             }
         symbol, size = power_unit(*powers.values())
-        lines += ["", *(f"{name:<12}{value / size:z10.1f} {symbol}" for name, value in powers.items())]
+        digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
+        lines += ["", *(f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         if (band := between_drag_areas(solution)) is not None:
             low, high = (end.design.fuselage.drag_area for end in band)
