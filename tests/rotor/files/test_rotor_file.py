@@ -18,6 +18,7 @@ from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.trim.solve import solve
+from rotor.trim.stability import stability
 
 POLARS = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
 DECK = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
@@ -81,6 +82,8 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     assert (flown.controls.cyclic_1s, flown.controls.flap_1s) == (0.0, 0.0)
     assert flown.hub_moment.roll > 0.0  # More lift on the advancing side.
     assert "rigid-blades" in {caveat.name for caveat in flown.caveats}
+    with pytest.raises(ValueError, match="these blades are rigid and have no modes"):
+        stability(flown)
     bends = 'structure = "uh60a"\n[airframe]'
     with pytest.raises(ValueError, match="a hingeless blade that can bend needs it"):
         read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
