@@ -3,27 +3,18 @@
 import argparse
 import sys
 from collections.abc import Mapping
+from importlib import import_module
 
 from rotor import __version__
 from rotor.blas_threads import keep_one_blas_thread
-from rotor.command import (
-    actuator,
-    envelope,
-    optimise,
-    reproduce,
-    schedule,
-    solve,
-    stability,
-    study,
-    tables,
-    validate,
-    warm,
-)
-from rotor.command.common import add_command
+from rotor.command.names import COMMANDS
 from rotor.terminal import OneLineParser, called, run_command
 
+_COMPLETION = "completion"
 
-def build_parser() -> argparse.ArgumentParser:
+
+def build_parser(command: str | None = None) -> argparse.ArgumentParser:
+    """Of all commands; with the flags of one alone where its name is given, since the others take a second to read."""
     parser = OneLineParser(
         prog=called("rotor", "rotor"),
         description="Helicopter main rotors: trim, power, twist.",
@@ -31,32 +22,20 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for add in (
-        solve.add_parser,
-        tables.add_sweep,
-        tables.add_front,
-        tables.add_waterfall,
-        optimise.add_parser,
-        schedule.add_parser,
-        envelope.add_parser,
-        study.add_parser,
-        stability.add_parser,
-        actuator.add_parser,
-        reproduce.add_parser,
-        validate.add_parser,
-        tables.add_airfoil,
-        warm.add_parser,
-    ):
-        add(commands)
+    for name, (where, words) in COMMANDS.items():
+        if command in (None, name):
+            module, _, add = where.partition(".")
+            getattr(import_module(f"rotor.command.{module}"), add)(commands)
+        else:
+            commands.add_parser(name, help=words)
 
     def complete(_: argparse.Namespace) -> int:
         print(completion(commands.choices, "rotor"))
         return 0
 
-    add_command(
-        commands, "completion", complete, "prints what completes commands and flags of rotor with Tab",
-        "For bash: eval \"$(rotor completion)\"; for zsh after autoload -U bashcompinit && bashcompinit.",
-    )  # fmt: skip
+    words = "prints what completes commands and flags of rotor with Tab"
+    hint = 'For bash: eval "$(rotor completion)"; for zsh after autoload -U bashcompinit && bashcompinit.'
+    commands.add_parser(_COMPLETION, help=words, description=hint).set_defaults(run=complete)
     return parser
 
 
@@ -76,14 +55,16 @@ complete -o default -F _{script} {script}'''
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command; bad input gives one line on stderr."""
-    keep_one_blas_thread()
 
     def run() -> int:
-        parser = build_parser()
-        if not (sys.argv[1:] if argv is None else argv):
+        given = sys.argv[1:] if argv is None else argv
+        first = given[0] if given else ""
+        parser = build_parser(first if first in COMMANDS or first in ("", "-h", "--help", "--version") else None)
+        if not given:
             parser.print_help()
             return 0
         args = parser.parse_args(argv)
+        keep_one_blas_thread()
         return args.run(args)
 
     return run_command("rotor", run)

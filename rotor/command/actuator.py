@@ -27,8 +27,7 @@ from rotor.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
-    about = "attainable twist, limits and net saving of an actuator between two flight conditions"
-    parser = common.add_command(commands, "actuator", run, about)
+    parser = common.add_command(commands, "actuator", run)
     parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default); list: --table 5.1")
     parser.add_argument(
         "--plies", type=int, default=2, metavar="N", help="per skin (default 2); for a torque tube: number of tubes"

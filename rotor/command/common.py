@@ -20,6 +20,7 @@ from rotor.actuator.installation import change_limit, install
 from rotor.actuator.section import Host, default_placement
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.assets import SHIPPED_ROTORS
+from rotor.command.names import COMMANDS
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
 from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, SPEED, STAND, SWEPT
@@ -35,8 +36,9 @@ from rotor.user_input import check_writable, parse_range
 Run = Callable[[argparse.Namespace], int]
 
 
-def add_command(commands: Any, name: str, run: Run, words: str, description: str = "") -> argparse.ArgumentParser:
-    """A command's parser; its words stand in the list of commands, and above its own flags unless there are others."""
+def add_command(commands: Any, name: str, run: Run, description: str = "") -> argparse.ArgumentParser:
+    """A command's parser; its words in the list of commands stand above its own flags unless there are others."""
+    words = COMMANDS[name][1]
     parser = commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
     parser.set_defaults(run=run)
     return parser

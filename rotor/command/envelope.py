@@ -11,12 +11,7 @@ from rotor.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
-    parser = common.add_command(
-        commands,
-        "envelope",
-        run,
-        "largest load factor and mass over speed, top speed and ceiling, by stall and engines",
-    )
+    parser = common.add_command(commands, "envelope", run)
     common.add_design_arguments(parser, twists=True)
     parser.add_argument("--mu", dest="speeds", metavar="A:B:STEP", help="advance ratios (default 0:0.4:0.1)")
     parser.add_argument(

@@ -29,9 +29,7 @@ from rotor.units import power_text
 
 
 def add_parser(commands: Any) -> None:
-    parser = common.add_command(
-        commands, "optimise", run, "twist of least power or vibration, width of the optimum, saving"
-    )
+    parser = common.add_command(commands, "optimise", run)
     parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
     parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     parser.add_argument(

@@ -12,9 +12,7 @@ from rotor.user_input import make_folder
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
-        commands, "reproduce", run, "rebuilds every figure and table of the thesis that can be rebuilt"
-    )
+    parser = add_command(commands, "reproduce", run)
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; made when missing")
     parser.add_argument(
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"

@@ -23,9 +23,7 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def add_parser(commands: Any) -> None:
-    parser = common.add_command(
-        commands, "schedule", run, "optimum twist per condition, best fixed blade, gain of in-flight twist"
-    )
+    parser = common.add_command(commands, "schedule", run)
     parser.add_argument(
         "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {common.CONCEPT_HELP}"
     )

@@ -22,7 +22,7 @@ from rotor.user_input import check_writable
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "solve", run, "trims one design: power, controls and caveats")
+    parser = add_command(commands, "solve", run)
     add_design_arguments(parser, speed=True)
     parser.add_argument(
         "--row",

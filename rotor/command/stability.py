@@ -18,9 +18,7 @@ from rotor.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
-    parser = common.add_command(
-        commands, "stability", run, "damping of the blade's modes, margins to flutter and divergence"
-    )
+    parser = common.add_command(commands, "stability", run)
     parser.add_argument(
         "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
     )

@@ -142,7 +142,6 @@ def add_parser(commands: Any) -> None:
         commands,
         "study",
         run,
-        "many designs from one file, on one machine or a cluster",
         "Runs a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
     )
     parser.add_argument("file", metavar="FILE.toml", help="study file, a shipped example (two_segment.toml), or show")

@@ -29,8 +29,7 @@ from rotor.units import power_unit
 
 
 def add_sweep(commands: Any) -> None:
-    words = "power of one or more twists over speed, mass, altitude or another quantity of flight"
-    parser = common.add_command(commands, "sweep", run_sweep, words)
+    parser = common.add_command(commands, "sweep", run_sweep)
     common.add_design_arguments(parser, twists=True, ranges=True)
     words = "one of the twists: a further column has power relative to it"
     parser.add_argument("--relative-to", metavar="TWIST", help=words)
@@ -112,8 +111,7 @@ FRONT_COLUMNS = (
 
 
 def add_front(commands: Any) -> None:
-    words = "least power for less and less vibration, by active or static twist"
-    parser = common.add_command(commands, "front", run_front, words)
+    parser = common.add_command(commands, "front", run_front)
     varied = f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
     parser.add_argument("--concept", metavar="NAME", help=varied)
     parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
@@ -200,9 +198,7 @@ def _front(front: VibrationFront, found: Table) -> str:
 
 
 def add_waterfall(commands: Any) -> None:
-    parser = common.add_command(
-        commands, "waterfall", run_waterfall, "power of tip loss, flapping, reverse flow …, one after another"
-    )
+    parser = common.add_command(commands, "waterfall", run_waterfall)
     common.add_design_arguments(parser, speed=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
 
@@ -274,7 +270,7 @@ def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[C
 
 
 def add_airfoil(commands: Any) -> None:
-    parser = common.add_command(commands, "airfoil", run_airfoil, "shows section data")
+    parser = common.add_command(commands, "airfoil", run_airfoil)
     parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
     parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")

@@ -26,7 +26,7 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(commands, "validate", run, "compares with every measured point of rotors that were tested")
+    parser = add_command(commands, "validate", run)
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
     parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of the preset flight)")

@@ -16,7 +16,6 @@ def add_parser(commands: Any) -> None:
         commands,
         "warm",
         run,
-        "compiles all kernels, once after installing",
         "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
     )
 
