@@ -23,6 +23,10 @@ TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 _TUNNEL_SOURCE = (
     "XFOIL 6.99 tripped at 5 % chord; levels, shocks and moments from public tunnel-derived data; wrapped to ±180 deg"
 )
+_SLOPE = (
+    "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor; lift slope of tunnels; compressibility and ±180 deg wrap by "
+    "this project"
+)
 _MEASURED = "measured by Knight and Hefner (NACA TN 626) at Re 242 000; wrapped to +-180 deg by this project"
 _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility and +-180 deg wrap by this project"
 
@@ -36,8 +40,9 @@ def load_section(name: str) -> SectionTable:
     if name not in SECTION_NAMES:
         hint = did_you_mean(name, TABLE_NAMES) or ":"
         raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(TABLE_NAMES)}")
+    sources = {"naca0012": _SLOPE, "naca63a015": _SLOPE, "naca0015re242k": _MEASURED}
     tunnel = name.startswith(("sc109", "oa209", "naca23012tab"))
-    source = _TUNNEL_SOURCE if tunnel else _MEASURED if name == "naca0015re242k" else _SOURCE
+    source = _TUNNEL_SOURCE if tunnel else sources.get(name, _SOURCE)
     return table_from_deck(name, source, read_c81(asset_path(f"airfoils/{name}.c81")))
 
 
