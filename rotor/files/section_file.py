@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
-from itertools import pairwise
+from itertools import combinations
 from typing import Annotated
 
 from msgspec import Meta
@@ -12,6 +12,7 @@ from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, parse_polar_file
+from rotor.airfoil.reynolds import by_reynolds, same_mach, same_reynolds
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
 
@@ -60,13 +61,15 @@ def read_section(
     key = "deck" if table.deck else "polars"
     outline, thickness = _outline(table, name, texts, used, remarks)
     contents = [_file(("sections", name, key), file, texts, used) for file in table.data]
+    decks = tuple[tuple[float, str], ...]()
     if key == "deck":
         deck = contents[0]
     else:
         polars = [
             polar for file, text in zip(table.data, contents, strict=True) for polar in parse_polar_file(file, text)
         ]
-        deck = _deck_of(name, polars, thickness, remarks)
+        decks = _decks_of(name, polars, thickness, remarks)
+        deck = decks[len(decks) // 2][1]
     section = OwnSection(
         name=name,
         deck=deck,
@@ -74,6 +77,7 @@ def read_section(
         source=", ".join(table.data),
         incidence_offset=math.radians(table.incidence_offset_deg),
         chord_ratio=table.chord_ratio,
+        decks=decks if len(decks) > 1 else (),
     )
     try:
         install_own(section)
@@ -99,13 +103,14 @@ def _outline(
     return outline, table.thickness or thickness_and_camber(contour)[0]
 
 
-def _deck_of(name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
-    """A C81 deck from XFOIL polars, one per Mach number."""
+def _decks_of(name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> tuple[tuple[float, str], ...]:
+    """C81 decks from XFOIL polars by Reynolds number; one where no Mach number has polars of several."""
     at = ("sections", name, "polars")
-    machs = sorted(polar.mach for polar in polars)
-    repeated = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
-    if repeated:
-        raise Refusal(f"two polars of {name} have Mach {repeated[0]:g}: keep one for each Mach number", *at)
+    machs = sorted({polar.mach for polar in polars})
+    for one, other in combinations(polars, 2):
+        if same_reynolds(one.reynolds, other.reynolds) and same_mach(one, other):
+            says = f"two polars of {name} have Mach {one.mach:g} and Reynolds number {one.reynolds:,.0f}"
+            raise Refusal(f"{says}: keep one of them", *at)
     narrow = [p for p in polars if p.alpha_deg[0] > -4.0 or p.alpha_deg[-1] < 8.0]
     if narrow:
         low, high = narrow[0].alpha_deg[0], narrow[0].alpha_deg[-1]
@@ -125,8 +130,16 @@ def _deck_of(name: str, polars: list[Polar], thickness: float, remarks: list[str
         remarks.append(
             f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL does not model shocks."
         )
-    deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness).correct)
-    return format_c81(deck)
+    families = by_reynolds(polars)
+    if len(families) > 1:
+        listed = ", ".join(f"{number:,.0f}" for number, _ in families)
+        remarks.append(
+            f"Section {name} has data of Reynolds numbers {listed}: each blade element takes those of its mean one, "
+            "Ωr c/ν, linear in its logarithm between two."
+        )
+    traits = SectionTraits(thickness=thickness, fixed_reynolds=len(families) > 1)
+    title = name.upper()[:30]
+    return tuple((number, format_c81(assemble_deck(title, family, traits.correct))) for number, family in families)
 
 
 def _file(at: Place, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
