@@ -1,6 +1,7 @@
 """Files of the page: a design's link and file, and the user's own rotor file with its section files."""
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,17 +17,12 @@ from explorer.sharing.share import VIEW, Address, view_code
 from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
 from rotor import Aircraft, Design
-from rotor.airfoil.c81 import parse_c81
-from rotor.airfoil.contour import parse_contour
-from rotor.airfoil.decks import on_run_time_grid
-from rotor.airfoil.polars import parse_polar_file
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
 from rotor.markup import tag
 from rotor.user_input import refusing, shorten
 
-SUFFIXES = (".toml", ".c81", ".txt", ".csv", ".pol", ".dat")
-"""Rotor file; C81 deck; polars; outline."""
+_ROTOR_FILE = ".toml"
 _MOST_FILES = 40
 
 
@@ -39,21 +35,17 @@ class UploadResult:
 
 @dataclass
 class UploadedFiles:
-    """One session's files by name."""
+    """One session's files by name. The key of the rotor file that names a file says what it is."""
 
     texts: dict[str, str] = field(default_factory=dict[str, str])
-    waiting: str | None = None
-    """A rotor file that names what is not here yet."""
+    rotor: str | None = None
+    """The last rotor file: it is read again when a file comes that it names."""
 
     def add(self, name: str, content: bytes) -> UploadResult:
-        """Keep a file; the aircraft as soon as its rotor file and all that names are here.
+        """Keep a file; the aircraft as soon as its rotor file and all that it names are here, whatever the order.
 
         Raises ValueError with one sentence for a file that cannot be used; nothing that was kept is lost.
         """
-        suffix = name[name.rfind(".") :].lower() if "." in name else ""
-        if suffix not in SUFFIXES:
-            known = ", ".join(SUFFIXES)
-            raise ValueError(f"{name} is not one of {known}: load a rotor file, a deck, polars or an outline.")
         if len(content) > LARGEST_FILE:
             raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: a rotor's files have 2 MB at most.")
         if len(self.texts) >= _MOST_FILES and name not in self.texts:
@@ -63,37 +55,42 @@ class UploadedFiles:
         except UnicodeDecodeError:
             raise ValueError(f"{name} is not UTF-8 text: save it as a text file.") from None
         text = text.replace("\r\n", "\n")
-        if suffix == ".toml":
-            return self._rotor(name, text)
-        if suffix == ".c81":  # Read once, so that what is wrong with it is said at once.
-            on_run_time_grid(parse_c81(text, name))
-        elif suffix == ".dat":
-            parse_contour(text, name)
-        else:
-            parse_polar_file(name, text)
+        if name.lower().endswith(_ROTOR_FILE):
+            return self._rotor(name, {**self.texts, name: text})
+        if self.rotor is not None:
+            named = read_tables(self.rotor, self.texts[self.rotor]).named
+            if name in map(_base_name, named):
+                return self._rotor(self.rotor, {**self.texts, name: text})
         self.texts[name] = text
-        if self.waiting is None:
-            return UploadResult(f"{name} is loaded: a rotor file that names it under [sections] will use it.")
-        return self._rotor(self.waiting, self.texts[self.waiting])
+        return UploadResult(
+            f"{name} is loaded: a rotor file ({_ROTOR_FILE}) that names it under [sections] will use it."
+        )
 
-    def _rotor(self, name: str, text: str) -> UploadResult:
-        """A rotor file, when all that it names is here."""
-        named = read_tables(name, text).named  # An `outline` may also name a known section.
-        missing = [file for file in named if file.lower().endswith(SUFFIXES) and file not in self.texts]
+    def _rotor(self, name: str, texts: dict[str, str]) -> UploadResult:
+        """A rotor file, when all that it names is here; it is kept while one of these cannot be used."""
+        named = read_tables(name, texts[name]).named
+        self.texts[name], self.rotor = texts[name], name
+        here = {file: texts[_base_name(file)] for file in named if _base_name(file) in texts}
+        missing = [_base_name(file) for file in named if file not in here]
         if missing:
-            self.texts[name], self.waiting = text, name
+            self.texts = texts
             also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
             return UploadResult(f"{name} is loaded and needs {missing[0]}{also}: load that next.")
-        aircraft = read_aircraft(name, {**self.texts, name: text})
-        self.texts[name], self.waiting = text, None
+        aircraft = read_aircraft(name, {name: texts[name], **here})
+        self.texts = texts
         return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
+
+
+def _base_name(file: str) -> str:
+    """Without its folders, as a browser gives it."""
+    return re.split(r"[\\/]", file)[-1]
 
 
 def add_rotor_upload(context: TabContext) -> None:
     """The button for the files of a rotor of one's own, and what they lead to."""
-    files, kinds, said = UploadedFiles(), ",".join(SUFFIXES), hint("rotor_file")
+    files = UploadedFiles()
     button = context.gui.add_upload_button(
-        "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type=kinds, hint=said
+        "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type="*/*", hint=hint("rotor_file")
     )
 
     def uploaded(event: viser.GuiEvent[Any]) -> None:

@@ -1,21 +1,26 @@
-"""C81 airfoil decks: the fixed-column text tables of rotorcraft codes, strict reading and exact writing.
+"""C81 airfoil decks: the fixed-column text tables of rotorcraft codes, reading and exact writing.
 
 Card image: a title card (30 characters of name, then 6I2: number of Machs and of angles for cl, cd, cm);
 then for each coefficient the Mach cards (seven blanks, then nine fields a card) and for each angle one
 card of the angle and nine values, the rest on continuation cards that begin with seven blanks.
-Every field has seven characters and may touch its neighbour, so the cards are cut by column.
+Every field has seven characters and may touch its neighbour, so the cards are cut by column. Decks of other widths
+are read by their blanks. Lines above the title are left out, and a deck may have no c_m (counts 0 0).
 """
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from rotor.airfoil.polars import one_row_an_angle
 from rotor.arrays import Array
 
 _FIELD = 7
 _PER_CARD = 9
 _NAMES = ("cl", "cd", "cm")
+_PREAMBLE, _LONGEST_TITLE = 40, 200
+"""Lines among which the title is looked for, and its characters."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +37,12 @@ class C81Block:
 
 @dataclass(frozen=True, eq=False)
 class C81Deck:
-    """A section's deck; each coefficient has its own angles and Machs."""
+    """A section's deck; each coefficient has its own angles and Machs. `cm` is None where it has no moment."""
 
     title: str
     cl: C81Block
     cd: C81Block
-    cm: C81Block
+    cm: C81Block | None
 
 
 class _Cards:
@@ -47,10 +52,17 @@ class _Cards:
         self.name = name
         self.lines = [line.rstrip() for line in text.splitlines()]
         self.at = 0
+        self.title = 1
+        """Line of the title."""
+        self.by_blanks = False
+
+    @property
+    def remedy(self) -> str:
+        return f"check the counts in line {self.title}"
 
     def next_card(self) -> str:
         if self.at >= len(self.lines):
-            raise ValueError(f"{self.name} ends after line {self.at}: a card is missing, compare the counts in line 1")
+            raise ValueError(f"{self.name} ends after line {self.at}: a card is missing, {self.remedy}")
         self.at += 1
         return self.lines[self.at - 1]
 
@@ -61,13 +73,22 @@ class _Cards:
         try:
             value = float(text)
         except ValueError:
-            raise self.fail(f"{text!r} is not a number: fields are seven characters wide") from None
+            width = "" if self.by_blanks else ": fields are seven characters wide"
+            raise self.fail(f"{text!r} is not a number{width}") from None
         if not np.isfinite(value):
             raise self.fail(f"{text!r} is not finite: give a number")
         return value
 
     def row(self, count: int, with_angle: bool) -> tuple[float, Array]:
         """`count` values on as many cards as they need, and the angle before them."""
+        if self.by_blanks:
+            words: list[str] = []
+            while len(words) < count + with_angle:
+                words += self.next_card().replace(",", " ").split()
+            if len(words) > count + with_angle:
+                raise self.fail(f"more than {count} values: {self.remedy}")
+            numbers = [self.number(word) for word in words]
+            return numbers[0], np.array(numbers[with_angle:], dtype=np.float64)
         values: list[float] = []
         angle = 0.0
         first = True
@@ -77,10 +98,10 @@ class _Cards:
             if first and with_angle:
                 angle = self.number(head)
             elif head.strip():
-                raise self.fail(f"{head!r} stands where a continuation card has blanks: check the counts in line 1")
+                raise self.fail(f"{head!r} stands where a continuation card has blanks: {self.remedy}")
             here = min(_PER_CARD, count - len(values))
             if len(body) > here * _FIELD:
-                raise self.fail(f"more than {here} values: check the counts in line 1")
+                raise self.fail(f"more than {here} values: {self.remedy}")
             values += [self.number(body[k * _FIELD : (k + 1) * _FIELD]) for k in range(here)]
             first = False
         return angle, np.array(values, dtype=np.float64)
@@ -90,35 +111,64 @@ def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
     _, mach = cards.row(machs, with_angle=False)
     if np.any(np.diff(mach) <= 0.0):
         raise cards.fail(f"the Mach numbers of {name} do not increase: sort them")
-    rows: list[Array] = []
-    alpha: list[float] = []
+    rows: list[tuple[float, ...]] = []
     for _ in range(angles):
         angle, values = cards.row(machs, with_angle=True)
-        if alpha and angle <= alpha[-1]:
-            raise cards.fail(f"angle {angle:g} of {name} does not exceed the one before: sort the angles")
         if name == "cd" and np.any(values <= 0.0):
             raise cards.fail(f"a cd at {angle:g} deg is not positive: drag must be above zero")
-        alpha.append(angle)
-        rows.append(values)
-    return C81Block(mach, np.array(alpha, dtype=np.float64), np.array(rows, dtype=np.float64))
+        rows.append((cards.at, angle, *values))
+    table = np.array(one_row_an_angle(cards.name, rows), dtype=np.float64)
+    return C81Block(mach, table[:, 1], table[:, 2:])
 
 
-def parse_c81(text: str, name: str = "deck") -> C81Deck:
-    """The deck in `text`. Raises ValueError with one sentence that gives the line of `name` and the remedy."""
-    cards = _Cards(name, text)
-    head = cards.next_card().ljust(42)
-    counts: list[int] = []
-    for k in range(6):
-        field = head[30 + 2 * k : 32 + 2 * k]
-        if not field.strip().isdigit() or int(field) < 2:
-            raise cards.fail(f"columns 31-42 are {head[30:42]!r}: give six two-digit counts (6I2) of at least 2")
-        counts.append(int(field))
-    blocks = [_block(cards, _NAMES[k], counts[2 * k], counts[2 * k + 1]) for k in range(3)]
+def _title(cards: _Cards) -> tuple[str, list[int]]:
+    """The title and its six counts, in columns 31-42 or as the last six words; the cards go on below it."""
+    for at, line in enumerate(cards.lines[:_PREAMBLE], start=1):
+        if len(line) > _LONGEST_TITLE:
+            continue
+        fields = [line.ljust(42)[30 + 2 * k : 32 + 2 * k].strip() for k in range(6)]
+        words = re.split(r"[\s,]+", line)
+        title = line[:30]
+        if not all(map(str.isdecimal, fields)):
+            fields, title = words[-6:], " ".join(words[:-6])[:30]
+        if len(fields) == 6 and all(map(str.isdecimal, fields)):
+            counts = [int(field) for field in fields]
+            if min(counts[0], counts[2]) >= 1 and min(counts[1], counts[3]) >= 2 and max(counts) < 1000:
+                cards.at = cards.title = at
+                return title.strip(), counts
+    cards.at = 1
+    first = cards.lines[0] if cards.lines else ""
+    raise cards.fail(
+        f"columns 31-42 are {first.ljust(42)[30:42]!r}, and no line below has the counts: "
+        "end the title with six, of Mach numbers (1 or more) and angles (2 or more) of cl, cd and cm (or 0 0)"
+    )
+
+
+def _deck(cards: _Cards) -> C81Deck:
+    title, counts = _title(cards)
+    lift, drag = (_block(cards, _NAMES[k], counts[2 * k], counts[2 * k + 1]) for k in range(2))
+    moment = _block(cards, "cm", counts[4], counts[5]) if counts[4] and counts[5] else None
     for rest in range(cards.at, len(cards.lines)):
         if cards.lines[rest].strip():
             cards.at = rest + 1
-            raise cards.fail("text after the last card: check the counts in line 1")
-    return C81Deck(head[:30].strip(), *blocks)
+            raise cards.fail(f"text after the last card: {cards.remedy}")
+    return C81Deck(title, lift, drag, moment)
+
+
+def parse_c81(text: str, name: str = "deck") -> C81Deck:
+    """The deck in `text`, by columns or else by blanks, with its angles in order; of rows alike at one angle the first.
+
+    Raises ValueError with one sentence that gives the line of `name` and the remedy.
+    """
+    failed: list[tuple[int, ValueError]] = []
+    for by_blanks in (False, True):
+        cards = _Cards(name, text)
+        cards.by_blanks = by_blanks
+        try:
+            return _deck(cards)
+        except ValueError as error:
+            failed.append((cards.at, error))
+    raise max(failed, key=lambda each: each[0])[1] from None
 
 
 def read_c81(path: Path) -> C81Deck:
@@ -143,14 +193,15 @@ def _cards_of(head: str, values: Array, decimals: int) -> list[str]:
 
 def format_c81(deck: C81Deck) -> str:
     """The deck as text: Mach with three decimals, angles two, cl and cm four, cd five, fewer where they do not fit."""
-    blocks = (deck.cl, deck.cd, deck.cm)
+    blocks = (deck.cl, deck.cd, *([deck.cm] if deck.cm else []))
     counts = [n for block in blocks for n in (block.mach.size, block.alpha_deg.size)]
+    counts += [0] * (6 - len(counts))
     if max(counts) > 99 or len(deck.title) > 30:
         raise ValueError(
             f"C81 holds 99 angles and a title of 30 characters at most, not {max(counts)} and {deck.title!r}"
         )
     lines = [f"{deck.title:<30}" + "".join(f"{n:2d}" for n in counts)]
-    for name, block in zip(_NAMES, blocks, strict=True):
+    for name, block in zip(_NAMES, blocks, strict=False):
         lines += _cards_of(" " * _FIELD, block.mach, 3)
         for angle, row in zip(block.alpha_deg, block.values, strict=True):
             lines += _cards_of(_field(float(angle), 2), row, 5 if name == "cd" else 4)

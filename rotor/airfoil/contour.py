@@ -1,4 +1,4 @@
-"""Section contours: reading coordinates, NACA formulas, chord line, and resampling for lofting.
+"""Section contours: bundled outlines, NACA formulas, chord line, and resampling for lofting.
 
 Order everywhere: from the upper trailing edge forward around the nose to the lower trailing edge, in chord lengths, x
 aft from the leading edge, y up. The trailing-edge gap of the real sections is kept.
@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 import scipy
 
+from rotor.airfoil.coordinates import read_coordinates
 from rotor.arrays import Array, read_only
 from rotor.assets import asset_path
 
 POINTS = 161
-_MOST_POINTS = 2000
 _THICKNESS = (0.2969, -0.1260, -0.3516, 0.2843, -0.1015)
 _FIVE_DIGIT = {  # Middle digits: where the camber is: (m, k1) for a design lift coefficient of 0.3.
     "10": (0.0580, 361.4),
@@ -99,30 +99,8 @@ def read_contour(path: Path, name: str | None = None) -> Contour:
 
 
 def parse_contour(text: str, name: str) -> Contour:
-    """The outline in `text`: `x y` per line, `#` lines and one title line ignored.
-
-    Reads the bundled files and plain Selig files. Raises ValueError with the line of `name` for anything else.
-    """
-    rows: list[tuple[float, float]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        words = line.split("#")[0].split()
-        if not words:
-            continue
-        try:
-            x, y = (float(word) for word in words)
-        except ValueError:
-            if not rows and number == 1:
-                continue  # Selig files start with a title.
-            raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line") from None
-        rows.append((x, y))
-    points = np.array(rows, dtype=np.float64)
-    if not 20 <= len(rows) <= _MOST_POINTS:
-        raise ValueError(f"{name} has {len(rows)} points: a section outline needs 20 to {_MOST_POINTS}")
-    if points[:5, 1].mean() < points[-5:, 1].mean():
-        raise ValueError(f"{name} starts on the lower side: order the points from the upper trailing edge")
-    if not (np.isfinite(points).all() and 0.9 < np.ptp(points[:, 0]) < 1.1 and np.abs(points).max() < 1.5):
-        raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
-    return Contour(name, points)
+    """The outline in a coordinate file, see `read_coordinates`."""
+    return Contour(name, read_coordinates(text, name))
 
 
 @lru_cache(maxsize=32)

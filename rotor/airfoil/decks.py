@@ -94,13 +94,13 @@ _LEAST_RANGE_DEG = 8.0
 def on_run_time_grid(deck: C81Deck) -> C81Deck:
     """The deck with lift and drag on the run-time grid over ±180°; the same values where its knots already fit.
 
-    Raises ValueError with one sentence for a deck whose lift or drag covers too little. A moment that covers too
-    little stays as it is.
+    A deck of one Mach number is held at all of them. Raises ValueError with one sentence for a deck whose lift or drag
+    covers too little; a moment that covers too little is left out.
     """
     try:
-        moment = _block(deck.title, deck.cm, 2)
+        moment = _block(deck.title, deck.cm, 2) if deck.cm else None
     except ValueError:
-        moment = deck.cm
+        moment = None
     return C81Deck(deck.title, _block(deck.title, deck.cl, 0), _block(deck.title, deck.cd, 1), moment)
 
 
@@ -127,6 +127,8 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
         alpha, values = _whole_circle(alpha, values, kind)
     ends = 0.5 * (values[0] + values[-1])
     values = np.concatenate((ends[None], values[1:-1], ends[None]))
+    if len(mach) == 1:
+        return C81Block(np.array([0.0, 1.0]), alpha, np.repeat(values, 2, axis=1))
     steps = mach / MACH_STEP
     if np.any(np.abs(steps - np.round(steps)) > 1e-9) or mach[-1] > 1.0 + 1e-9:
         grid = MACH_STEP * np.arange(

@@ -1,8 +1,14 @@
-"""Raw polars as files: CSV with a header that records how it was made, and XFOIL polar files (PACC)."""
+"""Polar files: any table whose heading names angle, lift and drag, as XFOIL, XFLR5, airfoil sites, AeroDyn and QBlade
+write them, and our own CSV, whose first lines record how it was made.
+
+Mach and Reynolds number are columns, or stand above the heading.
+"""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,11 +23,11 @@ class Polar:
     """Coefficients of one section at one Mach and Reynolds number against angle of attack.
 
     `alpha_deg` [deg] increases strictly and may have gaps where XFOIL did not converge;
-    `cl`, `cd`, `cm` [-] have its shape, cm about the quarter chord.
+    `cl`, `cd`, `cm` [-] have its shape, cm about the quarter chord. `reynolds` is None where its file says none.
     """
 
     mach: float
-    reynolds: float
+    reynolds: float | None
     alpha_deg: Array
     cl: Array
     cd: Array
@@ -30,13 +36,15 @@ class Polar:
 
 @dataclass(frozen=True, eq=False)
 class PolarSet:
-    """Polars of one section with one transition setting, in order of Mach number.
+    """Polars of one section with one transition setting, in order of Mach and Reynolds number.
 
-    `header` holds the comment lines of the file (source, code version, settings), without `#`.
+    `header` holds the comment lines of the file (source, code version, settings), without `#`; `assumed` what the file
+    does not say, and what is taken instead.
     """
 
     header: tuple[str, ...]
     polars: tuple[Polar, ...]
+    assumed: tuple[str, ...] = ()
 
 
 def write_polars(path: Path, polar_set: PolarSet) -> None:
@@ -44,122 +52,198 @@ def write_polars(path: Path, polar_set: PolarSet) -> None:
     lines = [f"# {line}" for line in polar_set.header] + [COLUMNS]
     for p in polar_set.polars:
         for a, cl, cd, cm in zip(p.alpha_deg, p.cl, p.cd, p.cm, strict=True):
-            lines.append(f"{p.mach:g},{p.reynolds:.0f},{a:g},{cl:.4f},{cd:.5f},{cm:.4f}")
+            lines.append(f"{p.mach:g},{p.reynolds or 0.0:.0f},{a:g},{cl:.4f},{cd:.5f},{cm:.4f}")
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def read_polars(path: Path) -> PolarSet:
-    """Read a polar set written by `write_polars`, see `parse_polars`."""
+    """The polars in the file `path`, see `parse_polars`."""
     return parse_polars(path.read_text(encoding="utf-8"), path.name)
 
 
-def parse_polars(text: str, name: str) -> PolarSet:
-    """The polar set in `text`. Raises ValueError with the line of `name` that is damaged."""
-    header: list[str] = []
-    rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        if line.startswith("#"):
-            header.append(line[1:].strip())
-            continue
-        if line == COLUMNS or not line.strip():
-            continue
-        try:
-            row = tuple(float(word) for word in line.split(","))
-        except ValueError:
-            row = ()
-        if len(row) != 6 or not np.isfinite(row).all() or not row[4] > 0.0:
-            raise ValueError(f"{name}, line {number}: {line!r} is not `{COLUMNS}` with cd > 0: fix the line")
-        rows.append(row)
-    if not rows:
-        raise ValueError(f"{name} holds no polar: give one row at least")
-    data = np.array(rows, dtype=np.float64)
-    polars: list[Polar] = []
-    machs = np.unique(data[:, 0])
-    if len(machs) > _MOST_MACHS:
-        raise ValueError(f"{name} holds polars at {len(machs)} Mach numbers: {_MOST_MACHS} are allowed")
-    for mach in machs:
-        part = data[data[:, 0] == mach]
-        part = part[np.argsort(part[:, 2])]
-        polars.append(Polar(float(mach), float(part[0, 1]), part[:, 2], part[:, 3], part[:, 4], part[:, 5]))
-    return PolarSet(tuple(header), tuple(polars))
-
-
+_NAMES = {
+    **dict.fromkeys(("alpha", "alphadeg", "aoa", "aoadeg", "angle", "angleofattack"), "alpha"),
+    **dict.fromkeys(("re", "reynolds", "reynoldsnumber"), "reynolds"),
+    **dict.fromkeys(("m", "ma", "mach", "machnumber"), "mach"),
+}
+"""Other names of columns."""
 _MOST_ANGLES = 2000
-_MOST_MACHS = 30
-_HEAD, _LONGEST_HEAD = 40, 8000
-"""Lines and characters above the columns that are looked at; XFOIL writes twelve lines."""
+_MOST_POLARS = 60
+_HEAD, _LONGEST_HEAD, _LONGEST_HEADING = 40, 8000, 400
+"""Lines and characters above a heading that are looked at, and characters of a heading; XFOIL writes twelve lines."""
+_SAME_ANGLE = 1e-6
+"""[deg]"""
+_ALIKE = (0.02, 0.002)
+"""Rows of one angle are one where no coefficient differs by more than this share of it plus this."""
+_NUMBER = r"[0-9.]+(?: ?e ?[+-]? ?[0-9]+)?"
+Row = tuple[int, float, float, float, float]
+"""Line of the file; angle [deg], c_l, c_d, c_m."""
 
 
-def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
-    """The polars in `text`: one of an XFOIL polar file, or all of a CSV with the columns of `COLUMNS`.
+@dataclass(frozen=True)
+class _Heading:
+    """The line that names the columns of a table."""
+
+    line: int
+    """Counted from 0."""
+    mark: str | None
+    """Between two columns; None: blanks."""
+    at: dict[str, int]
+    """Column by name."""
+
+    def row(self, line: str) -> tuple[float, ...] | None:
+        """Mach, Reynolds number, angle, c_l, c_d and c_m of a line, NaN without such a column; None for other lines."""
+        words = _split(line, self.mark)
+        try:
+            return tuple(
+                _float(words[self.at[name]], self.mark) if name in self.at else np.nan
+                for name in ("mach", "reynolds", "alpha", "cl", "cd", "cm")
+            )
+        except (ValueError, IndexError):
+            return None
+
+
+def _split(line: str, mark: str | None) -> list[str]:
+    return [word.strip(" \t\"'") for word in line.split(mark)]
+
+
+def _float(word: str, mark: str | None) -> float:
+    """A number, with a decimal comma where none parts the columns."""
+    return float(word if mark == "," else word.replace(",", "."))
+
+
+def _headings(lines: list[str]) -> list[_Heading]:
+    found: list[_Heading] = []
+    for number, line in enumerate(lines):
+        if len(line) > _LONGEST_HEADING or "c" not in line.lower():
+            continue
+        mark = next((mark for mark in ";,\t" if mark in line), None)
+        keys = [re.sub(r"\([^()]*\)|\[[^]]*\]|[^a-z0-9]", "", word.lower()) for word in _split(line, mark)]
+        names = [_NAMES.get(key, key) for key in keys if key or mark]
+        if {"alpha", "cl", "cd"} <= set(names):
+            found.append(_Heading(number, mark, {name: names.index(name) for name in names}))
+    return found
+
+
+def parse_polars(text: str, name: str) -> PolarSet:
+    """The polars in `text`, one for each pair of Mach and Reynolds number, rows in any order.
 
     Raises ValueError with one sentence that names file, line and remedy.
     """
-    if COLUMNS in text:
-        return tuple(_checked(name, polar) for polar in parse_polars(text, name).polars)
     lines = text.splitlines()
-    dashes = next((k for k, line in enumerate(lines) if re.match(r"\s*-{4}[\s-]+$", line)), None)
-    if dashes is None or dashes == 0:
+    headings = _headings(lines)
+    if not headings:
         raise ValueError(
-            f"{name} is not an XFOIL polar file: save it with PACC in XFOIL's OPER menu, or write a CSV headed "
-            f"{COLUMNS}"
+            f"{name} has no line that names columns alpha, cl and cd: save a polar with PACC in XFOIL's OPER menu, or "
+            f"write a CSV headed {COLUMNS}"
         )
-    heads = lines[dashes - 1].lower().split()
-    if heads[:3] != ["alpha", "cl", "cd"]:
-        raise ValueError(
-            f"{name}, line {dashes}: the columns begin {' '.join(heads[:3])!r}, not alpha CL CD: use XFOIL's order"
-        )
-    head = " ".join(" ".join(lines[max(dashes - _HEAD, 0) : dashes]).split())[-_LONGEST_HEAD:]
-    mach = _value(name, head, r"Mach\s*=\s*([0-9.]+)", "Mach =")
-    reynolds = _value(name, head, r"Re\s*=\s*([0-9.]+(?:\s*e\s*[+-]?\s*[0-9]+)?)", "Re =")
-    moment = heads.index("cm") if "cm" in heads else None
-    rows: dict[float, tuple[float, float, float]] = {}
-    for number, line in enumerate(lines[dashes + 1 :], start=dashes + 2):
-        if not line.strip():
-            continue
-        try:
-            words = [float(word) for word in line.split()]
-            alpha, cl, cd = words[:3]
-            cm = words[moment] if moment is not None else 0.0
-        except (ValueError, IndexError):
+    groups: dict[tuple[float, float], list[Row]] = {}
+    begin, said, assumed = 0, (np.nan, np.nan), dict[str, None]()
+    for heading, end in zip(headings, [*(after.line for after in headings[1:]), len(lines)], strict=True):
+        said = _said(name, lines[max(begin, heading.line - _HEAD) : heading.line], said)
+        begin = heading.line + 1
+        for number, (mach, reynolds, *values) in _rows(name, lines, heading, end):
+            begin = number
+            mach, reynolds = said[0] if np.isnan(mach) else mach, said[1] if np.isnan(reynolds) else reynolds
+            if np.isnan(mach):
+                assumed["names no Mach number: it is taken as incompressible"] = None
+            if "cm" not in heading.at:
+                assumed["has no cm: it is taken as 0"] = None
+            key = (float(np.nan_to_num(mach)), float(np.nan_to_num(reynolds)))
+            alpha, cl, cd, cm = values
+            groups.setdefault(key, []).append((number, alpha, cl, cd, float(np.nan_to_num(cm))))
+        if len(groups) > _MOST_POLARS:
             raise ValueError(
-                f"{name}, line {number}: {line.strip()!r} is not a row of numbers: remove or correct it"
-            ) from None
-        if not (np.isfinite([alpha, cl, cd, cm]).all() and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
+                f"{name} holds more than {_MOST_POLARS} polars, one for each Mach and Reynolds number: keep fewer"
+            )
+    if not groups:
+        raise ValueError(f"{name} has no rows of numbers below its heading: give 8 angles at least")
+    polars = tuple(_polar(name, mach, reynolds, groups[mach, reynolds]) for mach, reynolds in sorted(groups))
+    return PolarSet(tuple(line[1:].strip() for line in lines if line.startswith("#")), polars, tuple(assumed))
+
+
+def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> list[tuple[int, tuple[float, ...]]]:
+    """The rows of a table with the lines they stand on, counted from 1."""
+    rows: list[tuple[int, tuple[float, ...]]] = []
+    words = 0
+    for number, line in enumerate(lines[heading.line + 1 : end], start=heading.line + 2):
+        if not line.strip(" \t,;") or line.startswith("#"):
+            continue
+        row = heading.row(line)
+        if row is None:
+            # Units below a heading, and words below the last row, have no numbers.
+            if rows and not words and re.search(r"(?:^|[\s,;])[+-]?\.?\d", line):
+                raise ValueError(
+                    f"{name}, line {number}: {line.strip()!r} is not a row of numbers: correct or remove it"
+                )
+            words = words or (number if rows else 0)
+            continue
+        if words:
+            raise ValueError(f"{name}, line {words}: words between two rows: remove the line")
+        alpha, cl, cd = row[2:5]
+        if not (np.isfinite(row[2:5]).all() and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
             raise ValueError(f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg cannot be: remove the row")
-        rows[alpha] = (cl, cd, cm)
-    angles = sorted(rows)
-    values = np.array([rows[angle] for angle in angles], dtype=np.float64)
-    return (_checked(name, Polar(mach, reynolds, np.array(angles), *(values.T if angles else np.empty((3, 0))))),)
+        rows.append((number, row))
+    return rows
 
 
-def _checked(name: str, polar: Polar) -> Polar:
-    """The polar; ValueError with one sentence for one that is not a section's."""
-    alpha, cl = polar.alpha_deg, polar.cl
+def _said(name: str, above: list[str], before: tuple[float, float]) -> tuple[float, float]:
+    """Mach and Reynolds number above a heading, else those of the table `before`. ValueError for a polar at neither."""
+    head = " ".join(" ".join(above).split())[-_LONGEST_HEAD:].lower()
+    if varied := re.search(r"(reynolds|mach) number ?~", head):
+        raise ValueError(
+            f"{name}: its {varied[1].capitalize()} number changes with lift (XFOIL type 2 or 3): run TYPE 1"
+        )
+    mach = _value(name, head, rf"\bmach\b\W{{0,12}}(?:number\W{{0,12}})?({_NUMBER})")
+    reynolds = _value(name, head, rf"\bre(?:ynolds)?\b\W{{0,12}}(?:number\W{{0,12}})?({_NUMBER})")
+    if reynolds is None and (millions := _value(name, head, rf"(?:^| )({_NUMBER}) re\b")) is not None:
+        reynolds = 1e6 * millions  # AeroDyn.
+    return before[0] if mach is None else mach, before[1] if reynolds is None else reynolds
+
+
+def _value(name: str, head: str, pattern: str) -> float | None:
+    match = re.search(pattern, head)
+    if match is None:
+        return None
+    try:
+        return float(match[1].replace(" ", ""))
+    except ValueError:
+        raise ValueError(f"{name} has {match[0]!r} above its columns: correct the number") from None
+
+
+def _polar(name: str, mach: float, reynolds: float, rows: list[Row]) -> Polar:
+    """ValueError with one sentence for a polar that is not a section's."""
+    if not 0.0 <= mach < 1.0:
+        raise ValueError(f"{name}: Mach {mach:g} is outside 0…1: run XFOIL again with MACH below 1")
+    rows = one_row_an_angle(name, rows)
+    _, alpha, cl, cd, cm = np.array(rows, dtype=np.float64).T
     if not 8 <= len(alpha) <= _MOST_ANGLES:
         raise ValueError(f"{name} holds {len(alpha)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5")
-    if not 0.0 <= polar.mach < 1.0:
-        raise ValueError(f"{name}: Mach {polar.mach:g} is outside 0…1: run XFOIL again with MACH below 1")
-    if np.any(np.diff(alpha) <= 0.0):
-        raise ValueError(f"{name} holds an angle twice at Mach {polar.mach:g}: keep one row of each")
-    if np.abs(alpha).max() > 180.0 or np.abs(cl).max() > 5.0:
-        raise ValueError(
-            f"{name} holds angles beyond ±180 deg or cl beyond ±5 at Mach {polar.mach:g}: correct the rows"
-        )
     near = np.abs(alpha) < 8.0
     if np.any(near) and cl[near].max() - cl[near].min() < 0.1:
         raise ValueError(
             f"{name}: cl stays within {cl[near].min():g}…{cl[near].max():g} between −8 and 8 deg: give a polar whose "
             "lift rises with the angle"
         )
-    return polar
+    return Polar(mach, reynolds if reynolds > 0.0 else None, alpha, cl, cd, cm)
 
 
-def _value(name: str, head: str, pattern: str, what: str) -> float:
-    match = re.search(pattern, head)
-    if match is None:
-        raise ValueError(f"{name} does not say {what!r} above its columns: keep the heading that XFOIL writes")
-    try:
-        return float(match[1].replace(" ", ""))
-    except ValueError:
-        raise ValueError(f"{name} has {match[0]!r} above its columns: keep the heading that XFOIL writes") from None
+RowOfAngle = TypeVar("RowOfAngle", bound=tuple[float, ...])
+
+
+def one_row_an_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
+    """Rows of (line, angle [deg], values …) in order of their angles; of rows alike at one angle the first.
+
+    ValueError for an angle that comes again with other values.
+    """
+    kept: list[RowOfAngle] = []
+    for row in sorted(rows, key=lambda row: row[1]):
+        if not kept or row[1] - kept[-1][1] > _SAME_ANGLE:
+            kept.append(row)
+        elif any(abs(b - a) > _ALIKE[0] * abs(a) + _ALIKE[1] for a, b in zip(kept[-1][2:], row[2:], strict=True)):
+            lines = sorted((int(kept[-1][0]), int(row[0])))
+            raise ValueError(
+                f"{name}, line {lines[1]}: {row[1]:g} deg again, with other values than in line {lines[0]}: "
+                "keep one of the two rows"
+            )
+    return kept

@@ -14,14 +14,23 @@ from rotor.airfoil.polars import Polar
 from rotor.arrays import Array
 
 
-def same_mach(one: Polar, other: Polar) -> bool:
-    """Whether two polars count as of one Mach number: within 0.01."""
+def _number(polar: Polar) -> float:
+    """Its Reynolds number; 0 where that is not stated, which only a polar alone at its Mach number may."""
+    return polar.reynolds or 0.0
+
+
+def _same_mach(one: Polar, other: Polar) -> bool:
     return abs(one.mach - other.mach) < 0.01
 
 
-def same_reynolds(one: float, other: float) -> bool:
-    """Whether two Reynolds numbers count as one: within 1 %."""
-    return abs(one / other - 1.0) <= 0.01
+def _same_reynolds(one: float, other: float) -> bool:
+    return abs(one - other) <= 0.01 * other
+
+
+def same(one: Polar, other: Polar) -> bool:
+    """Whether two polars are of one Mach number, within 0.01, and one Reynolds number, within 1 % or not stated."""
+    numbers = _number(one), _number(other)
+    return _same_mach(one, other) and (0.0 in numbers or _same_reynolds(*numbers))
 
 
 def by_reynolds(polars: Sequence[Polar]) -> tuple[tuple[float, tuple[Polar, ...]], ...]:
@@ -32,14 +41,14 @@ def by_reynolds(polars: Sequence[Polar]) -> tuple[tuple[float, tuple[Polar, ...]
     """
     of_mach = list[list[Polar]]()
     for polar in sorted(polars, key=lambda polar: polar.mach):
-        if of_mach and same_mach(polar, of_mach[-1][0]):
+        if of_mach and _same_mach(polar, of_mach[-1][0]):
             of_mach[-1].append(polar)
         else:
             of_mach.append([polar])
-    numbers = sorted(polar.reynolds for group in of_mach if len(group) > 1 for polar in group)
+    numbers = sorted(_number(polar) for group in of_mach if len(group) > 1 for polar in group)
     if not numbers:
-        return ((polars[0].reynolds, tuple(polars)),)
-    several = numbers[:1] + [high for low, high in pairwise(numbers) if not same_reynolds(low, high)]
+        return ((_number(polars[0]), tuple(polars)),)
+    several = numbers[:1] + [high for low, high in pairwise(numbers) if not _same_reynolds(low, high)]
     return tuple((number, tuple(_polar_at(group, number) for group in of_mach)) for number in several)
 
 
@@ -55,19 +64,25 @@ def shares(known: Sequence[float], reynolds: float) -> tuple[tuple[int, float], 
 
 def _polar_at(polars: Sequence[Polar], reynolds: float) -> Polar:
     """The polar of one Mach number at a Reynolds number, over the angles that both of its neighbours have."""
-    ordered = sorted(polars, key=lambda polar: polar.reynolds)
-    near = next((polar for polar in ordered if same_reynolds(polar.reynolds, reynolds)), None)
-    parts = shares([polar.reynolds for polar in ordered], reynolds)
-    if near is not None or len(parts) == 1:
-        return near or ordered[parts[0][0]]
-    weighted = [(ordered[place], share) for place, share in parts]
-    low, high = (polar for polar, _ in weighted)
+    ordered = sorted(polars, key=_number)
+    if len(ordered) == 1:
+        return ordered[0]
+    known = [_number(polar) for polar in ordered]
+    near = next((place for place, number in enumerate(known) if _same_reynolds(number, reynolds)), None)
+    parts = shares(known, reynolds) if near is None else ((near, 1.0),)
+    if len(parts) == 1:
+        return ordered[parts[0][0]]
+    (first, _), (second, share) = parts
+    low, high = ordered[first], ordered[second]
     start, end = max(low.alpha_deg[0], high.alpha_deg[0]), min(low.alpha_deg[-1], high.alpha_deg[-1])
-    alpha = np.union1d(low.alpha_deg, high.alpha_deg)
+    alpha: Array = np.union1d(low.alpha_deg, high.alpha_deg)
     alpha = alpha[(alpha >= start) & (alpha <= end)]
 
-    def between(name: str) -> Array:
-        parts = (weight * np.interp(alpha, polar.alpha_deg, getattr(polar, name)) for polar, weight in weighted)
-        return sum(parts, np.zeros(len(alpha)))
+    def between(of_low: Array, of_high: Array) -> Array:
+        at_low: Array = np.interp(alpha, low.alpha_deg, of_low)
+        at_high: Array = np.interp(alpha, high.alpha_deg, of_high)
+        return (1.0 - share) * at_low + share * at_high
 
-    return Polar(low.mach, reynolds, alpha, between("cl"), between("cd"), between("cm"))
+    return Polar(
+        low.mach, reynolds, alpha, between(low.cl, high.cl), between(low.cd, high.cd), between(low.cm, high.cm)
+    )

@@ -319,8 +319,4 @@ def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
     coefficients = np.stack([bicubic_coefficients(block) for block in (deck.cl, deck.cd)], axis=2)
     table = make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))
     _check_lift(table)
-    try:
-        moment = bicubic_coefficients(deck.cm)
-    except ValueError:  # A user's deck may have its moments elsewhere than on the grid, or hardly any.
-        return table
-    return replace(table, moment_coefficients=moment)
+    return table if deck.cm is None else replace(table, moment_coefficients=bicubic_coefficients(deck.cm))

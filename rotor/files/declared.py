@@ -179,7 +179,10 @@ def read_toml(file: str, text: str) -> dict[str, Any]:
         line = match[1] if match else None
         reason = what[: match.start()] if match else what
         place = f", line {line}" if line else ", at its end" if match else ""
-        raise ValueError(f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes") from None
+        slashes = ", / in paths" if line and "\\" in text.split("\n")[int(line) - 1] else ""
+        raise ValueError(
+            f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes{slashes}"
+        ) from None
     except RecursionError:
         raise ValueError(f"{file}: this is not a file of this program (too many brackets): write key = value") from None
     except ValueError:

@@ -51,7 +51,7 @@ class RotorFile:
 
     @property
     def named(self) -> list[str]:
-        """The files that the sections name; an outline may also be that of a known section."""
+        """The files that the sections name."""
         return list(dict.fromkeys(file for section in self.sections.values() for file in section.named))
 
 

@@ -36,7 +36,10 @@ def _check_stations(place: str, stations: tuple[float, ...], key: str, values: t
     if len(stations) != len(values) or len(stations) < 2:
         raise Refusal(f"{place} has {len(stations)} and {key} {len(values)} values: give one each, two or more", key)
     for low, high in pairwise(stations):
-        if low >= high:
+        if low == high:
+            step = sorted((low, low + (0.001 if low < 0.5 else -0.001)))
+            raise Refusal(f"{place} has {low:g} twice: for a step write {step[0]:g} and {step[1]:g}", place)
+        if low > high:
             raise Refusal(f"{place} goes from {low:g} to {high:g}: write the stations in ascending order", place)
 
 

@@ -1,30 +1,39 @@
-"""A section of a rotor file: a C81 deck, or XFOIL polars converted to one, and an outline for pictures."""
+"""A section of a rotor file: a C81 deck, or polars converted to one, and an outline for pictures and thickness."""
 
 import math
 import re
 from collections.abc import Mapping
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Annotated
 
+import numpy as np
 from msgspec import Meta
 
-from rotor.airfoil.c81 import format_c81
+from rotor.airfoil.c81 import C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
-from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits, assemble_deck
-from rotor.airfoil.polars import Polar, parse_polar_file
-from rotor.airfoil.reynolds import by_reynolds, same_mach, same_reynolds
+from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, USED_ALPHA_DEG, SectionTraits, assemble_deck
+from rotor.airfoil.polars import Polar, PolarSet, parse_polars
+from rotor.airfoil.reynolds import by_reynolds, same
+from rotor.airfoil.section_table import SectionTable
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
 
 UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
+THICKNESS = (0.02, 0.4)
+_LEAST_ALPHA_DEG = (-4.0, 8.0)
+"""A polar must at least cover these."""
+_WIDEST_HOLE_DEG = 3.0
+"""Rows that did not converge may be missing; the line across a wider hole misses stall, or the least drag."""
+_WORTH_SAYING = 0.01
+"""Share of c_d that a table on Mach steps of 0.05 may be off its deck without a word."""
 
 
 class OwnSectionTable(FileTable, frozen=True, kw_only=True):
     deck: Text | None = None
     polars: Text | Annotated[tuple[Text, ...], Meta(min_length=1)] | None = None
     outline: Text | None = None
-    thickness: Annotated[float, Meta(ge=0.02, le=0.4)] | None = None
+    thickness: Annotated[float, Meta(ge=THICKNESS[0], le=THICKNESS[1])] | None = None
     """Thickness over chord; None: that of the outline."""
     incidence_offset_deg: Annotated[float, Meta(ge=-15.0, le=15.0)] = 0.0
     chord_ratio: Annotated[float, Meta(ge=0.5, le=2.0)] = 1.0
@@ -40,8 +49,12 @@ class OwnSectionTable(FileTable, frozen=True, kw_only=True):
 
     @property
     def named(self) -> tuple[str, ...]:
-        """All files; the outline may also be that of a known section."""
-        return (*self.data, self.outline) if self.outline else self.data
+        """All files."""
+        return self.data if self.outline is None or _is_known(self.outline) else (*self.data, self.outline)
+
+
+def _is_known(outline: str) -> bool:
+    return outline in SECTION_NAMES or is_naca(outline)
 
 
 def check_section_name(name: str) -> None:
@@ -54,22 +67,24 @@ def check_section_name(name: str) -> None:
 def read_section(
     table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> OwnSection:
-    """The section `[sections.name]`; adds the texts it uses to `used` and its assumptions to `remarks`.
+    """The section `[sections.name]`; adds the texts it uses to `used` and to `remarks` what was read and is assumed.
 
     Raises ValueError with one sentence, Refusal for what is wrong in the rotor file itself.
     """
     key = "deck" if table.deck else "polars"
-    outline, thickness = _outline(table, name, texts, used, remarks)
     contents = [_file(("sections", name, key), file, texts, used) for file in table.data]
-    decks = tuple[tuple[float, str], ...]()
+    outline, thickness, shape = _outline(table, name, texts, used)
+    given, assumed, decks = None, list[str](), tuple[tuple[float, str], ...]()
     if key == "deck":
         deck = contents[0]
+        given = parse_c81(deck, table.data[0])
+        says = _deck_says(given)
     else:
-        polars = [
-            polar for file, text in zip(table.data, contents, strict=True) for polar in parse_polar_file(file, text)
-        ]
-        decks = _decks_of(name, polars, thickness, remarks)
+        sets = [parse_polars(text, file) for file, text in zip(table.data, contents, strict=True)]
+        decks, says = _decks_of(name, sets, thickness)
         deck = decks[len(decks) // 2][1]
+        assumed = [f"{file} {each}." for file, read in zip(table.data, sets, strict=True) for each in read.assumed]
+    remarks += [f"Section {name}: {says}; {shape}.", *assumed]
     section = OwnSection(
         name=name,
         deck=deck,
@@ -80,71 +95,122 @@ def read_section(
         decks=decks if len(decks) > 1 else (),
     )
     try:
-        install_own(section)
+        installed = install_own(section)
     except ValueError as error:
         first = table.data[0]
         raise ValueError(f"{first}: {error}" if first not in str(error) else str(error)) from None
+    if given is not None and (says := _off_its_knots(given, installed.table)):
+        remarks.append(f"Section {name}: {says}")
     return section
 
 
 def _outline(
-    table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
-) -> tuple[str, float]:
-    """The outline in the form of `OwnSection`, and t/c, given or measured on the outline."""
-    given = table.outline or (name if is_naca(name) else None)
-    if given is None:
-        remarks.append(f"The outline of section {name} is not given: it is drawn as a symmetric 12 % section.")
-        outline, contour = UNKNOWN_OUTLINE, load_contour(UNKNOWN_OUTLINE)
-    elif given in SECTION_NAMES or is_naca(given):
-        outline, contour = given, load_contour(given)
+    table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str]
+) -> tuple[str, float, str]:
+    """The outline in the form of `OwnSection`, t/c, given or measured on the outline, and what was read."""
+    given = table.outline or (name if is_naca(name) else UNKNOWN_OUTLINE)
+    if _is_known(given):
+        outline, contour, shape = given, load_contour(given), f"outline {given}"
     else:
         outline = _file(("sections", name, "outline"), given, texts, used)
         contour = parse_contour(outline, given)
-    return outline, table.thickness or thickness_and_camber(contour)[0]
+        shape = f"outline of {len(contour.points)} points"
+    measured, _, camber = thickness_and_camber(contour)
+    if table.thickness is None and not THICKNESS[0] <= measured <= THICKNESS[1]:
+        raise ValueError(
+            f"{given}: the outline is {100.0 * measured:.1f} % thick, outside {100.0 * THICKNESS[0]:g}…"
+            f"{100.0 * THICKNESS[1]:g} %: correct its points, or give `thickness` beside `outline`"
+        )
+    if table.outline is None and not is_naca(name):
+        return outline, table.thickness or measured, "no outline, so it is drawn as a symmetric 12 % section"
+    return outline, table.thickness or measured, f"{shape}, {_percent(measured)} thick, {_percent(camber)} camber"
 
 
-def _decks_of(name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> tuple[tuple[float, str], ...]:
-    """C81 decks from XFOIL polars by Reynolds number; one where no Mach number has polars of several."""
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %"
+
+
+def _deck_says(deck: C81Deck) -> str:
+    lift, held = deck.cl, ", held at all Mach numbers" if len(deck.cl.mach) == 1 else ""
+    return (
+        f"deck over {_range(lift.alpha_deg[0], lift.alpha_deg[-1])}° at Mach "
+        f"{_range(lift.mach[0], lift.mach[-1])}{held}{'' if deck.cm else ', without cm'}"
+    )
+
+
+def _range(low: float, high: float) -> str:
+    return f"{low:g}…{high:g}".replace("-", "−") if low < high else f"{low:g}"
+
+
+def _off_its_knots(deck: C81Deck, table: SectionTable) -> str:
+    """How far the table is off the deck's own values where its Mach numbers are none of the table's; "" within 1 %."""
+    block = deck.cd
+    near = np.abs(block.alpha_deg) <= 10.0
+    mach = block.mach <= table.mach_limit + 1e-9
+    alpha, given = block.alpha_deg[near], block.values[np.ix_(near, mach)]
+    off = table(np.deg2rad(alpha)[:, None], block.mach[mach]).cd / given - 1.0
+    angle, at = np.unravel_index(np.argmax(np.abs(off)), off.shape)
+    if abs(off[angle, at]) < _WORTH_SAYING:
+        return ""
+    return (
+        f"between Mach steps of 0.05 the table differs from the deck, most by {100.0 * off[angle, at]:+.1f} % of cd at "
+        f"Mach {block.mach[mach][at]:g} and {alpha[angle]:g}°."
+    )
+
+
+def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[tuple[float, str], ...], str]:
+    """C81 decks from polars by Reynolds number, one where no Mach number has polars of several, and what was read."""
     at = ("sections", name, "polars")
-    machs = sorted({polar.mach for polar in polars})
+    polars = sorted((polar for each in sets for polar in each.polars), key=lambda polar: polar.mach)
     for one, other in combinations(polars, 2):
-        if same_reynolds(one.reynolds, other.reynolds) and same_mach(one, other):
-            says = f"two polars of {name} have Mach {one.mach:g} and Reynolds number {one.reynolds:,.0f}"
-            raise Refusal(f"{says}: keep one of them", *at)
-    narrow = [p for p in polars if p.alpha_deg[0] > -4.0 or p.alpha_deg[-1] < 8.0]
-    if narrow:
-        low, high = narrow[0].alpha_deg[0], narrow[0].alpha_deg[-1]
-        says = f"the polar of {name} at Mach {narrow[0].mach:g} covers {low:g}…{high:g} deg"
-        raise Refusal(f"{says}: give at least −4…8 deg", *at)
+        if same(one, other):
+            says = f"two polars of {name} have Mach {one.mach:g}"
+            if one.reynolds and other.reynolds:
+                raise Refusal(f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at)
+            raise Refusal(f"{says} and no Reynolds numbers to tell them apart: keep one, or add a column reynolds", *at)
+    for polar in polars:
+        _check_range(name, polar, at)
+    machs = list(dict.fromkeys(polar.mach for polar in polars))
     low = max(polar.alpha_deg[0] for polar in polars)
     high = min(polar.alpha_deg[-1] for polar in polars)
-    listed = ", ".join(f"{mach:g}" for mach in machs)
+    listed = ", ".join(f"{mach:g} (Re {_millions([p.reynolds for p in polars if p.mach == mach])})" for mach in machs)
     above = ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag" if machs[-1] < 0.99 else ""
-    remarks.append(
-        f"Section {name} is built from polars at Mach {listed} over {low:g}…{high:g}°{above}, "
-        "and from a closed form beyond stall."
-    )
-    if machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
-        remarks.append(f"The polar of {name} is incompressible: friction keeps its Reynolds number at every Mach.")
-    if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
-        remarks.append(
-            f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL does not model shocks."
-        )
+    says = f"polars at Mach {listed} over {_range(low, high)}°{above}, a closed form beyond stall"
     families = by_reynolds(polars)
     if len(families) > 1:
-        listed = ", ".join(f"{number:,.0f}" for number, _ in families)
-        remarks.append(
-            f"Section {name} has data of Reynolds numbers {listed}: each blade element takes those of its mean one, "
-            "Ωr c/ν, linear in its logarithm between two."
-        )
-    traits = SectionTraits(thickness=thickness, fixed_reynolds=len(families) > 1)
+        says += "; each blade element takes those of its Reynolds number Ωr c/ν, linear in its logarithm between two"
+    elif machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
+        says += "; its polar is incompressible, so friction keeps its Reynolds number at every Mach"
+    if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
+        says += f"; used as given above Mach {NATIVE_MACH_LIMIT:g}, where XFOIL does not model shocks"
+    correct = SectionTraits(thickness=thickness, fixed_reynolds=len(families) > 1).correct
     title = name.upper()[:30]
-    return tuple((number, format_c81(assemble_deck(title, family, traits.correct))) for number, family in families)
+    return tuple((number, format_c81(assemble_deck(title, family, correct))) for number, family in families), says
+
+
+def _millions(reynolds: list[float | None]) -> str:
+    known = [f"{number / 1e6:.3g}" for number in reynolds if number]
+    return f"{', '.join(known)} million" if known else "not said"
+
+
+def _check_range(name: str, polar: Polar, at: Place) -> None:
+    """Refusal for a polar that covers too little, or has a hole where it is used."""
+    alpha, says = polar.alpha_deg, f"the polar of {name} at Mach {polar.mach:g}"
+    low, high = _LEAST_ALPHA_DEG
+    if alpha[0] > low or alpha[-1] < high:
+        raise Refusal(f"{says} covers {_range(alpha[0], alpha[-1])} deg: give at least −4…8 deg", *at)
+    used = alpha[np.abs(alpha) <= USED_ALPHA_DEG]
+    for before, after in pairwise(used):
+        if after - before > _WIDEST_HOLE_DEG + 1e-9:
+            beyond = ", or remove those beyond" if before >= high or after <= low else ""
+            remedy = f"run XFOIL there again with smaller steps of ASEQ{beyond}"
+            raise Refusal(f"{says} has no rows between {before:g} and {after:g} deg: {remedy}", *at)
 
 
 def _file(at: Place, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
     if name not in texts:
+        slashes = "write / in paths, " if re.search(r"[\\\x00-\x1f]", name) else ""
         says = f"{at[-1]} names {name!r}, which is missing"
-        raise Refusal(f"{says}: put it beside the rotor file, or load it on the page too", *at)
+        raise Refusal(f"{says}: {slashes}put it beside the rotor file, or load it on the page too", *at)
     used[name] = texts[name]
     return texts[name]

@@ -80,10 +80,10 @@ def _moments(design: Design, flow: DiskFields) -> Array:
     """C_m by section data at the flow of a solution; NaN without data, 0 on elements that carry no load."""
     problem = on_azimuths(build_problem(design), len(flow.psi))
     disk, moments = problem.disk, np.zeros_like(flow.alpha)
-    for i, (pair, share) in enumerate(zip(disk.section.tolist(), disk.weight.tolist(), strict=True)):
-        for row, weight in zip(pair, (1.0 - share, share), strict=True):
-            if weight > 0.0:
-                moments[i] += weight * _moment(design, disk.sections[row], flow.alpha[i], flow.mach[i])
+    for which, shares in enumerate((1.0 - disk.weight, disk.weight)):
+        for i in np.flatnonzero(shares).tolist():
+            section = disk.sections[int(disk.section[i, which])]
+            moments[i] += shares[i] * _moment(design, section, flow.alpha[i], flow.mach[i])
     if flow.unsteady is not None:
         moments += flow.unsteady.moment
     if problem.unloaded is not None:

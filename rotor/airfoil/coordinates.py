@@ -1,0 +1,151 @@
+"""Coordinate files of section outlines: the points of a file, whatever their order, as one loop in chord lengths.
+
+Read are files that go round the section once from any point either way (Selig's begin at the trailing edge), and files
+with the two sides one after the other from nose or trailing edge (Lednicer's, with or without counts). Lines of words
+above the points, below them and between the two sides are left out.
+"""
+
+import re
+
+import numpy as np
+
+from rotor.arrays import Array
+
+_FEWEST, _MOST = 20, 2000
+_JUMP = 0.5
+"""[chord] between rows that are no neighbours on the section: the other side begins, or the row is no point."""
+_SAME = 1e-6
+"""[chord] between two points that are one."""
+_LEAST_COUNT = 5
+_STRAY = 0.03
+"""[chord] of further way by a last row 0 0 that is no point of the outline."""
+_OFF = 0.05
+"""[chord] of further way by a point that is none of the section's."""
+_TAIL = 0.05
+"""[chord] ahead of the last point where a step up is that across a blunt trailing edge."""
+_LONGEST_WAY = 3.0
+"""[chord] round a section: 2 for a flat plate, 2.4 for an ellipse of 50 %. Points out of order need far more."""
+_LEAST_AREA = 0.35
+"""Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, less if lines cross."""
+_ORDER = "list the points from the trailing edge over the upper side to the nose and back along the lower side"
+
+
+def read_coordinates(text: str, name: str) -> Array:
+    """The outline in `text`, (n, 2): from the upper trailing edge forward around the nose, x aft and y up [chord].
+
+    Repeated points are dropped; a sharp trailing edge is both first and last. Coordinates in per cent or in millimetres
+    are divided by the chord. Raises ValueError with one sentence that names the line of `name` and the remedy.
+    """
+    points, lines, words = _rows(text, name)
+    counts, left = points[0], len(points) - 1
+    if np.all(counts >= _LEAST_COUNT) and not np.any(counts % 1.0) and abs(counts.sum() - left) < 0.1 * left:
+        points[0] = np.inf  # Lednicer's: no point of the outline, whatever its unit.
+    chord = float(np.ptp(points[1:-1, 0]))  # The first or the last row may be a heading of two numbers, or a stray 0 0.
+    if not chord > 0.0:
+        raise ValueError(f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point a line")
+    runs = np.split(np.arange(len(points)), 1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _JUMP * chord))
+    starts = {int(run[0]) for run in runs}
+    for at, number in words.items():
+        if at not in starts:
+            raise ValueError(f"{name}, line {number}: words between two points of one side: remove the line")
+    runs = [run for k, run in enumerate(runs) if len(run) > 1 or 0 < k < len(runs) - 1]
+    if len(runs) > 2:
+        line = lines[int(min(runs[1:], key=len)[0])]
+        raise ValueError(f"{name}, line {line}: the outline jumps to this point: correct it, or {_ORDER}")
+    if len(runs) == 1 and np.hypot(*(points[runs[0][0]] - points[runs[0][-1]])) > _JUMP * chord:
+        raise ValueError(f"{name} has one side of the section only: {_ORDER}")
+    order = np.concatenate((runs[0][::-1], runs[1])) if len(runs) == 2 else runs[0]
+    if not points[order[-1]].any() and _detours(points[order])[-1] > _STRAY * chord:
+        order = order[:-1]
+    loop = _from_trailing_edge(_once(points[order], chord), chord)
+    off = _detours(loop) > _OFF * chord
+    off[[0, -1, np.argmin(loop[:, 0])]] = False  # A coarse outline turns back at nose and trailing edge.
+    if off.any():
+        line = lines[int(np.argmin(np.hypot(*(points - loop[np.argmax(off)]).T)))]
+        raise ValueError(f"{name}, line {line}: the outline jumps to this point and back: correct it, or {_ORDER}")
+    chord = float(np.ptp(loop[:, 0]))
+    loop = loop / chord if chord >= 1.1 else loop
+    if chord <= 0.9 or np.abs(loop).max() >= 1.5:
+        raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
+    if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_WAY or _area(loop) < _LEAST_AREA * _thickest(loop):
+        raise ValueError(f"{name} does not go round a section once: {_ORDER}")
+    return loop
+
+
+def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
+    """The rows of two numbers, the line of each, and the lines of words by the row that follows."""
+    rows: list[tuple[float, float]] = []
+    lines: list[int] = []
+    between: dict[int, int] = {}
+    for number, line in enumerate(text.splitlines(), start=1):
+        words = line.partition("#")[0].replace(";", " ").replace(", ", " ").split()
+        if len(words) == 1:
+            words = words[0].split(",")
+        values = [value for word in words if (value := _number(word)) is not None]
+        if len(words) == len(values) == 2:
+            rows.append((values[0], values[1]))
+            lines.append(number)
+        elif words and rows:
+            if len(values) == len(words) or (values and len(words) == 2):
+                raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line")
+            between.setdefault(len(rows), number)
+        if len(rows) > _MOST + 2:
+            break
+    if not _FEWEST <= len(rows) <= _MOST:
+        count = f"more than {_MOST}" if len(rows) > _MOST else len(rows)
+        raise ValueError(f"{name} has {count} points: a section outline needs {_FEWEST} to {_MOST}")
+    between.pop(len(rows), None)
+    return np.array(rows, dtype=np.float64), lines, between
+
+
+def _number(word: str) -> float | None:
+    """A finite number, also with a decimal comma."""
+    if re.fullmatch(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d{1,3})?,?", word[:40]) is None or len(word) > 40:
+        return None
+    value = float(word.rstrip(",").replace(",", ".").lower().replace("d", "e"))
+    return value if np.isfinite(value) else None
+
+
+def _detours(loop: Array) -> Array:
+    """By how much each point makes a closed line longer."""
+    before, after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
+    return np.hypot(*(loop - before).T) + np.hypot(*(after - loop).T) - np.hypot(*(after - before).T)
+
+
+def _once(loop: Array, chord: float) -> Array:
+    """Without points that repeat the one before, or the first at the end; counter-clockwise with y up."""
+    steps = np.hypot(*(loop - np.roll(loop, 1, axis=0)).T)
+    loop = loop[steps > _SAME * chord]
+    return loop if _area(loop) > 0.0 else loop[::-1]
+
+
+def _from_trailing_edge(loop: Array, chord: float) -> Array:
+    """A counter-clockwise loop opened at its trailing edge: without the points on a blunt one, at the last x of a sharp
+    one, which becomes first and last."""
+    x, step = loop[:, 0], np.roll(loop, -1, axis=0) - loop
+    tail = x > x.max() - _TAIL * chord
+    across = tail & np.roll(tail, -1) & (step[:, 1] > np.abs(step[:, 0]))  # From this point to the next.
+    if not across.any():
+        loop = np.roll(loop, -int(np.argmax(x)), axis=0)
+        return np.concatenate((loop, loop[:1]))
+    longest = int(np.argmax(np.where(across, step[:, 1], 0.0)))
+    first, last = (longest + 1) % len(loop), longest
+    while across[first] and first != last:
+        first = (first + 1) % len(loop)
+    while across[last - 1] and last != first:
+        last = (last - 1) % len(loop)
+    return np.roll(loop, -first, axis=0)[: (last - first) % len(loop) + 1]
+
+
+def _area(loop: Array) -> float:
+    """Enclosed by a closed line, positive counter-clockwise."""
+    x, y = loop.T
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def _thickest(loop: Array) -> float:
+    """Largest distance across x between the sides before and behind the nose of an opened loop of chord 1."""
+    nose = int(np.argmin(loop[:, 0]))
+    x = np.linspace(loop[nose, 0], loop[:, 0].max(), 201)
+    upper, lower = (np.interp(x, *side[np.argsort(side[:, 0])].T) for side in (loop[: nose + 1], loop[nose:]))
+    return float(np.abs(upper - lower).max())
