@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.section_table import MACH_STEP, N_MACH, held_beyond_peak
+from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, held_beyond_peak
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.arrays import Array, read_only
@@ -155,8 +155,9 @@ def _disk(
     ratio = np.array([(1.0 - share) * inner.chord_ratio + share * outer.chord_ratio for inner, outer, share in pairs])
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
     sweep = blade.sweep(r, rotor.radius) if swept else np.zeros(elements)
-    coefficients, held = _tables(sections, only_mach, blade.surface_drag if surface else 1.0)
-    tables, mach = [item.table for item in sections], MACH_STEP * np.arange(N_MACH + 1)
+    tables = _at_mach(sections, only_mach)
+    coefficients, held = _stacked(tables, blade.surface_drag if surface else 1.0)
+    mach = MACH_STEP * np.arange(N_MACH + 1)
     return Disk(
         r=r,
         dr=np.diff(edges),
@@ -197,10 +198,15 @@ def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float
 
 
 @lru_cache(maxsize=16)
+def _at_mach(sections: tuple[Section, ...], only_mach: float | None) -> tuple[SectionTable, ...]:
+    """Their tables, or those of one Mach number."""
+    return tuple(item.table if only_mach is None else item.table.held_at(only_mach) for item in sections)
+
+
+@lru_cache(maxsize=16)
 @read_only
-def _tables(sections: tuple[Section, ...], only_mach: float | None, drag: float) -> tuple[Array, Array]:
+def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Array]:
     """`Disk.tables` and `Disk.held`; drag: of the real surface over that of the data."""
-    tables = [item.table if only_mach is None else item.table.held_at(only_mach) for item in sections]
     coefficients = np.stack([table.coefficients for table in tables])
     coefficients[:, :, :, 1] *= drag
     return coefficients, np.stack([held_beyond_peak(each) for each in coefficients])
@@ -213,8 +219,7 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
 
     (elements, 8, Mach nodes) and (sections, α cells, Mach cells, 2, 4, 4); only_mach as for `build_disk`.
     """
-    tables = [item.table if only_mach is None else item.table.held_at(only_mach) for item in disk.sections]
-    onsets = [stall_onset(table) for table in tables]
+    onsets = [stall_onset(table) for table in _at_mach(disk.sections, only_mach)]
     numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]
