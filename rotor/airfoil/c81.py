@@ -44,17 +44,21 @@ class C81Deck:
     cd: C81Block
     cm: C81Block | None
 
+    @property
+    def blocks(self) -> tuple[C81Block, ...]:
+        return (self.cl, self.cd) if self.cm is None else (self.cl, self.cd, self.cm)
+
 
 class _Cards:
     """The cards of one file, taken in order, with error messages that give file and line."""
 
-    def __init__(self, name: str, text: str) -> None:
+    def __init__(self, name: str, text: str, by_blanks: bool = False) -> None:
         self.name = name
         self.lines = [line.rstrip() for line in text.splitlines()]
         self.at = 0
         self.title = 1
         """Line of the title."""
-        self.by_blanks = False
+        self.by_blanks = by_blanks
 
     @property
     def remedy(self) -> str:
@@ -160,15 +164,16 @@ def parse_c81(text: str, name: str = "deck") -> C81Deck:
 
     Raises ValueError with one sentence that gives the line of `name` and the remedy.
     """
-    failed: list[tuple[int, ValueError]] = []
-    for by_blanks in (False, True):
-        cards = _Cards(name, text)
-        cards.by_blanks = by_blanks
+    cards = _Cards(name, text)
+    try:
+        return _deck(cards)
+    except ValueError as error:
+        free = _Cards(name, text, by_blanks=True)
         try:
-            return _deck(cards)
-        except ValueError as error:
-            failed.append((cards.at, error))
-    raise max(failed, key=lambda each: each[0])[1] from None
+            return _deck(free)
+        except ValueError as other:
+            # A deck by columns is one whose first Mach card is.
+            raise (error if cards.at > cards.title + 1 else other) from None
 
 
 def read_c81(path: Path) -> C81Deck:
@@ -193,15 +198,14 @@ def _cards_of(head: str, values: Array, decimals: int) -> list[str]:
 
 def format_c81(deck: C81Deck) -> str:
     """The deck as text: Mach with three decimals, angles two, cl and cm four, cd five, fewer where they do not fit."""
-    blocks = (deck.cl, deck.cd, *([deck.cm] if deck.cm else []))
-    counts = [n for block in blocks for n in (block.mach.size, block.alpha_deg.size)]
+    counts = [n for block in deck.blocks for n in (block.mach.size, block.alpha_deg.size)]
     counts += [0] * (6 - len(counts))
     if max(counts) > 99 or len(deck.title) > 30:
         raise ValueError(
             f"C81 holds 99 angles and a title of 30 characters at most, not {max(counts)} and {deck.title!r}"
         )
     lines = [f"{deck.title:<30}" + "".join(f"{n:2d}" for n in counts)]
-    for name, block in zip(_NAMES, blocks, strict=False):
+    for name, block in zip(_NAMES, deck.blocks, strict=False):
         lines += _cards_of(" " * _FIELD, block.mach, 3)
         for angle, row in zip(block.alpha_deg, block.values, strict=True):
             lines += _cards_of(_field(float(angle), 2), row, 5 if name == "cd" else 4)

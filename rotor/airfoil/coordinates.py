@@ -28,6 +28,7 @@ _LONGEST_WAY = 3.0
 _LEAST_AREA = 0.35
 """Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, less if lines cross."""
 _ORDER = "list the points from the trailing edge over the upper side to the nose and back along the lower side"
+_NOT_ROUND = f"does not go round a section once: {_ORDER}"
 
 
 def read_coordinates(text: str, name: str) -> Array:
@@ -52,14 +53,14 @@ def read_coordinates(text: str, name: str) -> Array:
     if len(runs) > 2:
         line = lines[int(min(runs[1:], key=len)[0])]
         raise ValueError(f"{name}, line {line}: the outline jumps to this point: correct it, or {_ORDER}")
-    if len(runs) == 1 and np.hypot(*(points[runs[0][0]] - points[runs[0][-1]])) > _JUMP * chord:
-        raise ValueError(f"{name} has one side of the section only: {_ORDER}")
     order = np.concatenate((runs[0][::-1], runs[1])) if len(runs) == 2 else runs[0]
     if not points[order[-1]].any() and _detours(points[order])[-1] > _STRAY * chord:
         order = order[:-1]
+    if len(runs) == 1 and np.hypot(*(points[order[0]] - points[order[-1]])) > _JUMP * chord:
+        raise ValueError(f"{name} {_NOT_ROUND}")
     loop = _from_trailing_edge(_once(points[order], chord), chord)
     off = _detours(loop) > _OFF * chord
-    off[[0, -1, np.argmin(loop[:, 0])]] = False  # A coarse outline turns back at nose and trailing edge.
+    off[0] = off[-1] = off[int(np.argmin(loop[:, 0]))] = False  # A coarse outline turns back at nose and trailing edge.
     if off.any():
         line = lines[int(np.argmin(np.hypot(*(points - loop[np.argmax(off)]).T)))]
         raise ValueError(f"{name}, line {line}: the outline jumps to this point and back: correct it, or {_ORDER}")
@@ -68,7 +69,7 @@ def read_coordinates(text: str, name: str) -> Array:
     if chord <= 0.9 or np.abs(loop).max() >= 1.5:
         raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
     if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_WAY or _area(loop) < _LEAST_AREA * _thickest(loop):
-        raise ValueError(f"{name} does not go round a section once: {_ORDER}")
+        raise ValueError(f"{name} {_NOT_ROUND}")
     return loop
 
 
@@ -146,6 +147,6 @@ def _area(loop: Array) -> float:
 def _thickest(loop: Array) -> float:
     """Largest distance across x between the sides before and behind the nose of an opened loop of chord 1."""
     nose = int(np.argmin(loop[:, 0]))
-    x = np.linspace(loop[nose, 0], loop[:, 0].max(), 201)
-    upper, lower = (np.interp(x, *side[np.argsort(side[:, 0])].T) for side in (loop[: nose + 1], loop[nose:]))
-    return float(np.abs(upper - lower).max())
+    place = np.linspace(float(loop[nose, 0]), float(loop[:, 0].max()), 201)
+    upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
+    return float(np.abs(np.interp(place, *upper.T) - np.interp(place, *lower.T)).max())

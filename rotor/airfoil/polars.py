@@ -4,8 +4,9 @@ write them, and our own CSV, whose first lines record how it was made.
 Mach and Reynolds number are columns, or stand above the heading.
 """
 
+import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -152,39 +153,35 @@ def parse_polars(text: str, name: str) -> PolarSet:
             key = (float(np.nan_to_num(mach)), float(np.nan_to_num(reynolds)))
             alpha, cl, cd, cm = values
             groups.setdefault(key, []).append((number, alpha, cl, cd, float(np.nan_to_num(cm))))
-        if len(groups) > _MOST_POLARS:
-            raise ValueError(
-                f"{name} holds more than {_MOST_POLARS} polars, one for each Mach and Reynolds number: keep fewer"
-            )
+            if len(groups) > _MOST_POLARS:
+                raise ValueError(
+                    f"{name} holds more than {_MOST_POLARS} polars, one for each Mach and Reynolds number: keep fewer"
+                )
     if not groups:
         raise ValueError(f"{name} has no rows of numbers below its heading: give 8 angles at least")
     polars = tuple(_polar(name, mach, reynolds, groups[mach, reynolds]) for mach, reynolds in sorted(groups))
     return PolarSet(tuple(line[1:].strip() for line in lines if line.startswith("#")), polars, tuple(assumed))
 
 
-def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> list[tuple[int, tuple[float, ...]]]:
+def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The rows of a table with the lines they stand on, counted from 1."""
-    rows: list[tuple[int, tuple[float, ...]]] = []
-    words = 0
+    some, other = False, None
     for number, line in enumerate(lines[heading.line + 1 : end], start=heading.line + 2):
-        if not line.strip(" \t,;") or line.startswith("#"):
-            continue
         row = heading.row(line)
         if row is None:
-            # Units below a heading, and words below the last row, have no numbers.
-            if rows and not words and re.search(r"(?:^|[\s,;])[+-]?\.?\d", line):
-                raise ValueError(
-                    f"{name}, line {number}: {line.strip()!r} is not a row of numbers: correct or remove it"
-                )
-            words = words or (number if rows else 0)
+            # Units below a heading, and words below the last row, are left out.
+            if some and other is None and line.strip(" \t,;") and not line.startswith("#"):
+                other = number, line.strip()
             continue
-        if words:
-            raise ValueError(f"{name}, line {words}: words between two rows: remove the line")
+        if other is not None:
+            raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
         alpha, cl, cd = row[2:5]
-        if not (np.isfinite(row[2:5]).all() and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
+        if not (all(map(math.isfinite, row[2:5])) and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
             raise ValueError(f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg cannot be: remove the row")
-        rows.append((number, row))
-    return rows
+        some = True
+        yield number, row
+    if other is not None and end == len(lines) and re.match(r"[+-]?\.?\d", other[1]):
+        raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
 
 
 def _said(name: str, above: list[str], before: tuple[float, float]) -> tuple[float, float]:

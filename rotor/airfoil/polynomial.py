@@ -203,6 +203,6 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
     transition = "Ncrit 9" if reading.transition == "free" else "tripped at 5 % chord"
     source = (
         f"polynomials of order {LIFT_ORDER} and {DRAG_ORDER} over {low:g}..{high:g} deg on own XFOIL polar: SC1095, "
-        f"M {polar.mach:g}, Re {polar.reynolds / 1e6:.2f}e6, {transition}"
+        f"M {polar.mach:g}, Re {(polar.reynolds or 0.0) / 1e6:.2f}e6, {transition}"
     )
     return make_table(reading.name, source, out, 1.0, section.fit_range)

@@ -1,6 +1,7 @@
 """The page with any rotor: menu, weights, files brought one after another, pictures with its own blades."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -23,7 +24,7 @@ from explorer.model.inputs import (
 from explorer.model.session_state import Pinboard, Pinned
 from explorer.picture.picture import turned_blades
 from explorer.sharing import share
-from explorer.tabs.design_files import SUFFIXES, UploadedFiles
+from explorer.tabs.design_files import UploadedFiles
 from explorer.text.design_words import title_words
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
@@ -36,6 +37,8 @@ from rotor.trim.solve import solve
 
 R22 = with_rotor(Inputs(), "r22")
 DECK = asset_path("airfoils/naca0012.c81").read_bytes()
+POLAR = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
+OUTLINE = asset_path("airfoils/naca0012.contour").read_bytes()
 NAMES_DECK = (GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n').encode()
 
 
@@ -112,10 +115,9 @@ class TestShelf:
         assert later.add("mine.c81", DECK).aircraft == craft
 
     def test_polars_and_windows_line_ends(self):
-        polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
         toml = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
         shelf = UploadedFiles()
-        shelf.add("p.txt", polar_file(polar).replace("\n", "\r\n").encode())
+        shelf.add("p.txt", polar_file(POLAR).replace("\n", "\r\n").encode())
         craft = shelf.add("my.toml", toml.encode("utf-8-sig")).aircraft
         assert craft is not None
         assert len(craft.remarks) == 1
@@ -123,14 +125,11 @@ class TestShelf:
     @pytest.mark.parametrize(
         ("name", "content", "says"),
         [
-            ("photo.png", b"\x89PNG", "photo.png is not one of .toml, .c81"),
+            ("photo.png", b"\x89PNG", "photo.png is not UTF-8 text"),
             ("my.toml", b"\xff\xfe\x00", "my.toml is not UTF-8 text"),
             ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: a rotor's files have 2 MB at most"),
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
-            ("mine.c81", DECK[:5000], "mine.c81, line 79"),
-            ("p.txt", b"hello", "p.txt is not an XFOIL polar file"),
-            ("shape.dat", b"1 0\n0 0\n", "shape.dat has 2 points"),
         ],
     )
     def test_bad_files_leave_the_shelf_as_it_was(self, name: str, content: bytes, says: str):
@@ -138,8 +137,29 @@ class TestShelf:
         with pytest.raises(ValueError, match=r"\.") as caught:
             shelf.add(name, content)
         assert says in str(caught.value)
-        assert (shelf.texts, shelf.waiting) == ({"kept.c81": "text"}, None)
-        assert all(suffix.startswith(".") for suffix in SUFFIXES)
+        assert (shelf.texts, shelf.rotor) == ({"kept.c81": "text"}, None)
+
+    @pytest.mark.parametrize(
+        ("key", "content", "says"),
+        [
+            ("deck", DECK[:5000], "mine.cor, line 79"),
+            ("polars", b"hello", "mine.cor has no line that names columns alpha, cl and cd"),
+            ("outline", b"1 0\n0 0\n", "mine.cor has 2 points"),
+        ],
+    )
+    @pytest.mark.parametrize("rotor_first", [True, False])
+    def test_the_key_that_names_a_file_says_what_it_is(self, key: str, content: bytes, says: str, rotor_first: bool):
+        """Whatever its suffix, and by its name without folders, as a browser gives it."""
+        deck = 'deck = "mine.c81"\n' if key == "outline" else ""
+        toml = f'{GOOD.replace("naca0012", "mine")}\n[sections.mine]\n{deck}{key} = "data/mine.cor"\n'.encode()
+        good = {"deck": DECK, "polars": polar_file(POLAR).encode(), "outline": OUTLINE}[key]
+        shelf = UploadedFiles()
+        shelf.add("mine.c81", DECK)
+        first, then = (("my.toml", toml), ("mine.cor", content))[:: 1 if rotor_first else -1]
+        shelf.add(*first)
+        with pytest.raises(ValueError, match=re.escape(says)):
+            shelf.add(*then)
+        assert shelf.add("mine.cor", good).aircraft is not None  # In its place, without the rotor file again.
 
 
 def test_the_picture_has_the_rotors_own_blades(r22: Solution):

@@ -16,7 +16,7 @@ from test_rotor_file import DECK, GOOD, POLARS, polar_file
 from explorer.tabs.design_files import UploadedFiles
 from rotor.__main__ import main
 from rotor.airfoil.c81 import format_c81, parse_c81
-from rotor.airfoil.polars import COLUMNS, Polar, parse_polar_file
+from rotor.airfoil.polars import COLUMNS, Polar, parse_polars
 from rotor.design.aircraft import Aircraft
 from rotor.files import rotor_file
 from rotor.files.make_design import make_design
@@ -111,12 +111,12 @@ def test_one_wrong_digit_is_flown_or_refused(suffix: str):
 
 @pytest.mark.parametrize(
     ("heading", "says"),
-    [("Mach = 0.1.2", "keep the heading"), ("Mach =   1.300", "outside 0…1"), ("Mach = .", "keep the heading")],
+    [("Mach = 0.1.2", "correct the number"), ("Mach =   1.300", "outside 0…1"), ("Mach = .", "correct the number")],
 )
 def test_a_heading_with_a_wrong_digit_is_refused(heading: str, says: str):
     text = re.sub(r"Mach =\s+[0-9.]+", heading, polar_file(POLAR))
     with pytest.raises(ValueError, match=says):
-        parse_polar_file("a.txt", text)
+        parse_polars(text, "a.txt")
 
 
 def test_only_sections_in_use_are_built(monkeypatch: pytest.MonkeyPatch):
@@ -188,12 +188,17 @@ def longest_wait(name: str, text: str) -> tuple[float, float]:
             now = time.perf_counter()
             longest, last = max(longest, now - last), now
 
+    shelf, key = UploadedFiles(), {".txt": "polars", ".csv": "polars", ".dat": "outline"}.get(name[-4:])
+    if key:
+        names = f'{key} = "{name}"' if key == "polars" else f'polars = "p"\noutline = "{name}"'
+        shelf.add("p", polar_file(POLAR).encode())
+        shelf.add("my.toml", f"{GOOD.replace('naca0012', 'mine')}\n[sections.mine]\n{names}\n".encode())
     sys.setswitchinterval(1e-3)  # As the server does.
     watcher, begin = threading.Thread(target=watch), time.process_time()
     watcher.start()
     try:
         with pytest.raises(ValueError, match=re.escape(name)) as refusal:
-            UploadedFiles().add(name, text.encode())
+            shelf.add(name, text.encode())
     finally:
         done.set()
         watcher.join()
