@@ -21,6 +21,7 @@ from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
 UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
 THICKNESS = (0.02, 0.4)
+MOST_REYNOLDS = 12
 _LEAST_ALPHA_DEG = (-4.0, 8.0)
 """A polar must at least cover these."""
 _WIDEST_HOLE_DEG = 3.0
@@ -177,6 +178,9 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
     above = ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag" if machs[-1] < 0.99 else ""
     says = f"polars at Mach {listed} over {_range(low, high)}°{above}, a closed form beyond stall"
     families = by_reynolds(polars)
+    if len(families) > MOST_REYNOLDS:
+        says = f"the polars of {name} have {len(families)} Reynolds numbers"
+        raise Refusal(f"{says}: keep {MOST_REYNOLDS}, each some 1.5 times that before", *at)
     if len(families) > 1:
         says += "; each blade element takes those of its Reynolds number Ωr c/ν, linear in its logarithm between two"
     elif machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from rotor.aero.problem import build_problem
 from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.decks import SectionTraits, assemble_deck
-from rotor.airfoil.polars import Polar
+from rotor.airfoil.polars import COLUMNS, Polar
 from rotor.airfoil.reynolds import by_reynolds, shares
 from rotor.airfoil.sections import OwnSection, install_own
 from rotor.design.aircraft import Aircraft
@@ -36,7 +36,7 @@ flap_hinge_m = 0.0
 blade_mass_kg = 0.2
 
 [sections.mine]
-polars = ["p0.csv", "p1.csv", "p2.csv", "p3.csv"]
+polars = "all.csv"
 outline = "naca0012"
 """
 
@@ -49,15 +49,12 @@ def polar(reynolds: float, power: float = -0.2, mach: float = 0.0) -> Polar:
 
 def polar_text(one: Polar) -> str:
     rows = zip(one.alpha_deg, one.cl, one.cd, one.cm, strict=True)
-    lines = (f"{one.mach:g},{one.reynolds:.0f},{a:.2f},{cl:.6f},{cd:.8f},{cm:g}" for a, cl, cd, cm in rows)
-    return "\n".join(("mach,reynolds,alpha_deg,cl,cd,cm", *lines, ""))
+    return "\n".join(f"{one.mach:g},{one.reynolds:.0f},{a:.2f},{cl:.6f},{cd:.8f},{cm:g}" for a, cl, cd, cm in rows)
 
 
 def drone(power: float = -0.2, knots: tuple[float, ...] = KNOTS, toml: str = DRONE) -> Aircraft:
-    files = {f"p{k}.csv": polar_text(polar(number, power)) for k, number in enumerate(knots)}
-    listed = ", ".join(f'"{name}"' for name in files)
-    toml = toml.replace('"p0.csv", "p1.csv", "p2.csv", "p3.csv"', listed)
-    return read_aircraft("my.toml", {"my.toml": toml, **files})
+    rows = [polar_text(polar(number, power)) for number in knots]
+    return read_aircraft("my.toml", {"my.toml": toml, "all.csv": "\n".join((COLUMNS, *rows, ""))})
 
 
 def test_linear_in_the_logarithm_and_held_at_the_ends():
@@ -87,9 +84,11 @@ def test_polars_are_sorted_by_reynolds_number_and_filled_at_other_mach_numbers()
     assert both[0][1][1].reynolds == 2e5  # Held below the lowest of Mach 0.2.
 
 
-def test_two_polars_of_one_mach_and_reynolds_number_are_refused():
+def test_two_polars_of_one_reynolds_number_and_too_many_are_refused():
     with pytest.raises(ValueError, match="two polars of mine have Mach 0 and Reynolds number 100,000: keep one"):
         drone(knots=(100e3, 200e3, 100.5e3))
+    with pytest.raises(ValueError, match=r"my\.toml, line 16: the polars of mine have 13 Reynolds numbers: keep 12"):
+        drone(knots=tuple(1e4 * 1.5**k for k in range(13)))
 
 
 def test_an_element_takes_the_data_of_its_own_reynolds_number():
