@@ -14,8 +14,11 @@ from rotor.airfoil.reynolds import by_reynolds, shares
 from rotor.airfoil.sections import OwnSection, install_own
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Span
+from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
+from rotor.trim.analysis import power_gradient
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
 KNOTS = (50e3, 100e3, 200e3, 400e3)
@@ -140,6 +143,22 @@ def test_a_small_rotor_gains_by_speed():
     assert merit[-1] - merit[0] > 0.05
     assert np.all(np.diff(merit) > 0.0)
     assert_allclose(np.array(profile) / profile[0], (np.array(speeds) / speeds[0]) ** -0.2, rtol=3e-3)
+
+
+def test_power_adds_up_and_its_slope_by_twist_is_exact():
+    """By differences of 0.001°: tables are C¹, so larger ones straddle knots."""
+    craft, exactly = drone(), SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12)
+
+    def at(rate: float) -> Design:
+        stand = {"ct_over_sigma": 0.07, "shaft_tilt_deg": 4.0}
+        return make_design(rotor=craft, trim="wind-tunnel", mu=0.2, twist=f"linear:{rate:.9g}", stand=stand)
+
+    solution = solve(at(-8.0), options=exactly).require()
+    assert len({*build_problem(solution.design).disk.section.ravel().tolist()}) > 2
+    assert solution.power.shaft == pytest.approx(solution.power.main_rotor, rel=1e-9)
+    slope = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
+    ends = [solve(at(-8.0 + step), solution, exactly).require().power.total for step in (0.001, -0.001)]
+    assert (ends[0] - ends[1]) / np.deg2rad(0.002) == pytest.approx(slope, rel=2e-5)
 
 
 def test_reynolds_numbers_beyond_the_data_are_said():
