@@ -6,7 +6,7 @@ Tip twist is that in flight, at the tip, nose up positive: what the actuator add
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple, cast
+from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from explorer.views.now import Asked, Effect, Now, Panel, SetHand
 from explorer.workers.call import Call
 from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, PiezoPly, effect, other_stroke, powers
 from rotor.actuator.verdict import Against, count
+from rotor.trim.doubt import sureness
 
 _URGENCY, _STILL = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
@@ -30,6 +31,13 @@ class Change(NamedTuple):
 
     power: float
     band: float | None
+
+    @property
+    def kind(self) -> Literal["gain", "loss", ""]:
+        """Empty where its sign cannot be told."""
+        if self.band is not None and sureness(self.power, self.band) == "cannot be told":
+            return ""
+        return "loss" if self.power > 0.0 else "gain"
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,7 +248,7 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
         mass=total,
         masses=tuple(parts),
         here=here,
-        kind="" if value.here is None else "loss" if value.here.power > 0.0 else "gain",
+        kind="" if value.here is None else value.here.kind,
         flight=flight,
         vibration=_vibration(value),
         problem=here_problem(now),

@@ -16,11 +16,10 @@ from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
 from explorer.views.actuated import in_actuate
-from explorer.views.assessed import Assessed, assessed, here_problem
+from explorer.views.assessed import Assessed, Change, assessed, here_problem
 from explorer.views.now import Effect, Now, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
 from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
-from rotor.trim.doubt import sureness
 
 SUPPOSED = "i"
 """Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
@@ -55,13 +54,12 @@ def _stage(now: Now) -> SupposePart | None:
     saving = line.net(twist, mass)
     if (degrees, mass) == own:
         saving, band = -value.flight.power, value.flight.band
-    told = band is None or sureness(saving, band) != "cannot be told"
     most, least = line.mass_allowed(twist), line.twist_for(mass)
     notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, from {number(math.degrees(least), 1)}° on"]
     return SupposePart(
         words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
-        kind="" if not told else "gain" if saving > 0.0 else "loss",
+        kind=Change(-saving, band).kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(value), units)),
         at=(degrees, mass),

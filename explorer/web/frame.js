@@ -171,7 +171,7 @@
   const showTab = RX.showTab = (name, wanted) => {
     page.dataset.tab = name;
     openRail(wanted);
-    RX.again('plan', 'strip', 'inset', 'fly', 'earns');
+    RX.again('plan', 'strip', 'inset');
   };
   const openRail = RX.openRail = wanted => {
     if (wanted) page.dataset.rail = 'open'; else delete page.dataset.rail;
@@ -344,13 +344,18 @@
       if (!of || !viewer().camera) return false;
       const point = project(of, label.at), {offsetWidth: width, offsetHeight: height} = element;
       const left = clamp(point.left - width / 2, 4, canvas.width - width - 4), wanted = Math.max(4, point.top - height);
-      // None lies behind a card or over another: it goes below what it meets, but not far from its point.
-      let top = wanted;
-      const met = () => [...taken, ...cards]
-        .find(([x, y, w, h]) => left < x + w && x < left + width && top < y + h && y < top + height);
-      for (let other; top - wanted < LABEL_SHIFT && (other = met());) top = other[1] + other[3] + 2;
+      // None lies behind a card or over another: it goes above or below what it meets, but not far from its point.
+      // Below, it may cover what it names.
+      const others = [...taken, ...cards], cost = top => top > wanted ? 2 * (top - wanted) : wanted - top;
+      const met = top => others
+        .some(([x, y, w, h]) => left < x + w && x < left + width && top < y + h && y < top + height);
+      const tops = [wanted, ...others.flatMap(([, y,, h]) => [y - height - 2, y + h + 2])]
+        .filter(top => top >= 4 && cost(top) < LABEL_SHIFT && !met(top)).sort((one, two) => cost(one) - cost(two));
+      const top = tops[0] ?? wanted;
+      element.style.setProperty('--rx-lead', `${Math.max(wanted - top, 0)}px`);
+      element.style.setProperty('--rx-lead-at', `${point.left - left}px`);
       element.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-      const free = point.seen && top + height < canvas.height && !met();
+      const free = point.seen && top + height < canvas.height && tops.length > 0;
       if (free) taken.push([left, top, width, height]);
       return free;
     };

@@ -307,8 +307,10 @@
       series.push({kind: 'points', x: here, y: [at(tables.alpha, {r: circle, psi})], colour: 'var(--rx-blade)'});
     const margin = Math.min(...alpha.map((angle, k) =>
       angle === null ? Infinity : Math.min(upper[k] - angle, angle - lower[k])));
+    const narrow = layout.chart.width < 480;  // Else the words of its heading are cut.
+    const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the circle under the pointer'}`;
     Charts.fill(around.firstElementChild, {
-      ...chart, y: {...chart.y, label: `° at ${circle.toFixed(2)} R, the circle under the pointer`}, series,
+      ...chart, title: narrow ? 'Angle of attack' : chart.title, y: {...chart.y, label}, series,
       value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow',
       kind: margin < 0 ? 'bad' : '', rules: here.map(psi => ({at: psi, along: 'x', colour: 'var(--rx-faint)'})),
     }, layout.chart);

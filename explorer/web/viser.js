@@ -18,6 +18,8 @@
       }
       close(...why) { if (this.readyState !== Own.CONNECTING) super.close(...why); }
     };`;
+  const replaceState = history.replaceState.bind(history);
+  history.replaceState = (state, title, where) => { if (title !== 'Viser') replaceState(state, title, where); };
   const first = URL.createObjectURL(new Blob([patient], {type: 'text/javascript'}));
   window.Worker = class extends Worker {
     constructor(script, options) {
@@ -31,6 +33,10 @@
     }
     postMessage(message, ...rest) {
       if (message?.type === 'retry' && this.trying) return;
+      // The page talks to the server it came from. The client leaves out the last slash, without which a proxy that
+      // serves the page in a folder does not know it, and it lets an address name another server.
+      if (message?.type === 'set_server')
+        message = {...message, server: new URL('.', location.href).href.replace(/^http/, 'ws')};
       if (['retry', 'set_server'].includes(message?.type)) this.trying = true;
       super.postMessage(message, ...rest);
     }

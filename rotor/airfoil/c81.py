@@ -59,6 +59,7 @@ class _Cards:
         self.title = 1
         """Line of the title."""
         self.by_blanks = by_blanks
+        self.place = "its title"
 
     @property
     def remedy(self) -> str:
@@ -66,7 +67,7 @@ class _Cards:
 
     def next_card(self) -> str:
         if self.at >= len(self.lines):
-            raise ValueError(f"{self.name} ends after line {self.at}: a card is missing, {self.remedy}")
+            raise ValueError(f"{self.name} ends after line {self.at}, at {self.place}: {self.remedy}")
         self.at += 1
         return self.lines[self.at - 1]
 
@@ -112,11 +113,13 @@ class _Cards:
 
 
 def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
+    cards.place = f"the Mach numbers of {name}"
     _, mach = cards.row(machs, with_angle=False)
     if np.any(np.diff(mach) <= 0.0):
         raise cards.fail(f"the Mach numbers of {name} do not increase: sort them")
     rows: list[tuple[float, ...]] = []
-    for _ in range(angles):
+    for count in range(1, angles + 1):
+        cards.place = f"angle {count} of {angles} of {name}"
         angle, values = cards.row(machs, with_angle=True)
         if name == "cd" and np.any(values <= 0.0):
             raise cards.fail(f"a cd at {angle:g} deg is not positive: drag must be above zero")

@@ -25,8 +25,9 @@ _TAIL = 0.05
 """[chord] ahead of the last point where a step up is that across a blunt trailing edge."""
 _LONGEST_WAY = 3.0
 """[chord] round a section: 2 for a flat plate, 2.4 for an ellipse of 50 %. Points out of order need far more."""
-_LEAST_AREA = 0.35
-"""Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, less if lines cross."""
+_LEAST_AREA = 0.22
+"""Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, 0.25 for Eppler 376, whose tail
+is thin; less if lines cross."""
 _ORDER = "list the points from the trailing edge over the upper side to the nose and back along the lower side"
 _NOT_ROUND = f"does not go round a section once: {_ORDER}"
 
@@ -35,7 +36,7 @@ def read_coordinates(text: str, name: str) -> Array:
     """The outline in `text`, (n, 2): from the upper trailing edge forward around the nose, x aft and y up [chord].
 
     Repeated points are dropped; a sharp trailing edge is both first and last. Coordinates in per cent or in millimetres
-    are divided by the chord. Raises ValueError with one sentence that names the line of `name` and the remedy.
+    are divided by their width in x. Raises ValueError with one sentence that names the line of `name` and the remedy.
     """
     points, lines, words = _rows(text, name)
     counts, left = points[0], len(points) - 1
@@ -87,7 +88,7 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
             rows.append((values[0], values[1]))
             lines.append(number)
         elif words and rows:
-            if len(values) == len(words) or (values and len(words) == 2):
+            if len(values) == len(words) or (values and len(words) == 2 and not words[0][0].isalpha()):
                 raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line")
             between.setdefault(len(rows), number)
         if len(rows) > _MOST + 2:
@@ -149,4 +150,4 @@ def _thickest(loop: Array) -> float:
     nose = int(np.argmin(loop[:, 0]))
     place = np.linspace(float(loop[nose, 0]), float(loop[:, 0].max()), 201)
     upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
-    return float(np.abs(np.interp(place, *upper.T) - np.interp(place, *lower.T)).max())
+    return float(np.abs(np.interp(place, upper[:, 0], upper[:, 1]) - np.interp(place, lower[:, 0], lower[:, 1])).max())

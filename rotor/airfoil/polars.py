@@ -70,8 +70,8 @@ _NAMES = {
 """Other names of columns."""
 _MOST_ANGLES = 2000
 _MOST_POLARS = 60
-_HEAD, _LONGEST_HEAD, _LONGEST_HEADING = 40, 8000, 400
-"""Lines and characters above a heading that are looked at, and characters of a heading; XFOIL writes twelve lines."""
+_HEAD, _LONGEST_HEAD, _LONGEST_HEADING = 80, 20_000, 400
+"""Lines and characters above a heading that are looked at, and characters of a heading; AeroDyn writes fifty lines."""
 _SAME_ANGLE = 1e-6
 """[deg]"""
 _ALIKE = (0.02, 0.002)
@@ -118,11 +118,12 @@ def _headings(lines: list[str]) -> list[_Heading]:
     for number, line in enumerate(lines):
         if len(line) > _LONGEST_HEADING or "c" not in line.lower():
             continue
-        mark = next((mark for mark in ";,\t" if mark in line), None)
-        keys = [re.sub(r"\([^()]*\)|\[[^]]*\]|[^a-z0-9]", "", word.lower()) for word in _split(line, mark)]
-        names = [_NAMES.get(key, key) for key in keys if key or mark]
-        if {"alpha", "cl", "cd"} <= set(names):
-            found.append(_Heading(number, mark, {name: names.index(name) for name in names}))
+        for mark in (";", ",", None):
+            keys = [re.sub(r"\([^()]*\)|\[[^]]*\]|[^a-z0-9]", "", word.lower()) for word in _split(line, mark)]
+            names = [_NAMES.get(key, key) for key in keys if key or mark]
+            if {"alpha", "cl", "cd"} <= set(names):
+                found.append(_Heading(number, mark, {name: names.index(name) for name in names}))
+                break
     return found
 
 
@@ -194,7 +195,7 @@ def _said(name: str, above: list[str], before: tuple[float, float]) -> tuple[flo
     mach = _value(name, head, rf"\bmach\b\W{{0,12}}(?:number\W{{0,12}})?({_NUMBER})")
     reynolds = _value(name, head, rf"\bre(?:ynolds)?\b\W{{0,12}}(?:number\W{{0,12}})?({_NUMBER})")
     if reynolds is None and (millions := _value(name, head, rf"(?:^| )({_NUMBER}) re\b")) is not None:
-        reynolds = 1e6 * millions  # AeroDyn.
+        reynolds = millions * (1e6 if millions < 1e3 else 1.0)  # AeroDyn.
     return before[0] if mach is None else mach, before[1] if reynolds is None else reynolds
 
 

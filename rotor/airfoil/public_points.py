@@ -11,14 +11,6 @@ from rotor.airfoil.sections import load_section
 from rotor.assets import asset_path, csv_rows
 
 Quantity = Literal["cl", "cd", "cm"]
-SOURCES = {
-    "umd-rans": "University of Maryland, 2-D RANS, fully turbulent",
-    "umd-net": "University of Maryland, net trained on 2-D RANS",
-    "cr-166309": "flight-simulation deck, NASA CR-166309",
-    "tm-86719": "tunnel, NASA TM-86719",
-    "tm-88370": "flight-test rotor table, NASA TM-88370",
-    "hart2": "section table of the HART II test, DLR",
-}
 
 
 @dataclass(frozen=True)
@@ -27,7 +19,7 @@ class PublicPoint:
 
     section: str
     source: str
-    """A key of `SOURCES`."""
+    """Short name, told at the head of the file."""
     kept_aside: bool
     """Whether no constant of the decks was read off its source."""
     mach: float

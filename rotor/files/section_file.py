@@ -146,7 +146,7 @@ def _range(low: float, high: float) -> str:
 def _off_its_knots(deck: C81Deck, table: SectionTable) -> str:
     """How far the table is off the deck's own values where its Mach numbers are none of the table's; "" within 1 %."""
     block = deck.cd
-    near = np.abs(block.alpha_deg) <= 10.0
+    near = np.abs(block.alpha_deg) <= max(10.0, float(np.abs(block.alpha_deg).min()))
     mach = block.mach <= table.mach_limit + 1e-9
     alpha, given = block.alpha_deg[near], block.values[np.ix_(near, mach)]
     off = table(np.deg2rad(alpha)[:, None], block.mach[mach]).cd / given - 1.0

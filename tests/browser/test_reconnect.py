@@ -26,10 +26,13 @@ pytestmark = [
 
 
 class Proxy:
-    """Passes bytes between a browser and a server; a WebSocket's handshake is answered after `delay` [s]."""
+    """Passes bytes between a browser and a server, which is seen in `folder`, "/rotor" or the like.
+
+    A WebSocket's handshake is answered after `delay` [s].
+    """
 
     def __init__(self, address: str) -> None:
-        self.delay, self.handshakes = 0.0, 0
+        self.delay, self.handshakes, self.folder = 0.0, 0, ""
         self.cut_off = self.deaf = False
         self._target = urlsplit(address)
         self._open: set[asyncio.StreamWriter] = set()
@@ -55,6 +58,9 @@ class Proxy:
         self._open |= {writer, server}
         with suppress(OSError, asyncio.IncompleteReadError):
             head = await reader.readuntil(b"\r\n\r\n")
+            if f" {self.folder}/".encode() not in head.partition(b"\r\n")[0]:
+                raise ConnectionError("nothing is served outside the folder")
+            head = head.replace(f" {self.folder}/".encode(), b" /", 1)
             if b"Upgrade: websocket" in head:
                 self.handshakes += 1
                 with suppress(TimeoutError):
@@ -135,6 +141,13 @@ def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", 
     page.wait_for_function(OPEN)
     assert proxy.handshakes == 2
     assert time.monotonic() - begin < delay + 30.0
+
+
+def test_is_served_in_a_folder(page: "Page", proxy: Proxy):
+    proxy.folder = "/rotor"
+    page.goto(f"{proxy.address}/rotor/{COARSE}")
+    page.wait_for_function(OPEN)
+    set_inboard(page, -7.9)
 
 
 def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: "Page", proxy: Proxy):

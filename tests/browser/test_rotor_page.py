@@ -47,16 +47,16 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     shown(watched, "against", "Mine as built")
     watched.until(lambda: watched.page.evaluate(BLADES) == 2)
     watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
-    file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.c81"\n', encoding="utf-8")
+    file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.cor"\n', encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=mine.toml is loaded and needs own.c81: load that next.")
-    deck = tmp_path / "own.c81"
+    watched.page.wait_for_selector("text=mine.toml is loaded and needs own.cor: load that next.")
+    deck = tmp_path / "own.cor"
     deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
     load(watched, deck)
     watched.drawer("trust")
     shown(watched, "provenance", "own")
     # Once it rests, the page is given what its address cannot hold.
-    kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.c81')"
+    kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.cor')"
     watched.page.wait_for_function(kept, timeout=2 * WAIT)
     watched.page.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]')
     watched.page.wait_for_function("() => location.search.includes('d=own')")

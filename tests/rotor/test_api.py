@@ -305,7 +305,7 @@ threadpool_limits(limits=3, user_api="blas")
 
 def state():
     return {
-        "threads": [(one["filepath"], one["num_threads"]) for one in threadpool_info()],
+        "threads": {one["filepath"]: one["num_threads"] for one in threadpool_info()},  # They come in any order.
         "warnings": [repr(one) for one in warnings.filters],
         "signals": [repr(signal.getsignal(one)) for one in sorted(signal.valid_signals())],
         "environment": dict(os.environ),

@@ -38,7 +38,7 @@ OUTLINES = {
     "Lednicer with counts": f"NACA 2412\n 21. 21.\n\n{LEDNICER}",
     "Lednicer in per cent": f"21 21\n{rows(100.0 * UPPER[::-1])}{rows(100.0 * LOWER)}",
     "both sides headed": f"Upper\n{rows(UPPER)}Lower\n{rows(LOWER[::-1])}",
-    "credit": f"NACA 2412\n{rows(POINTS)}\nDrawn in 1998, with 41 points\n",
+    "credit": f"NACA 2412\n{rows(POINTS)}\nDrawn in 1998, with 41 points\nMoment(cm0): -0,05\n",
     "two headings": f"NACA 2412\nof 4 digits, 12 %\n{rows(POINTS)}",
     "heading of two numbers": f"2412 12\n{rows(POINTS)}",
     "commas": rows(POINTS, "{:.6f}, {:.6f}"),
@@ -93,7 +93,9 @@ POLAR_FILES = {
     "capitals, blanks, further columns": "Name, Mach , RE, Alpha_deg, CL, CD, CM\n"
     + table(f"x, 0.3, 3.24e6, {COMMAS}"),
     "quotes and semicolons": '"mach";"reynolds";"alpha";"cl";"cd";"cm"\n' + table(SEMICOLONS).replace(".", ","),
-    "AeroDyn": "! Mach 0.3\n 3.24   Re  ! in millions\n 73 NumAlf\n!  Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n"
+    "AeroDyn": "! Mach 0.3\n 3.24   Re  ! in millions\n"
+    + 45 * " 1.7 T_f0 ! a time constant\n"
+    + " 73 NumAlf\n!  Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n"
     + f"{table(BLANKS)}! end\n",
     "QBlade": f"REYNOLDS 3.24e6\nMACH 0.3\nAOA CL CD CM\n{table(BLANKS)}",
 }
