@@ -19,7 +19,7 @@ from explorer.hosting.gate import ServerLimits
 from explorer.hosting.messages import PageFacts
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
 from explorer.model.inputs import OPENING, Inputs
-from explorer.model.units import SI, UNITS
+from explorer.model.units import SI, units_of
 from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import FOLLOW, Presentations
@@ -150,11 +150,11 @@ def _first_words(query: str, start: Inputs) -> str:
         return ""  # Another page says what is shown.
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
     design = (start if code is None else inputs_from(code)).design()
-    units = UNITS[view_from(view).units] if view is not None else SI
+    units = units_of(view_from(view).units if view is not None else SI.title, design.aircraft)
     solution = solve(design)
     if not solution.converged:
         return ""
-    power = units.watts(solution.power.total, fineness(solution.power))
+    power = units.watts(solution.power.total, fineness(solution.power, units))
     return f"{power}\n{title_words(design)}\n{flight_words(design, units)}"
 
 

@@ -13,6 +13,37 @@ GRAVITY = 9.80665
 """Standard gravity [m/s²] (ISO 2533)."""
 
 
+_UNITS = {
+    "_deg": "°",
+    "_percent": "%",
+    "_kt": "kt",
+    "_kg": "kg",
+    "_m": "m",
+    "_m_s": "m/s",
+    "_n": "N",
+    "_nm": "N m",
+    "_w": "W",
+    "_ms": "ms",
+    "_per_rev": "/rev",
+}
+
+
+def unit_of(name: str) -> str:
+    """The unit in which the key of a file, or the column of a table, ends; empty without one. Quantities say theirs."""
+    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
+
+
+def power_unit(*powers: float) -> tuple[str, float]:
+    """Symbol and size [W] of the unit in which powers [W] stand side by side: W where all are below 1 kW, else kW."""
+    return ("W", 1.0) if max(map(abs, powers), default=0.0) < 1e3 else ("kW", 1e3)
+
+
+def power_text(power: float, digits: int = 0) -> str:
+    """A power [W] in words: `901 kW`, `412 W`."""
+    symbol, size = power_unit(power)
+    return f"{power / size:z.{digits}f} {symbol}"
+
+
 def degrees_text(angle: float) -> str:
     """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
     exact = math.degrees(angle)

@@ -115,8 +115,10 @@ def total_power_chart(
         installed = unit.of(design.aircraft.installed_power)
         engines = [role_line("limit", mus, np.full(len(mus), installed))]
         top = top_speed(mus, power, installed) if curve.current else math.nan
-        note += f" Engines: {number(installed)} {unit.symbol} at sea level, less at altitude; losses of gearboxes and"
-        note += " what the gearbox allows are not counted, so the top speed is an upper bound."
+        note += (
+            f" Engines: {number(installed)} {unit.symbol} at sea level on a standard day, less higher or warmer; losses"
+        )
+        note += " of gearboxes and what the gearbox allows are not counted, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [role_line("reference", mus, here.main_rotor)]

@@ -10,7 +10,7 @@ import numpy as np
 from explorer.charts.plots import Range
 from explorer.colours import BASELINE
 from explorer.model.inputs import ViewState
-from explorer.model.units import UNITS, Units
+from explorer.model.units import Units, units_of
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
 from explorer.text.readout import mass_parts, needs_words
@@ -63,7 +63,7 @@ class DesignReport:
     @property
     def units(self) -> Units:
         """Units of power, speed and weight."""
-        return UNITS[self.view.units]
+        return units_of(self.view.units, self.entries[0].solution.design.aircraft)
 
     def colour_range(self, shown: Field) -> Range:
         """The colour range of a field, the same for all designs."""

@@ -66,7 +66,7 @@ def view_png(
     write(
         columns - 40,
         72 if driven is None else 62,
-        units.watts(solution.power.total, fineness(solution.power)),
+        units.watts(solution.power.total, fineness(solution.power, units)),
         52,
         ink,
         "rs",

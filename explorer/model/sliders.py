@@ -35,8 +35,9 @@ _CONCEPTS: dict[str, Concept] = {
     "three": CONCEPTS["three-segment-free"],
 }
 """By law of the page: the concept with the same parameters in the same order as the law's inputs."""
-_FLAT = 50.0
-"""Power changes per step below this [W] are no effect: less than the last digit shown."""
+_FLAT = 0.05
+"""Power changes per step below this, in the unit of power of the page, are no effect: less than the last digit
+shown."""
 _HALVINGS = 6
 """Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
@@ -46,7 +47,7 @@ _FRACTION = 0.1
 def _weight(aircraft: Aircraft, units: Units) -> Slider:
     """About the aircraft's reference mass: in tonnes round numbers, in pounds those that reach as far."""
     low, high, step = mass_range(aircraft)
-    if units is not AVIATION:
+    if units.title != AVIATION.title:
         return Slider("Mass [t]", low, high, step, 0.1, "/100 kg")
     coarse = 100.0 if high > 4.0 else 10.0
     ends = (math.floor(POUND.of(1e3 * low) / coarse), math.ceil(POUND.of(1e3 * high) / coarse))
@@ -62,9 +63,12 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
     """The slider as it is shown in these units, for this aircraft."""
     if name == "mass_t":
         return _weight(aircraft, units)
-    if name == "advance_ratio" and aircraft.isolated:
-        return replace(SLIDERS[name], high=0.75)
-    return form_of(ROWS[name], units)
+    form = form_of(ROWS[name], units)
+    if aircraft.isolated and name in ("advance_ratio", "climb_m_s"):  # A rotor of a propeller too.
+        row = ROWS[name]
+        high = (row.high_on_stand or row.high) / form.size
+        return replace(form, high=high, low=-high if row.low < 0.0 else form.low)
+    return form
 
 
 def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
@@ -87,11 +91,10 @@ class SliderSensitivity:
         """Change of total power for one natural step up [W]."""
         return self.slope * slider(self.name, units).natural
 
-    @property
-    def saving_direction(self) -> int:
-        """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes less than 50 W."""
-        watts = self.watts()
-        return 0 if abs(watts) < _FLAT else -1 if watts > 0.0 else 1
+    def saving_direction(self, units: Units = SI) -> int:
+        """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes nothing that is shown."""
+        change = units.power[0].of(self.watts(units))
+        return 0 if abs(change) < _FLAT else -1 if change > 0.0 else 1
 
     def value_text(self, units: Units = SI) -> str:
         """The change of power for one step up, signed, one decimal: `−2.6`."""

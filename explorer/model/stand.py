@@ -76,7 +76,7 @@ def stand_of(design: Design) -> StandInputs | None:
     if stand is None:
         return None
     record = {
-        key: round(float(value), _ROUND) if key.endswith("_deg") else value for key, value in stand.record().items()
+        key: round(float(value), _ROUND) if STAND[key].unit == "°" else value for key, value in stand.record().items()
     }
     load = next(key for key in LOAD_KEYS if key in record)
     values = {name: record[key] for key, name in _FIELDS.items() if key in record}

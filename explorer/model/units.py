@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from rotor import FlightCondition, units
+from rotor import Aircraft, FlightCondition, units
+from rotor.design.aircraft import SEA_LEVEL_DENSITY
 from rotor.design.quantities import BESIDE
 from rotor.design.quantity import Quantity, Slider
 
@@ -53,7 +54,7 @@ class Unit:
 
 def form_of(row: Quantity, units: "Units") -> Slider:
     """How a row's number is shown in these units; ValueError for a row without a slider."""
-    form = row.aviation if units is AVIATION and row.aviation else row.slider
+    form = row.aviation if units.title == AVIATION.title and row.aviation else row.slider
     if form is None:
         raise ValueError(f"{row.name} has no slider: show it as a text")
     return form
@@ -69,7 +70,7 @@ def meant(row: Quantity, place: float, units: "Units") -> float:
     return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
 
 
-KILOWATT, HORSEPOWER = Unit("kW", 1e3), Unit("hp", 745.699872)
+WATT, KILOWATT, HORSEPOWER = Unit("W", 1.0), Unit("kW", 1e3), Unit("hp", 745.699872)
 """[W]; the mechanical horsepower, 550 ft·lbf/s."""
 METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", units.KNOT)
 KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
@@ -98,7 +99,7 @@ class Units:
         if value == row.default:
             return ""
         form, falls = form_of(row, self), bool(row.below) and value < 0.0
-        unit = Unit(form.unit or row.symbol, form.size)
+        unit = Unit(form.unit or row.unit, form.size)
         return f"{row.below if falls else row.short} {unit.text(abs(value) if falls else value, form.digits)}"
 
     def beside(self, condition: FlightCondition) -> list[str]:
@@ -117,3 +118,11 @@ AVIATION = Units(
     "Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT, FOOT_PER_MINUTE
 )
 UNITS = {units.title: units for units in (SI, AVIATION)}
+_SMALL = {title: replace(units, power=(WATT, HORSEPOWER)) for title, units in UNITS.items()}
+
+
+def units_of(title: str, aircraft: Aircraft) -> Units:
+    """The units of this title; powers are in W for a rotor that ideally hovers with less than 1 kW at sea level."""
+    weight = aircraft.mass * units.GRAVITY
+    ideal = weight * math.sqrt(weight / (2.0 * SEA_LEVEL_DENSITY * aircraft.rotor.disk_area))
+    return (_SMALL if units.power_unit(ideal)[0] == WATT.symbol else UNITS)[title]

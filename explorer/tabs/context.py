@@ -12,7 +12,7 @@ from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Analyses, Pinboard, SessionState
 from explorer.model.undo import PowerTracker
-from explorer.model.units import UNITS, Units
+from explorer.model.units import Units, units_of
 from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.display import Display
@@ -90,7 +90,7 @@ class TabContext:
 
     @property
     def units(self) -> Units:
-        return UNITS[self.display.view().units]
+        return units_of(self.display.view().units, self.controls.inputs().aircraft)
 
     def pin(self, inputs: Inputs | None) -> None:
         """Pin these inputs as A, whatever is on the sliders; None removes the pin."""

@@ -252,11 +252,11 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     """The button that shows the sliders of flight at their defaults, by name, or folds them; `chosen`: the menu of the
     test stand is in sight anyway."""
     sliders = [form for name in folded if (form := FLIGHT[name].slider) is not None]
-    names = [form.label.partition(" [")[0].lower() for form in sliders]
-    names += [] if chosen else ["test stand"]
+    names = [form.label.partition(" [")[0] for form in sliders] + ([] if chosen else ["Test stand"])
     if not names:
         return Markup()
-    words = "Fewer" if more else ", ".join(names).capitalize()
+    following = [name if name.startswith("ISA") else f"{name[:1].lower()}{name[1:]}" for name in names[1:]]
+    words = "Fewer" if more else ", ".join((names[0], *following))
     pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
     return tag("button.rxp-fold", words, **pressed)
 

@@ -15,7 +15,6 @@ from explorer.export.report import report_html
 from explorer.export.view_picture import view_png
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
-from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
@@ -100,7 +99,7 @@ class ExportPanel(Tab):
             self._actuator.show_leaders(True)
         above, below = self._scene.camera.covered
         seen = pixels[round(above * height) : height - round(below * height)]
-        return view_png(seen, state.solution, self._scene.scale, UNITS[view.units], view.dark, self._driven())
+        return view_png(seen, state.solution, self._scene.scale, self._context.units, view.dark, self._driven())
 
     def _report(self, state: SessionState) -> bytes:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""

@@ -241,7 +241,8 @@ class StandControls:
         """The measured condition that is set, in flight one of flights; air and speed of the tip, given or not."""
         stand, flown = self.stand, inputs.stand is None
         if stand is not None:
-            air, mach = FlightCondition(0.0, 1e3, inputs.altitude_m), stand.tip_mach  # Of any mass.
+            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Of any mass.
+            mach = stand.tip_mach
             self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)
         conditions = [

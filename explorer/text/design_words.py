@@ -164,7 +164,7 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
-    mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
+    mass = f"{inputs.mass_t:g} t" if units.mass is TONNE else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
-from explorer.model.units import BLANK, SI, Units, adding, number
+from explorer.model.units import BLANK, SI, WATT, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, PiezoPly, Verdict
@@ -31,12 +31,12 @@ def part_titles(*designs: Design) -> dict[str, str]:
     That of the climb is among them where one of the designs climbs or descends.
     """
     tested = [design.condition.stand is not None for design in designs]
-    if all(tested):
-        return _ON_A_STAND
     titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
+    titles = _ON_A_STAND if all(tested) else titles
     if not any(design.condition.climb_speed for design in designs):
         return titles
-    return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
+    titles = {**titles, "climb": "Climb"}
+    return {name: titles[name] for name in PARTS if name in titles}
 
 
 def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:
@@ -70,7 +70,7 @@ def open_drag_area(design: Design) -> tuple[float, float] | None:
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     """The total in both units of power, and its change."""
     large, small = units.power
-    total = large.text(power.total, fineness(power))
+    total = large.text(power.total, fineness(power, units))
     return tag(
         "div.rx-line.rx-base",
         tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
@@ -94,10 +94,10 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
     """κ and its ideal bound."""
     kappa = "κ = Pi/(CT·λ0) ", tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa")
     bound: Content = f"ideal: {not_bounded(solution.design)}"
-    if ideal is not None:
-        unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
+    if ideal is not None and solution.induced_power_factor:
         theory = " (momentum theory)" if solution.design.hovering else ""
-        power, factor = tag("b", units.watts(ideal)), f", κ {number(ideal / unit, 2)}{theory}"
+        least = solution.induced_power_factor * ideal / solution.power.induced
+        power, factor = tag("b", units.watts(ideal)), f", κ {number(least, 2)}{theory}"
         bound = "ideal ", power, factor
     return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 
@@ -116,9 +116,9 @@ def direction(percent: float) -> str:
     return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
 
 
-def fineness(power: PowerBudget) -> int:
-    """Decimals of a power: one for a light helicopter, none for a heavy one."""
-    return 1 if power.total < 2e5 else 0
+def fineness(power: PowerBudget, units: Units = SI) -> int:
+    """Decimals of a power: one for a light helicopter, none for a heavy one; in watts likewise."""
+    return 1 if power.total < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
 def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
@@ -128,9 +128,9 @@ def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | Non
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
-        tag("td.rx-num", units.watts(value, fineness(power))),
+        tag("td.rx-num", units.watts(value, fineness(power, units))),
         tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:19%"),
-        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power), sign=True), style="width:25%"),
+        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power, units), sign=True), style="width:25%"),
         title=tip(_MEANT.get(title, name)),
     )
 
@@ -261,7 +261,7 @@ def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBud
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
-    fine = fineness(power)
+    fine = fineness(power, units)
     if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))

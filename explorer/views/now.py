@@ -9,7 +9,7 @@ from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import Analyses, SessionState
-from explorer.model.units import SI, UNITS, Units
+from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
 from explorer.parts.results import Best
 from explorer.workers.call import Call
@@ -115,7 +115,7 @@ class Now:
 
     @property
     def units(self) -> Units:
-        return SI if self.state is None else UNITS[self.state.view.units]
+        return SI if self.state is None else units_of(self.state.view.units, self.state.solution.design.aircraft)
 
     def latest(self, work: "Work") -> tuple[Any, bool]:
         """The result of work, and True; until it is known the last of its name, or None, and False."""

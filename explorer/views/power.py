@@ -6,7 +6,7 @@ from typing import Any
 
 from explorer.charts.doubt import card_words
 from explorer.model.session_state import SessionState
-from explorer.model.units import BLANK, UNITS, Units, number
+from explorer.model.units import BLANK, Units, number
 from explorer.parts.results import HandPart, Kind, PowerPart, Share, Status, Sureness
 from explorer.text.design_words import against
 from explorer.text.readout import fineness, ideal_induced, part_titles
@@ -53,14 +53,17 @@ def _change(state: SessionState, units: Units) -> dict[str, Any]:
     if solution.design == reference.design or not reference.converged:
         return {"rest": "same as A" if state.pinned else "as built", "why": "Pull the blade tip up or down."}
     change = solution.power.total - reference.power.total
-    return {"moved": units.watts(change, fineness(solution.power), sign=True), "why": why(reference, solution, units)}
+    return {
+        "moved": units.watts(change, fineness(solution.power, units), sign=True),
+        "why": why(reference, solution, units),
+    }
 
 
 def _numbers(state: SessionState, units: Units) -> PowerPart:
     """Power and its parts, beside those of the reference."""
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
-    unit, digits = units.power[0], fineness(power)
+    unit, digits = units.power[0], fineness(power, units)
     whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
     change, percent = BLANK, None
     if reference is not None and reference.total > _TELLING * whole:
@@ -78,7 +81,7 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         parts.append(Share(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
     ideal = ideal_induced(solution)
     return PowerPart(
-        status=_status(state),
+        status=_status(state, units),
         total=number(unit.of(power.total), digits),
         unit=unit.symbol,
         change=change,
@@ -90,7 +93,7 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
     )
 
 
-def _status(state: SessionState) -> Status:
+def _status(state: SessionState, units: Units) -> Status:
     """The chip: trimmed, or engines, stalled area, number of caveats; its title says how well it is validated."""
     reasons = cautions(state.solution, state.pinned)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
@@ -99,7 +102,7 @@ def _status(state: SessionState) -> Status:
     if state.solution.power.total < 0.0:
         words = "autorotation"
     elif installed is not None and any(caveat.name == "installed-power" for caveat in state.solution.caveats):
-        words = f"engines give only {UNITS[state.view.units].watts(installed)}"
+        words = f"engines give only {units.watts(installed)}"
     elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
         words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
@@ -122,7 +125,7 @@ def hand(now: Now) -> dict[str, Any]:
     if now.state is None or now.station is None:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
-    digits = fineness(power)
+    digits = fineness(power, now.units)
     shown = HandPart(
         power=now.units.watts(power.total, digits),
         change=unit.text(change, digits, sign=True),

@@ -9,8 +9,9 @@ from explorer.parts.results import Worth
 from explorer.views.now import Now, Panel, Tell, Work
 from explorer.views.work import by_power
 
-_HALF = 6e3
-"""Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
+_HALF = 6.0
+"""Change of a step in the unit of power at which the arrow has half the greatest length, so that none looks as long as
+a larger one."""
 
 
 def slopes_asked(now: Now) -> tuple[Work, ...]:
@@ -54,7 +55,7 @@ def worth(now: Now) -> dict[str, Any]:
 def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> Worth:
     """The change of power by a step up, with its sign, and which way saves."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
-    way = ways[sensitivity.saving_direction]
+    way = ways[sensitivity.saving_direction(units)]
     value = sensitivity.value_text(units) if way else "no effect"
     title = SLIDERS[sensitivity.name].label.partition(" [")[0]
     step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
@@ -63,9 +64,9 @@ def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = Fal
         f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
         f"A {'higher' if way == 'up' else 'lower'} value saves power."
         if way
-        else f"{title}: {step} more changes power by less than 0.05 kW."
+        else f"{title}: {step} more changes power by less than 0.05 {units.power[0].symbol}."
     )
-    size = abs(sensitivity.watts())
+    size = abs(units.power[0].of(sensitivity.watts()))
     return Worth(way, value, sensitivity.unit_text(units), round(size / (size + _HALF), 3), sentence, stale)
 
 

@@ -40,7 +40,7 @@
     const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
     if (why) {
       const room = parseFloat(getComputedStyle(why).minHeight) + 1;
-      why.textContent = power.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2');
+      why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
       while (clauses.length > 1 && why.offsetHeight > room) {
         clauses.pop();
         why.textContent = `${clauses.join('; ')}.`;

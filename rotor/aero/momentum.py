@@ -42,10 +42,10 @@ def axial_inflow(ct: float, climb: float) -> float:
     """λ_i = −λ_c/2 + √((λ_c/2)² + C_T/2) of the ideal rotor in axial flight, (2.24) with a uniform λ = λ_c + λ_i.
 
     √(C_T/2) in hover, less in a climb. In descent it is the root that goes on from hover, and holds as long as the wake
-    trails below the disk: see `vortex_ring_edge`.
+    trails below the disk: see `vortex_ring_edge`. C_T below zero gives the mirrored root, as in `glauert_inflow`.
     """
-    half = 0.5 * climb
-    return math.sqrt(half * half + 0.5 * ct) - half
+    half = math.copysign(0.5, ct) * climb
+    return math.copysign(math.sqrt(half * half + 0.5 * abs(ct)) - half, ct)
 
 
 VORTEX_RING_ONSET = -0.2

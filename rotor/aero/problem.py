@@ -179,7 +179,7 @@ def build_problem(design: Design) -> Problem:
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
-    if models.bending and models.flapping and not design.hovering and can_bend(rotor):
+    if models.bending and design.flaps and not design.hovering and can_bend(rotor):
         bending = build_bending(
             rotor, disk, condition.density, modes=MODES, harmonics=BENDING_HARMONICS, reference=REFERENCE_COLLECTIVE
         )

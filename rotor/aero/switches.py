@@ -42,6 +42,8 @@ def no_effect(design: Design, name: str) -> str:
     if name in ("fuselage", "download") and design.condition.stand is not None:
         return "there is no airframe on a test stand"
     match name:
+        case "flapping" if design.rotor.blade.rigid:
+            return "these blades are rigid"
         case "flapping" | "unsteady" | "dynamic_stall" if hovering:
             return "hover is the same at every azimuth"
         case "dynamic_stall" if not inflow.pointwise:

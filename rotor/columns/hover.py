@@ -248,7 +248,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     channels, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     collective, coning = (float(point.x[states[name]]) for name in ("collective", "coning"))
-    lambda0 = axial_inflow(max(float(disk.dr @ f[FZ, :, 0]), 0.0), problem.climb)
+    lambda0 = axial_inflow(float(disk.dr @ f[FZ, :, 0]), problem.climb)
     everywhere = partial(over_azimuths, azimuths=azimuths)
     twist = None
     if torsion is not None:

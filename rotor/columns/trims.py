@@ -59,7 +59,7 @@ def trim_of(design: Design) -> Trim:
     pairs = list(_FORCES[models.trim])
     if stand is not None and stand.collective is not None:
         pairs = [pair for pair in pairs if pair[0] != "collective"]
-    if models.flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
+    if design.flaps:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
         if design.rotor.precone is None:
             pairs.append(("coning", "coning"))
         if _flapping(design) == "trimmed":
@@ -84,8 +84,9 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     design = problem.design
     condition, models, stand = design.condition, design.models, design.condition.stand
     given: dict[str, float] = {"lambda0": max(start.lambda0, 1e-4)}
-    if not models.flapping:
-        given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0}
+    if not design.flaps:
+        cyclic = {"cyclic_1c": stand.cyclic_1c, "cyclic_1s": stand.cyclic_1s} if stand else {}
+        given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0} | cyclic
     elif _flapping(design) == "trimmed":
         given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
     elif _flapping(design) == "free":

@@ -80,7 +80,7 @@ def _how(row: Quantity) -> dict[str, Any]:
         case "whole":
             return {"help": row.help, "type": int, "metavar": "N"}
         case "number":
-            return {"help": row.help, "type": finite, "metavar": _unit(row.name)}
+            return {"help": row.help, "type": finite, "metavar": _metavar(row.unit)}
         case _:
             listed = "; ".join(filter(None, (row.help, ", ".join(choices))))
             return {"help": listed, "metavar": row.flag.upper()}
@@ -93,10 +93,10 @@ def _range(text: str) -> list[float]:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def _unit(name: str) -> str:
-    """What stands for a number in the help: its unit where the name ends in one."""
-    unit = name.rpartition("_")[2]
-    return unit.upper() if unit in ("deg", "kg", "kt", "m", "n", "nm") else "X"
+def _metavar(unit: str) -> str:
+    """What stands for a number in the help: its unit where that is one of letters."""
+    word = {"°": "deg", "°C": "c"}.get(unit, unit.replace(" ", ""))
+    return word.upper() if word.isalpha() else "X"
 
 
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:

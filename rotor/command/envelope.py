@@ -65,7 +65,11 @@ def report(result: Envelope) -> str:
     knots = result.record()["top_speed_kt"]
     mu = "" if knots is None else f" ({knots:.0f} kt)"
     power = craft.installed_power
-    source = "Engines: not in the rotor file" if power is None else f"Engines: {power / 1e3:.0f} kW, as at sea level"
+    source = (
+        "Engines: not in the rotor file"
+        if power is None
+        else f"Engines: {power / 1e3:.0f} kW, as at sea level on a standard day"
+    )
     lines += [
         "",
         f"top speed  {_reach('µ {:.3f}', result.top_speed)}{mu}",

@@ -25,6 +25,7 @@ from rotor.terminal import wrapped
 from rotor.trim.doubt import other_models
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import Solution
+from rotor.units import power_text
 
 
 def add_parser(commands: Any) -> None:
@@ -155,7 +156,7 @@ def _objective(args: argparse.Namespace, design: Design) -> Objective:
 
 
 def _words(progress: Progress) -> str:
-    best = "" if progress.best_power is None else f", best {progress.best_power / 1e3:.2f} kW"
+    best = "" if progress.best_power is None else f", best {power_text(progress.best_power, 2)}"
     best += "" if progress.best_index is None else f", index {progress.best_index:.2f} %"
     return f"{progress.phase} {progress.start + 1}/{progress.starts}{best}"
 
@@ -267,10 +268,10 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
     if airfoils:
         lines.append(f"airfoils {airfoils}")
     lines.append(
-        f"power {best.power / 1e3:.1f} kW" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
+        f"power {power_text(best.power, 1)}" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
-        lines.append(f"starting design {optimum.baseline_power / 1e3:.1f} kW, saving {100 * optimum.saving:.2f} %")
+        lines.append(f"starting design {power_text(optimum.baseline_power, 1)}, saving {100 * optimum.saving:.2f} %")
         if optimum.doubt is not None:
             lines.append(optimum.doubt.sentence)
     if best.index is not None:
@@ -282,13 +283,13 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
-        lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.1f} kW, saving {saving:.2f} %")
+        lines.append(f"starting twist on these airfoils {power_text(beside.same_airfoils, 1)}, saving {saving:.2f} %")
     for name, outcome in (*beside.models, *beside.flights):
         twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
         saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"
         lines.append(f"with {name}: {twist}{saving}")
     for other in optimum.minima[1:]:
-        lines.append(f"local minimum: {other.power / 1e3:.1f} kW with {common.short_spec(other.twist)}")
+        lines.append(f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

@@ -14,6 +14,7 @@ from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.table import CellValue, Table, table
 from rotor.terminal import wrapped
+from rotor.units import power_text, power_unit
 from rotor.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
@@ -148,7 +149,7 @@ def report(schedule: Schedule) -> str:
     for cell in schedule.cells:
         if cell.condition != before:
             before = cell.condition
-            lines.append(f"{_where(schedule, cell.condition)}: {_kilowatts(cell.optimum.baseline_power)} as it is")
+            lines.append(f"{_where(schedule, cell.condition)}: {_power(cell.optimum.baseline_power)} as it is")
         lines.append(_line(cell, max(len(concept.name) for concept in schedule.plan.concepts)))
     if any(cell.optimum.best is not None and cell.optimum.best.active for cell in schedule.cells):
         lines.append("*: at a bound or limit that holds it, so the least power lies beyond")
@@ -156,13 +157,19 @@ def report(schedule: Schedule) -> str:
     for concept in schedule.plan.concepts:
         gain = schedule.in_flight_gain(concept.name)
         if gain is not None:
+            symbol, size = power_unit(gain.baseline)
             sentence = (
-                f"{concept.title}: starting design {gain.baseline / 1e3:.1f} kW, best fixed {gain.fixed / 1e3:.1f} kW, "
-                f"variable {gain.moving / 1e3:.1f} kW. Additional saving from variable twist {gain.gain / 1e3:.1f} kW "
+                f"{concept.title}: starting design {gain.baseline / size:.1f} {symbol}, best fixed "
+                f"{gain.fixed / size:.1f} {symbol}, variable {gain.moving / size:.1f} {symbol}. "
+                f"Additional saving from variable twist {gain.gain / size:.1f} {symbol} "
                 f"({100 * gain.share:.2f} %)."
             )
-            if (sure := schedule.gain_doubt(concept.name)) is not None and sure.change_band is not None:
-                sentence += f" Known to ± {sure.change_band / 1e3:.1f} kW: {sure.sureness}."
+            if (
+                (sure := schedule.gain_doubt(concept.name)) is not None
+                and sure.change_band is not None
+                and sure.sureness
+            ):
+                sentence += f" Known to ± {sure.change_band / size:.1f} {symbol}: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end.")
@@ -178,8 +185,8 @@ def _where(schedule: Schedule, condition: int | None) -> str:
     )
 
 
-def _kilowatts(power: float | None) -> str:
-    return "no trim" if power is None else f"{power / 1e3:.1f} kW"
+def _power(power: float | None) -> str:
+    return "no trim" if power is None else power_text(power, 1)
 
 
 def _line(cell: Cell, width: int) -> str:
@@ -190,7 +197,7 @@ def _line(cell: Cell, width: int) -> str:
     saving = "" if optimum.saving is None else f"saves {100 * optimum.saving:.2f} %"
     met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
     status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
-    power, twist = _kilowatts(optimum.best.power), common.short_spec(optimum.best.twist)
+    power, twist = _power(optimum.best.power), common.short_spec(optimum.best.twist)
     return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
 
 

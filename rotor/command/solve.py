@@ -17,7 +17,7 @@ from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import KNOT
+from rotor.units import KNOT, power_unit
 from rotor.user_input import check_writable
 
 
@@ -83,16 +83,18 @@ def _doubt(solution: Solution) -> Doubt | None:
 
 def doubt_table(doubt: Doubt) -> str:
     """The sentence, and what the band consists of."""
+    symbol, size = power_unit(doubt.power, doubt.band)
     rows: list[tuple[CellValue, ...]] = [
-        (row.words, f"{row.size:g} {row.unit}", f"{row.power / 1e3:+.2f}", row.change and row.change / 1e3)
+        (row.words, f"{row.size:g} {row.unit}", f"{row.power / size:+.2f}", row.change and row.change / size)
         for row in doubt.rows
     ]
     rows += [
-        (f"with {other.name}", None, f"{other.power / 1e3:.1f}", other.change and other.change / 1e3)
+        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
         for other in doubt.models
     ]
+    columns = f"|uncertain|<; |by; |power {symbol}; |change {symbol}|+.2f"
     sentence = wrapped(doubt.sentence.replace(" It ", " Against the blade as built it "))
-    return f"{sentence}\n\n{table('|uncertain|<; |by; |power kW; |change kW|+.2f', rows).text()}"
+    return f"{sentence}\n\n{table(columns, rows).text()}"
 
 
 def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
@@ -142,7 +144,7 @@ def report(solution: Solution) -> str:
             "flap 1c": controls.flap_1c,
             "flap 1s": controls.flap_1s,
         }
-        kw = {
+        powers = {
             "total": power.total,
             "main rotor": power.main_rotor,
             "induced": power.induced,
@@ -152,26 +154,29 @@ def report(solution: Solution) -> str:
             "tail rotor": power.tail,
         }
         if design.condition.stand is not None:
-            kw = {
+            powers = {
                 "shaft": power.shaft,
                 "induced": power.induced,
                 "profile": power.profile,
                 "propulsive": power.parasite,
+                **({"climb": power.climb} if design.condition.climb_speed else {}),
             }
-        lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
+        symbol, size = power_unit(*powers.values())
+        digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
+        lines += ["", *(f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         if (band := between_drag_areas(solution)) is not None:
             low, high = (end.design.fuselage.drag_area for end in band)
-            less, more = (end.power.total / 1e3 for end in band)
-            between = f"{less:.1f} … {more:.1f} kW for drag areas {low:g} … {high:g} m²"
+            less, more = (end.power.total / size for end in band)
+            between = f"{less:.1f} … {more:.1f} {symbol} for drag areas {low:g} … {high:g} m²"
             lines += [f"{'total':<12}{between}: the sources leave that open"]
-        merit = solution.figure_of_merit
-        lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
-        lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
+        merit, factor = solution.figure_of_merit, solution.induced_power_factor
+        lines += ["", f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
+        lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
         if design.condition.stand is not None:
             lift, drag = solution.lift_and_drag
             lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {solution.torque:.1f} N m"]
-            lines += [f"lift {lift:.1f} N, drag {drag:.1f} N (wind axes)"]
+            lines += [f"lift {lift:z.1f} N, drag {drag:z.1f} N (wind axes)"]
         lines += (
             [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
         )

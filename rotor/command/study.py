@@ -21,6 +21,7 @@ from rotor.study.run import ChunkRun, ExecutorLost, check_workers, dask_client, 
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 from rotor.table import table
+from rotor.units import power_text
 
 _SENTENCES = 3
 """Largest number of different failure messages printed."""
@@ -120,7 +121,7 @@ def _text(value: Any) -> str:
 
 def _shown(number: float, unit: str) -> str:
     if unit == "W":
-        return f"{number / 1e3:.2f} kW"
+        return power_text(number, 2)
     return f"{number:.6g}{' ' if unit not in ('', '°', '%') else ''}{unit}"
 
 

@@ -25,12 +25,15 @@ from rotor.terminal import wrapped
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.units import power_unit
 
 
 def add_sweep(commands: Any) -> None:
     words = "power of one or more twists over speed, mass, altitude or another quantity of flight"
     parser = common.add_command(commands, "sweep", run_sweep, words)
     common.add_design_arguments(parser, twists=True, ranges=True)
+    words = "one of the twists: a further column has power relative to it"
+    parser.add_argument("--relative-to", metavar="TWIST", help=words)
     common.add_output_arguments(parser)
 
 
@@ -44,7 +47,9 @@ def run_sweep(args: argparse.Namespace) -> int:
             design.at(**cast(Any, {name: step}))
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
-    solutions = SweepTable(tuple(solution for each in tables for solution in each))
+    solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
+    if args.relative_to:
+        solutions = solutions.relative_to(common.design_from(args, args.relative_to).twist.spec())
     found = sweep_table(solutions, args.over)
     if args.csv:
         found.write(args.csv)
@@ -58,7 +63,8 @@ def sweep_table(solutions: SweepTable, over: str) -> Table:
     """Without the columns that are the same in all rows; the text has the status only where it did not converge."""
     level = all(solution.design.condition.climb_speed == 0.0 for solution in solutions)
     kept = [k for k, name in enumerate(solutions.columns) if name not in SHARED_COLUMNS or name == over]
-    columns = "; ".join(_sweep_column(solutions.columns[k], level) for k in kept)
+    fine = 0 if power_unit(*(solution.last_power.total for solution in solutions))[0] == "kW" else 3
+    columns = "; ".join(_sweep_column(solutions.columns[k], level, fine) for k in kept)
     rows = (
         (*(row[k] for k in kept), "" if one.converged else f"{one.status.value}: {one.message}")
         for row, one in zip(solutions.rows, solutions, strict=True)
@@ -66,14 +72,19 @@ def sweep_table(solutions: SweepTable, over: str) -> Table:
     return table(f"{columns}; ||<", rows)
 
 
-def _sweep_column(name: str, level: bool) -> str:
+def _sweep_column(name: str, level: bool, fine: int) -> str:
+    """`fine`: further decimals of powers."""
     if name in ("status", "message"):
         return name
     head = "|" if level and name.startswith("climb") else f"|{name}"
     if name == "twist":
         return f"{name}{head}|<"
-    shown = stored = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
-    return f"{name}{head}|{'.1f' if name.endswith('_kw') else shown}|{stored}"
+    if name == "change_percent":
+        return f"{name}|change %|+.2f|.3f"
+    if name.endswith("_kw"):
+        return f"{name}{head}|.{1 + fine}f|.{2 + fine}f"
+    shown = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
+    return f"{name}{head}|{shown}|{shown}"
 
 
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
@@ -247,23 +258,19 @@ def waterfall_report(result: Waterfall) -> str:
 def _steps_text(steps: Sequence[WaterfallStep], design: Design) -> str:
     """The first step has its parts of the power, the others what they change; the climb's where there is one."""
     parts = [part for part in PARTS if part != "climb" or design.condition.climb_speed]
-    columns = f"|kW|<; |total|.1f; |change|+.1f; {''.join(f'|{part}; ' for part in parts)}||<"
-    return table(columns, (_step_row(step, parts) for step in steps)).text()
+    symbol, size = power_unit(*(step.power or 0.0 for step in steps))
+    columns = f"|{symbol}|<; |total|.1f; |change|+.1f; {''.join(f'|{part}; ' for part in parts)}||<"
+    return table(columns, (_step_row(step, parts, size) for step in steps)).text()
 
 
-def _step_row(step: WaterfallStep, parts: Sequence[str]) -> tuple[CellValue, ...]:
+def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[CellValue, ...]:
     if step.power is None:
         return step.title, None, None, *(None for _ in parts), step.solution.message
     if step.change is None or step.added is None:
-        shares = (f"{getattr(step.solution.power, part) / 1e3:.1f}" for part in parts)
-        return step.title, step.power / 1e3, None, *shares, None
-    shares = (f"{_kilowatts(step.change[part]):+.1f}" for part in parts)
-    return step.title, step.power / 1e3, _kilowatts(step.added), *shares, step.note
-
-
-def _kilowatts(power: float) -> float:
-    """Kilowatts rounded as printed, without negative zero."""
-    return round(power / 1e3, 1) + 0.0
+        shares = (f"{getattr(step.solution.power, part) / size:z.1f}" for part in parts)
+        return step.title, step.power / size, None, *shares, None
+    shares = (f"{step.change[part] / size:+z.1f}" for part in parts)
+    return step.title, step.power / size, round(step.added / size, 1) + 0.0, *shares, step.note
 
 
 def add_airfoil(commands: Any) -> None:

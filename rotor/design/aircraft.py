@@ -1,7 +1,7 @@
 """An aircraft as far as its rotor needs it, and its flight condition.
 
-An aircraft is a main rotor, a tail rotor, drag area and mass: the contents of a rotor file. A flight condition is the
-standard atmosphere, weight, advance ratio, and the drag of the airframe; or a test stand, on which the rotor is fixed
+An aircraft is a main rotor, a tail rotor, drag area and mass: the contents of a rotor file. A flight condition is
+altitude, temperature, weight, advance ratio, and the drag of the airframe; or a test stand, on which the rotor is fixed
 to its mount. There shaft tilt, thrust or collective, and flapping are given in place of weight and drag, and tip Mach
 number and air density are those of the test.
 """
@@ -124,6 +124,8 @@ class FlightCondition:
     """[kg]"""
     altitude: float = 0.0
     """Pressure altitude in the standard atmosphere [m]."""
+    isa_offset: float = 0.0
+    """Temperature less that of the standard atmosphere at the same pressure [°C]: air is T/(T + offset) as dense."""
     flap_1c: float = 0.0
     """Given longitudinal flapping β1c [rad], negative when the disk tilts back; used where cyclic trims flapping."""
     flap_1s: float = 0.0
@@ -131,7 +133,8 @@ class FlightCondition:
     stand: Stand | None = None
     """The inputs of a test of the rotor alone, which has neither weight nor drag to balance; None in flight."""
     climb_speed: float = 0.0
-    """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
+    """V_c, rate of climb [m/s], negative in descent; on a test stand that of vertical wind, down. Air density is that
+    of the altitude: the climb of an instant."""
 
     rotor_speed_percent: float = 100.0
     """Ω over that of the rotor file [%]; the tail rotor is geared to it."""
@@ -147,11 +150,6 @@ class FlightCondition:
                 row.check(getattr(self, row.field), tested)
         if self.advance_ratio < SLOWEST_FLIGHT:
             object.__setattr__(self, "advance_ratio", 0.0)
-        if self.stand is not None and self.climb_speed:
-            raise ValueError(
-                f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
-                "through the disk"
-            )
         if self.stand is not None and self.stand.tip_mach is not None and self.rotor_speed_percent != 100.0:
             raise ValueError(
                 f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast "
@@ -183,15 +181,16 @@ class FlightCondition:
 
     @cached_property
     def density(self) -> float:
-        """Air density [kg/m³], standard atmosphere unless a test gives it."""
+        """Air density [kg/m³], p/(R T) unless a test gives it."""
         if self.stand is not None and self.stand.density is not None:
             return self.stand.density
         exponent = GRAVITY / (GAS_CONSTANT * LAPSE_RATE) - 1.0
-        return SEA_LEVEL_DENSITY * self._temperature_ratio**exponent
+        standard = self._standard_ratio
+        return SEA_LEVEL_DENSITY * standard**exponent * (standard / self._temperature_ratio)
 
     @property
     def sound_speed(self) -> float:
-        """[m/s], standard atmosphere."""
+        """[m/s], √(γRT)."""
         return math.sqrt(RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio)
 
     @property
@@ -201,8 +200,13 @@ class FlightCondition:
         return 1.458e-6 * temperature**1.5 / (temperature + 110.4)
 
     @property
-    def _temperature_ratio(self) -> float:
+    def _standard_ratio(self) -> float:
+        """Temperature of the standard atmosphere over that at sea level."""
         return 1.0 - LAPSE_RATE * self.altitude / SEA_LEVEL_TEMPERATURE
+
+    @property
+    def _temperature_ratio(self) -> float:
+        return self._standard_ratio + self.isa_offset / SEA_LEVEL_TEMPERATURE
 
 
 @dataclass(frozen=True)
@@ -361,7 +365,7 @@ class Aircraft:
     remarks: tuple[str, ...] = ()
     """Assumptions made when the files were read, in sentences."""
     installed_power: float | None = None
-    """What the engines give at sea level [W]; None where the file does not say."""
+    """What the engines give at sea level on a standard day [W]; None where the file does not say."""
     controls: ControlRange | None = None
     """None where the file does not say."""
     doubt: tuple[tuple[str, float], ...] = ()

@@ -122,7 +122,8 @@ class Blade:
     flap_rest: float = 0.0
     """Coning angle at which that spring is free of load [rad]: the built-in precone."""
     hingeless: bool = False
-    """Whether hinge and spring stand for an elastic root; a blade that bends is then held at its clamp."""
+    """Whether hinge and spring stand for an elastic root, and the blade is rigid without spring; one that bends is then
+    held at its clamp."""
     tip_sweep: float = 0.0
     """Sweep of the tip [rad], positive aft."""
     tip_sweep_start: float = 1.0
@@ -148,6 +149,11 @@ class Blade:
             )
         if min(self.flap_inertia, self.mass, *self.chords) <= 0.0:
             raise ValueError("blade chord, mass and flap inertia must be positive: check the rotor file")
+
+    @property
+    def rigid(self) -> bool:
+        """Whether it does not flap: held at the hub, without an elastic root."""
+        return self.hingeless and not self.flap_spring
 
     def chord(self, r: ArrayLike) -> Array:
         """Reference chord [m] at r = y/R."""

@@ -194,9 +194,8 @@ class Design:
         if self.hovering and (stand.hub_roll or stand.hub_pitch):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
         if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
-            raise ValueError(
-                "hub moments cannot be trimmed on blades hinged at the shaft, which carry none: give flapping trimmed"
-            )
+            hinged = "rigid blades, which have no cyclic" if self.rotor.blade.rigid else "blades hinged at the shaft"
+            raise ValueError(f"hub moments cannot be trimmed on {hinged}, which carry none: give flapping trimmed")
         if self.hovering and (stand.cyclic_1c or stand.cyclic_1s):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out")
 
@@ -326,7 +325,7 @@ class Design:
         In a climbing turn less what n W pulls back along the path beyond the weight: (n − 1) W sin γ.
         """
         speed, here = self.flight_speed, self.condition
-        if speed == 0.0:
+        if speed == 0.0 or here.stand is not None:
             return 0.0, 0.0
         drag = (self.drag - (here.load - here.weight) * here.climb_speed / speed) / self.thrust_unit
         return drag * (self.airspeed / speed), drag * (self.condition.climb_speed / speed)
@@ -335,6 +334,11 @@ class Design:
     def elastic(self) -> bool:
         """Whether the blade twists under its loads: switched on, and its structure known."""
         return self.models.has("elastic_twist") and self.rotor.blade.structure is not None
+
+    @property
+    def flaps(self) -> bool:
+        """Whether the blades flap: switched on, and not rigid."""
+        return self.models.flapping and not self.rotor.blade.rigid
 
     @property
     def hovering(self) -> bool:

@@ -5,7 +5,7 @@ quantity of studies and sweeps, columns of tables, keys of JSON, and on the page
 
 `QUANTITIES[name]` is a row by the name that commands and studies use; `BY_KEY` by the key of design files, `BY_INPUT`
 by the name of the page's input. `ARGUMENTS`, `CONDITION`, `SWITCHES` and `STAND` are the rows of a kind, in order.
-`row.of(design)` is the value that a design has, in the unit at the end of the name, `row.put(design, value)` the
+`row.of(design)` is the value that a design has, in the unit of its row, `row.put(design, value)` the
 design with another, `row.check(value)` refuses what lies outside its bounds, `row.said(value)` is it in words, and
 `row.slider` what the page shows. How to add one: docs/developers/quantity.md. One file, because it is one table.
 """
@@ -37,6 +37,7 @@ class Flight(TypedDict, Generic[Value], total=False):
     speed_kt: Value
     mass_kg: Value
     altitude_m: Value
+    isa_offset_c: Value
     climb_m_s: Value
     rotor_speed_percent: Value
     load_factor: Value
@@ -127,12 +128,12 @@ _CONDITION = (
         hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
     ),
     Quantity(
-        "speed_kt", "number", "the same as airspeed in knots", what="airspeed", examples=(60, 90, 120),
+        "speed_kt", "number", "the same as airspeed in knots", unit="kt", what="airspeed", examples=(60, 90, 120),
         section="fixed",
     ),
     Quantity("hover", "switch", "hover, in place of a speed", default=False),
     Quantity(
-        "mass_kg", "number", "aircraft mass (default: the rotor's reference mass)",
+        "mass_kg", "number", "aircraft mass (default: the rotor's reference mass)", unit="kg",
         place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
         examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
         input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg", "t", 1e3),
@@ -140,27 +141,39 @@ _CONDITION = (
         hint="Gross mass; the rotor carries its weight W = mg. | section 2",
     ),
     Quantity(
-        "altitude_m", "number", "pressure altitude (default 0)",
+        "altitude_m", "number", "pressure altitude (default 0)", unit="m",
         place="condition.altitude", what="altitude", low=-500.0, high=8_000.0, default=0.0,
         examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, told=True,
         input="altitude_m", slider=Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
         aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft", "ft", FOOT),
         in_place="density_kg_m3",
-        hint="Pressure altitude in the standard atmosphere: it sets air density and speed of sound. | section 2",
+        hint="Pressure altitude in the standard atmosphere: with the ISA offset it sets air density and speed of "
+        "sound. | section 2",
     ),
     Quantity(
-        "climb_m_s", "number", "rate of climb, negative in descent (default 0); preset flight",
+        "isa_offset_c", "number", "temperature less that of the standard atmosphere at this altitude (default 0)",
+        unit="°C", place="condition.isa_offset", what="ISA offset", short="ISA +", below="ISA −",
+        plain="a standard day", low=-60.0, high=60.0, default=0.0, examples=(10, 0, 20), key="isa_offset_c",
+        word="isa", section="fixed", input="isa_offset_c", in_place="density_kg_m3",
+        slider=Slider("ISA offset [°C]", -40.0, 40.0, 1.0, 10.0, "/10 °C"),
+        hint="Temperature less that of the standard atmosphere at this pressure altitude: density, speed of sound and "
+        "viscosity follow; the power of the engines does not. | section 2",
+    ),
+    Quantity(
+        "climb_m_s", "number", "rate of climb, negative in descent; on a stand wind from above; preset flight",
+        unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
-        plain="level flight", low=-20.0, high=20.0, default=0.0, in_flight=True, axial=True, examples=(-5, 0, 5),
+        plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
         key="climb_m_s", word="climb", section="fixed", told=True, input="climb_m_s",
         slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
         aviation=Slider(
             "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0
         ),
-        hint="Rate of climb, negative in descent; µ is of the horizontal speed. | section 2",
+        hint="Rate of climb, negative in descent; µ is of the horizontal speed. On a test stand: wind from above. "
+        "| section 2",
     ),
     Quantity(
-        "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays",
+        "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays", unit="%",
         place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", plain="its own rotor speed",
         low=70.0, high=110.0, default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm",
         section="fixed", input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
@@ -278,7 +291,7 @@ _ACTIVE_TWIST = Quantity("active_twist", "object", key="active_twist")
 _STAND = (
     Quantity(
         "shaft_tilt_deg", "number", "tilt of the shaft, positive forward (default 0; a free rotor finds its own)",
-        place="condition.stand.shaft_tilt", low=-40.0, high=40.0, input="shaft_tilt_deg",
+        unit="°", place="condition.stand.shaft_tilt", low=-40.0, high=40.0, input="shaft_tilt_deg",
         slider=Slider("Shaft tilt [°]", -25.0, 25.0, 0.1), hint="Tilt of the shaft, positive forward.",
     ),
     Quantity(
@@ -287,33 +300,33 @@ _STAND = (
         slider=Slider("CT/σ", 0.0, 0.2, 0.001), hint="Blade loading CT/σ: thrust over ρA(ΩR)²σ.",
     ),
     Quantity(
-        "thrust_n", "number", "thrust along the shaft",
+        "thrust_n", "number", "thrust along the shaft", unit="N",
         place="condition.stand.thrust", low=0.0, high=2e6, input="thrust_n", title="Thrust",
         slider=Slider("Thrust [N]", 0.0, 1e5, 100.0),
     ),
     Quantity(
-        "collective_deg", "number", "pitch at 0.75 R",
+        "collective_deg", "number", "pitch at 0.75 R", unit="°",
         place="condition.stand.collective", low=-30.0, high=35.0, input="collective_deg", title="Collective",
         slider=Slider("Collective [°]", -10.0, 30.0, 0.1),
     ),
     Quantity(
-        "cyclic_1c_deg", "number", "given cyclic, with free flapping",
+        "cyclic_1c_deg", "number", "given cyclic, with free flapping", unit="°",
         place="condition.stand.cyclic_1c", low=-30.0, high=30.0, default=0.0, input="cyclic_1c_deg",
         slider=Slider("Cyclic θ1c [°]", -15.0, 15.0, 0.1),
         hint="Given cyclic θ1c, cosine part; the blades flap freely.",
     ),
     Quantity(
-        "cyclic_1s_deg", "number", "the same, sine part",
+        "cyclic_1s_deg", "number", "the same, sine part", unit="°",
         place="condition.stand.cyclic_1s", low=-30.0, high=30.0, default=0.0, input="cyclic_1s_deg",
         slider=Slider("Cyclic θ1s [°]", -15.0, 15.0, 0.1),
         hint="Given cyclic θ1s, sine part; the blades flap freely.",
     ),
     Quantity(
-        "hub_roll_nm", "number", "given hub moment, towards the retreating side, with flapping hub-moments",
+        "hub_roll_nm", "number", "given hub moment, towards the retreating side, with flapping hub-moments", unit="N m",
         place="condition.stand.hub_roll", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
-        "hub_pitch_nm", "number", "the same, nose up",
+        "hub_pitch_nm", "number", "the same, nose up", unit="N m",
         place="condition.stand.hub_pitch", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
@@ -322,7 +335,7 @@ _STAND = (
         slider=Slider("Tip Mach", 0.05, 0.9, 0.005), hint="Tip speed over the speed of sound of the test.",
     ),
     Quantity(
-        "density_kg_m3", "number", "air density",
+        "density_kg_m3", "number", "air density", unit="kg/m³",
         place="condition.stand.density", low=0.05, high=3.0, input="density",
         slider=Slider("Density [kg/m³]", 0.3, 1.6, 0.005), hint="Air density of the test.",
     ),

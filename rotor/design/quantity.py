@@ -12,27 +12,6 @@ Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
 here."""
 
-_UNITS = {
-    "_deg": "°",
-    "_percent": "%",
-    "_kt": "kt",
-    "_kg": "kg",
-    "_m": "m",
-    "_m_s": "m/s",
-    "_kg_m3": "kg/m³",
-    "_n": "N",
-    "_nm": "N m",
-    "_w": "W",
-    "_ms": "ms",
-    "_per_rev": "/rev",
-}
-"""Units by the end of a name of a number."""
-
-
-def unit_of(name: str) -> str:
-    """The unit that the name of a number ends in; empty without one."""
-    return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
-
 
 def number(name: str, value: object, example: str) -> float:
     """The value as a float; TypeError with one sentence when it is not a real number."""
@@ -72,7 +51,7 @@ class Quantity:
     """One quantity of a design."""
 
     name: str
-    """Argument of `make_design`, and of a study; the unit of a number is its end."""
+    """Argument of `make_design`, and of a study; people read the unit of a number at its end."""
     kind: Kind
     help: str = ""
     """Help of the flag and of the argument, one clause."""
@@ -85,7 +64,7 @@ class Quantity:
     plain: str = ""
     """The default in words: `level flight`."""
     below: str = ""
-    """The word on the page for a value below zero, which is then without its sign: `descent`."""
+    """The word before a value below zero, which is then without its sign: `descent`."""
     low: float = -math.inf
     high: float = math.inf
     high_on_stand: float | None = None
@@ -95,8 +74,8 @@ class Quantity:
     examples: tuple[float, ...] = ()
     choices: tuple[str, ...] = ()
     """The names that it may have; of a text those that the help lists."""
-    unit: str | None = None
-    """None: that at the end of the name."""
+    unit: str = ""
+    """Of a number, as a symbol; `°` is held in radians."""
     in_flight: bool = False
     """Whether it is for flight only: a test stand has none."""
     in_place: str = ""
@@ -136,11 +115,6 @@ class Quantity:
         return self.name.removesuffix("_kg_m3").replace("_", "-")
 
     @property
-    def symbol(self) -> str:
-        """Unit of the quantity, as a symbol."""
-        return unit_of(self.name) if self.unit is None else self.unit
-
-    @property
     def numeric(self) -> bool:
         return self.kind in ("number", "whole")
 
@@ -157,7 +131,7 @@ class Quantity:
     @property
     def axis_title(self) -> str:
         """For the axis of a chart."""
-        return self.heading + (f" [{self.symbol}]" if self.symbol else "")
+        return self.heading + (f" [{self.unit}]" if self.unit else "")
 
     @property
     def tooltip(self) -> str:
@@ -178,11 +152,11 @@ class Quantity:
 
     def si(self, value: Any) -> Any:
         """The value as the design holds it: angles in radians."""
-        return math.radians(value) if self.symbol == "°" else value
+        return math.radians(value) if self.unit == "°" else value
 
     def shown(self, value: Any) -> Any:
         """What a design holds, in the unit of the name."""
-        return math.degrees(value) if self.symbol == "°" else value
+        return math.degrees(value) if self.unit == "°" else value
 
     def read(self, value: object) -> float:
         """The value as a float; TypeError or ValueError with one sentence where it is no number."""
@@ -191,9 +165,9 @@ class Quantity:
     def check(self, value: float, tested: bool = False) -> None:
         """ValueError with one sentence where the value, in the unit of the name, lies outside."""
         high = self.high if self.high_on_stand is None or not tested else self.high_on_stand
-        slack = 1e-9 if self.symbol == "°" else 0.0  # Of an angle that was radians.
+        slack = 1e-9 if self.unit == "°" else 0.0  # Of an angle that was radians.
         if not (math.isfinite(value) and self.low - slack <= value <= high + slack):
-            words, unit = (self.what, self.symbol and f" {self.symbol}") if self.what else (self.name, "")
+            words, unit = (self.what, self.unit and f" {self.unit}") if self.what else (self.name, "")
             raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: choose a value inside")
 
     def check_choice(self, value: Any) -> None:
@@ -203,8 +177,9 @@ class Quantity:
             raise ValueError(f"{words} {value!r} is not known: use one of {', '.join(self.choices)}")
 
     def said(self, value: float) -> str:
-        """The value after its word: `climb 5 m/s`."""
-        return f"{self.short} {value:g} {self.symbol}".rstrip()
+        """The value after its word: `climb 5 m/s`, `descent 3 m/s`."""
+        falls = bool(self.below) and value < 0.0
+        return f"{self.below if falls else self.short} {abs(value) if falls else value:g} {self.unit}".rstrip()
 
     def applies(self, *, tested: bool, axial: bool) -> bool:
         """Whether it counts: on a test stand, and with models that have the axial flow of the tilted disk or not."""

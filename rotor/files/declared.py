@@ -13,7 +13,8 @@ from typing import Annotated, Any, TypeVar, cast
 import msgspec
 from msgspec import Meta, inspect
 
-from rotor.design.quantity import Kind, unit_of
+from rotor.design.quantity import Kind
+from rotor.units import unit_of
 from rotor.user_input import did_you_mean, shorten
 
 Place = tuple[str | int, ...]

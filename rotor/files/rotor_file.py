@@ -20,7 +20,15 @@ from rotor.design.aircraft import SEA_LEVEL_DENSITY, Aircraft, Fuselage, RotorFi
 from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.dynamics.structure import uh60a_torsion
 from rotor.files.declared import Place, Refusal, check_bounds, convert, naming, read_toml
-from rotor.files.rotor_tables import BladeTable, DoubtTable, MainRotorTable, StructureTable, TopTable, angular_speed
+from rotor.files.rotor_tables import (
+    LOCK_NUMBER,
+    BladeTable,
+    DoubtTable,
+    MainRotorTable,
+    StructureTable,
+    TopTable,
+    angular_speed,
+)
 from rotor.files.section_file import OwnSectionTable, check_section_name, read_section
 from rotor.units import GRAVITY
 from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten
@@ -106,6 +114,11 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
                 says = f"the sections of the blade have polars of more than {MOST_TABLES} Reynolds numbers"
                 raise Refusal(f"{says}: keep fewer", "sections", name)
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
+        if not (rotor.blade.rigid or file.main.weighed or file.main.flap_inertia_kg_m2):
+            remarks.append(
+                f"The rotor file has no blade_mass_kg: the blades flap as those of Lock number {LOCK_NUMBER:g}, which "
+                "power in hover does not depend on."
+            )
         stated, document = None, file.main.document
         if document is not None:
             blade = _blade(file.main, document, (*_MAIN, "document"), sections)
@@ -143,10 +156,10 @@ def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], tw
     hub, precone = main.hub, main.precone_deg
     blade = _blade(main, main, _MAIN, sections)
     sprung = main.flap_spring_nm_rad is not None
-    if precone is not None and not sprung and hub not in ("gimballed", "teetering"):
+    if precone is not None and not sprung and hub not in ("gimballed", "hingeless", "teetering"):
         says = f"precone_deg on a hub that is {hub!r}"
         raise Refusal(f"{says}: its blades cone freely, so leave it out", *_MAIN, "precone_deg")
-    fixed = not sprung and (hub == "gimballed" or precone is not None)
+    fixed = not sprung and (hub in ("gimballed", "hingeless") or precone is not None)
     return Rotor(
         name=name,
         blade=blade,
@@ -169,10 +182,12 @@ def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[O
     if spring is not None and not sprung:
         says = f"flap_spring_nm_rad on a hub that is {main.hub!r}"
         raise Refusal(f"{says}: write articulated or hingeless", *at, "flap_spring_nm_rad")
-    if spring is None and main.hub == "hingeless":
-        raise Refusal(f"[{'.'.join(map(str, at))}] has no flap_spring_nm_rad: a hingeless hub needs it", *at)
+    structure = _structure(given, at, radius)
+    if spring is None and main.hub == "hingeless" and structure is not None and structure.bends:
+        says = f"[{'.'.join(map(str, at))}] has no flap_spring_nm_rad"
+        raise Refusal(f"{says}: a hingeless blade that can bend needs it where it does not bend", *at)
     stations = given.chord_r or (main.root_cutout_r, 1.0)
-    mass, inertia, moment = given.masses(radius - hinge)
+    mass, inertia, moment = given.masses(radius - hinge, radius)
     return Blade(
         root_cutout=main.root_cutout_r,
         chord_stations=stations,
@@ -189,7 +204,7 @@ def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[O
         tip_sweep_start=given.tip_sweep_start_r or 1.0,
         surface_drag=given.surface_drag,
         own_sections=sections,
-        structure=_structure(given, at, radius),
+        structure=structure,
     )
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, cast
 from msgspec import Meta, defstruct, field
 from msgspec.structs import fields
 
-from rotor.design.aircraft import ControlRange, Hub, TailRotor
+from rotor.design.aircraft import SEA_LEVEL_DENSITY, ControlRange, Hub, TailRotor
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.design.uncertain import UNCERTAIN
 from rotor.files.declared import FileTable, Refusal, Share, Text, check_bounds, one_of
@@ -20,6 +20,9 @@ BAILEY_POLAR = (0.0087, -0.0216, 0.4)
 """c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): used for tail rotors without a polar."""
 LIFT_SLOPE = 5.73
 """[1/rad], used for tail rotors without a lift slope."""
+LOCK_NUMBER = 8.0
+"""γ = ρ a c R⁴/I at sea level of blades whose mass and inertia are not given. Those of the
+included helicopters are 4.8 to 9.8; power in hover does not depend on it."""
 
 _Angle = Annotated[float, Meta(ge=-60.0, le=60.0)]
 _Chord = Annotated[float, Meta(ge=0.005, le=3.0)]
@@ -87,10 +90,10 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
     twist_deg: tuple[_Angle, ...] | None = None
     flap_hinge_m: Annotated[float, Meta(ge=0.0, le=9.0)] = 0.0
     flap_spring_nm_rad: Annotated[float, Meta(ge=0.0, le=1e8)] | None = None
-    blade_mass_kg: Annotated[float, Meta(ge=0.1, le=2000.0)] | None = None
-    mass_per_length_kg_m: Annotated[float, Meta(ge=0.05, le=200.0)] | None = None
-    flap_inertia_kg_m2: Annotated[float, Meta(ge=1e-3, le=1e6)] | None = None
-    flap_static_moment_kg_m: Annotated[float, Meta(ge=1e-3, le=1e5)] | None = None
+    blade_mass_kg: Annotated[float, Meta(ge=1e-4, le=2000.0)] | None = None
+    mass_per_length_kg_m: Annotated[float, Meta(ge=1e-4, le=200.0)] | None = None
+    flap_inertia_kg_m2: Annotated[float, Meta(ge=1e-8, le=1e6)] | None = None
+    flap_static_moment_kg_m: Annotated[float, Meta(ge=1e-6, le=1e5)] | None = None
     tip_sweep_deg: _Angle = 0.0
     tip_sweep_start_r: Annotated[float, Meta(ge=0.3, le=1.0)] | None = None
     surface_drag: Annotated[float, Meta(ge=0.5, le=3.0)] = 1.0
@@ -101,7 +104,7 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
             ("section", "spans"),
             ("linear_twist_deg", "twist_r"),
             ("linear_twist_deg", "twist_deg"),
-            ("blade_mass_kg", "mass_per_length_kg_m"),
+            *([("blade_mass_kg", "mass_per_length_kg_m")] if self.weighed else []),
             *([("tip_sweep_start_r",)] if self.tip_sweep_deg else []),
         ):
             one_of(self, *keys)
@@ -128,12 +131,22 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
         """A chord that is given alone is that of every station."""
         return self.chords * len(stations) if len(self.chords) == 1 else self.chords
 
-    def masses(self, length: float) -> tuple[float, float, float]:
-        """Mass, flap inertia and static moment about the hinge; those of a uniform blade where only its mass is given.
+    @property
+    def weighed(self) -> bool:
+        """Whether its mass is given."""
+        return self.blade_mass_kg is not None or self.mass_per_length_kg_m is not None
+
+    def masses(self, length: float, radius: float) -> tuple[float, float, float]:
+        """Mass, flap inertia and static moment about the hinge; those of a uniform blade where only one is given, and
+        of `LOCK_NUMBER` where none is.
 
         `length`: from the hinge outward [m]; eqs. (2.35), (2.37).
         """
         mass = self.blade_mass_kg or (self.mass_per_length_kg_m or 0.0) * length
+        if not self.weighed:
+            chord = sum(self.chords) / len(self.chords)
+            inertia = self.flap_inertia_kg_m2 or SEA_LEVEL_DENSITY * LIFT_SLOPE * chord * radius**4 / LOCK_NUMBER
+            mass = 3.0 * inertia / length**2
         inertia = self.flap_inertia_kg_m2 or mass * length**2 / 3.0
         return mass, inertia, self.flap_static_moment_kg_m or mass * length / 2.0
 

@@ -299,7 +299,7 @@ def not_bounded(design: Design) -> str:
             return "does not bound this inflow"
         if hover_share(design):
             return "does not bound inflow that passes over to hover"
-        if not models.flapping:
+        if not design.flaps:
             return "does not bound rigid blades"
     if not 0.0 <= design.condition.advance_ratio <= float(_table()[0][-1]):
         return "not converged above µ 0.40"

@@ -7,6 +7,7 @@ from typing import Literal
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.trim.doubt import Doubt
+from rotor.units import power_text
 
 Phase = Literal["baseline", "search", "band"]
 
@@ -109,7 +110,7 @@ class Optimum:
             return f"{head}: {self.message})"
         saving = "" if self.saving_percent is None else f", saves {self.saving_percent:.2f} %"
         index = "" if self.best.index is None else f", index {self.best.index:.2f} %"
-        return f"{head}, twist {self.best.twist}, {self.best.power / 1e3:.1f} kW{saving}{index})"
+        return f"{head}, twist {self.best.twist}, {power_text(self.best.power, 1)}{saving}{index})"
 
     @property
     def twist(self) -> TwistLaw:

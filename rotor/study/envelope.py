@@ -2,7 +2,8 @@
 
 A limit by stall is where the solver refuses: nothing balances, or stalled sections carry more of the thrust than on any
 rotor that was measured (`rotor.trim.validity.MOST_STALLED`). A limit by engines is where the power of all rotors is
-that of the rotor file, which is of sea level, gearboxes and accessories left out; so it is an upper bound.
+that of the rotor file, which is of sea level on a standard day, gearboxes and accessories left out; so it is an upper
+bound.
 
 The largest mass needs no search: n times the weight of one mass is the weight of n times the mass, at the same drag.
 """

@@ -48,6 +48,8 @@ class SweepTable:
     solutions: tuple[Solution, ...]
     over: str = ""
     """What was swept, as the argument of `sweep`; empty where that is not known."""
+    reference: str = ""
+    """One of `labels`: what `change_percent` is relative to; empty: there is no such column."""
 
     def __len__(self) -> int:
         return len(self.solutions)
@@ -69,7 +71,40 @@ class SweepTable:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns, with the unit at the end of the name; without one it is a text or a ratio."""
-        return sweep_columns([solution.design for solution in self.solutions])
+        columns = sweep_columns([solution.design for solution in self.solutions])
+        if not self.reference:
+            return columns
+        place = columns.index("message")
+        return (*columns[:place], "change_percent", *columns[place:])
+
+    def relative_to(self, name: str) -> "SweepTable":
+        """This table with a column `change_percent`: total power relative to the rows of one design, which `plot_power`
+        then draws.
+
+        name: one of `labels`, or the SPEC of a twist that one of them alone has; ValueError for any other.
+        """
+        labels = dict(zip(self.labels, (solution.design.twist.spec() for solution in self.solutions), strict=True))
+        found = [label for label, spec in labels.items() if name in (label, spec)]
+        if len(found) != 1:
+            listed = "; ".join(labels)
+            raise ValueError(f"{name!r} is {'several' if found else 'none'} of the designs of this sweep: use {listed}")
+        return replace(self, reference=found[0])
+
+    @property
+    def changes(self) -> tuple[float | None, ...]:
+        """Total power of each row relative to that of `reference` at the same condition [%]; None where one of the two
+        is not there."""
+        at = _values(self.solutions, self.axis)
+        powers = [solution.power.total if solution.converged else None for solution in self.solutions]
+        rows = list(zip(self.labels, at, powers, strict=True))
+        base = {place: power for label, place, power in rows if label == self.reference}
+        pairs = ((power, base.get(place)) for _, place, power in rows)
+        return tuple(100.0 * (power / own - 1.0) if power is not None and own else None for power, own in pairs)
+
+    @property
+    def axis(self) -> Quantity:
+        """What was swept; where that is not known, what varies."""
+        return SWEPT[self.over] if self.over in SWEPT else _swept(self.solutions)
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -80,7 +115,11 @@ class SweepTable:
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
         """One row per solution; None where a solution that did not converge has no power."""
         columns = self.columns
-        return tuple(tuple(map(_cells(solution, set(columns)).get, columns)) for solution in self.solutions)
+        changes = self.changes if self.reference else [None] * len(self)
+        return tuple(
+            tuple(map((_cells(solution, set(columns)) | {"change_percent": change}).get, columns))
+            for solution, change in zip(self.solutions, changes, strict=True)
+        )
 
     def to_dict(self) -> dict[str, list[float | str | None]]:
         """The columns by name: what `pandas.DataFrame`, `polars.DataFrame` and `pyarrow.table` read as it is."""
@@ -150,7 +189,7 @@ def sweep(
 
 
 if sweep.__doc__:  # Python drops docstrings when it is asked to.
-    words = (f"{name}: {row.what} [{row.symbol}]." for name, row in SWEPT.items() if name != "mu")
+    words = (f"{name}: {row.what} [{row.unit}]." for name, row in SWEPT.items() if name != "mu")
     sweep.__doc__ = sweep.__doc__.replace("{arguments}", "\n        ".join(words))
 
 
@@ -209,7 +248,8 @@ def schedule(
 
 
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
-    """Draw power over what was swept: the parts for one design, or the totals of several. Returns the matplotlib axes.
+    """Draw power over what was swept: the parts for one design, or the totals of several; of one table that is relative
+    to one of its designs the changes. Returns the matplotlib axes.
 
     Raises TypeError for anything but sweeps.
     """
@@ -222,6 +262,8 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
             "give what rotor.sweep returns, one table or several"
         )
     solutions = [solution for table in tables for solution in table]
+    if len(tables) == 1 and tables[0].reference:
+        return draw_chart(_change_chart(tables[0]), ax)
     over = {table.over for table in tables}
     axis = SWEPT[over.pop()] if len(over) == 1 and over <= set(SWEPT) else _swept(solutions)
     curves: dict[str, list[Solution]] = {}
@@ -234,6 +276,21 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
         shown = [(name, curve, "total") for name, curve in curves.items()]
     lines = tuple(Line(name, _values(curve, axis), _kilowatts(curve, part), dots=True) for name, curve, part in shown)
     return draw_chart(Chart("", Axis(axis.axis_title), Axis("Power [kW]"), lines), ax)
+
+
+def _change_chart(table: SweepTable) -> Chart:
+    at = _values(table.solutions, table.axis)
+    rows = [
+        (label, place, math.nan if change is None else change)
+        for label, place, change in zip(table.labels, at, table.changes, strict=True)
+    ]
+    lines = tuple(
+        Line(
+            name, [x for label, x, _ in rows if label == name], [y for label, _, y in rows if label == name], dots=True
+        )
+        for name in dict.fromkeys(table.labels)
+    )
+    return Chart("", Axis(table.axis.axis_title), Axis(f"Power relative to {table.reference} [%]"), lines)
 
 
 def _label(design: Design) -> str:

@@ -19,7 +19,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
 from rotor.design.quantities import BESIDE, STAND
 from rotor.design.quantities import QUANTITIES as QUANTITIES_OF_DESIGN
-from rotor.design.quantity import Quantity, unit_of
+from rotor.design.quantity import Quantity
 from rotor.optimisation.concepts import (
     CONCEPTS,
     THREE_SEGMENT_FREE,
@@ -30,6 +30,7 @@ from rotor.optimisation.concepts import (
 )
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.series import HUB_COLUMNS, POWERS
+from rotor.units import unit_of
 
 Value = float | str | bool
 Ints = NDArray[np.int64]
@@ -339,4 +340,4 @@ def _column(name: str) -> Column:
     row = QUANTITIES.get(name)
     if name in _COUNTS or name in _WORDS or (row is not None and not row.numeric):
         return Column(name, "count" if name in _COUNTS else "text", "")
-    return Column(name, "number", unit_of(name) if row is None else row.symbol)
+    return Column(name, "number", unit_of(name) if row is None else row.unit)

@@ -22,6 +22,7 @@ from rotor.trim.newton import TrimResult
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import Trimmed, caveats, failure_sentence, implausible
+from rotor.units import power_text
 
 _ENERGY = 1e-6
 """Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
@@ -60,7 +61,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
         converged = False
         message = (
-            f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in "
+            f"Not trimmed: the trim found needs {power_text(power.main_rotor)}, impossible in "
             f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
         )
     solution = Solution(

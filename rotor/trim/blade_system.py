@@ -135,9 +135,14 @@ class BladeSystem:
 
 
 def blade_system(linear: LinearisedTrim, *, shed: bool = False) -> BladeSystem:
-    """The equations about a trim, at its azimuths; with `shed`, lift follows with the lag of shed vorticity."""
+    """The equations about a trim, at its azimuths; with `shed`, lift follows with the lag of shed vorticity.
+
+    ValueError for blades that do not flap because they are held rigidly at the hub.
+    """
     problem, elements = linear.problem, linear.elements
     rotor, torsion, disk = problem.design.rotor, problem.torsion, problem.disk
+    if rotor.blade.rigid:
+        raise ValueError("these blades are rigid and have no modes: give flap_spring_nm_rad in the rotor file")
     n_torsion = 0 if torsion is None else len(torsion.frequency)
     if can_bend(rotor):
         bending = build_bending(rotor, disk, problem.design.condition.density)

@@ -14,6 +14,7 @@ from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.units import power_unit
 
 INFLOWS = ("lifting-line", "pitt-peters")
 """The two inflow models that most rotor codes have: vortices of the blades, and states of the disk."""
@@ -100,8 +101,9 @@ class Doubt:
     @property
     def sentence(self) -> str:
         """In words: `Power 901 ± 52 kW. It saves 1.8 ± 0.7 % against A: sure.`"""
-        kilowatts = self.band / 1e3
-        said = f"Power {self.power / 1e3:.0f} ± {kilowatts:.{decimals(kilowatts)}f} kW."
+        symbol, size = power_unit(self.power, self.band)
+        band = self.band / size
+        said = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
         change, within, words = self.change, self.change_band_percent, self.change_words
         if change is None or within is None or not self.against:
             return said

@@ -45,8 +45,8 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
             f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it "
             "flaps as a rigid blade."
         )
-    elif not design.models.flapping:
-        sentence = "No hub loads: flapping is switched off."
+    elif not design.flaps:
+        sentence = "No hub loads: the blades are rigid, or flapping is switched off."
     elif not has_hub_loads(rotor.blades):
         sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
     elif design.hovering or design.condition.advance_ratio < SLOWEST:

@@ -135,7 +135,7 @@ def vortex_ring(design: Design) -> str:
     if design.condition.climb_speed >= 0.0:
         return ""
     inflow, mu = math.sqrt(0.5 * design.weight_coefficient), design.condition.advance_ratio
-    edge = vortex_ring_edge(mu / inflow)
+    edge = vortex_ring_edge(mu / inflow) if inflow else -math.inf
     if design.climb_ratio >= edge * inflow:
         return ""
     speed = design.rotor.tip_speed

@@ -89,7 +89,8 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
     parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
-        parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
+        lift, drag = wind_forces(elements, total)
+        parasite, climb = -drag * design.condition.advance_ratio * watts, lift * problem.climb * watts
     damping = total.damping * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)

@@ -33,6 +33,7 @@ from rotor.engine.waves import waves_at
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
+from rotor.units import power_unit
 from rotor.user_input import check_suffix, write_whole
 
 
@@ -203,6 +204,8 @@ class HubLoads:
 
 SCHEMA = "rotor-explorer solution 1"
 """What `Solution.to_dict` is: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
+_NO_THRUST = 1e-12
+"""Ideal power over ρA(ΩR)³ below which there is none but rounding."""
 _RIGID = ("elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w")
 
 
@@ -265,8 +268,10 @@ class Solution:
         if self.converged:
             others = [name for name in ("climb", "damping") if getattr(self.power, name)]
             parts = ("induced", "profile", "parasite", *others, "tail")
-            kilowatts = ", ".join(f"{part} {getattr(self.power, part) / 1e3:.1f}" for part in parts)
-            power = f"power {self.power.total / 1e3:.1f} kW: {kilowatts}"
+            values = {part: getattr(self.power, part) for part in ("total", *parts)}
+            symbol, size = power_unit(*values.values())
+            total, *others = (f"{value / size:z.1f}" for value in values.values())
+            power = f"power {total} {symbol}: {', '.join(map(' '.join, zip(parts, others, strict=True)))}"
         return f"{self.design}\n{state}\n{power}"
 
     @property
@@ -311,15 +316,16 @@ class Solution:
         power = (self.last_power.induced + self.last_power.profile) / self.design.power_unit
         if not self.design.hovering or power <= 0.0:
             return None
-        ideal = max(self.ct, 0.0) ** 1.5 / np.sqrt(2.0).item()
+        ideal = abs(self.ct) ** 1.5 / np.sqrt(2.0).item()
         if self.design.climb_ratio:
             ideal = self.ct * axial_inflow(self.ct, self.design.climb_ratio)
         return ideal / power
 
     @property
-    def induced_power_factor(self) -> float:
-        """κ = C_Pi/(C_T λ0): induced power over that of uniform loading by momentum theory."""
-        return self.last_power.induced / (self.ct * self.controls.lambda0 * self.design.power_unit)
+    def induced_power_factor(self) -> float | None:
+        """κ = C_Pi/(C_T λ0): induced power over that of uniform loading by momentum theory; None without thrust."""
+        ideal = self.ct * self.controls.lambda0
+        return self.last_power.induced / (ideal * self.design.power_unit) if abs(ideal) > _NO_THRUST else None
 
     @property
     def lift_to_drag(self) -> float | None:

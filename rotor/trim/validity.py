@@ -21,6 +21,7 @@ from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.power import HubMoment
 from rotor.trim.solution import Caveat, Solution
+from rotor.units import power_text
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -38,6 +39,9 @@ MOST_STALLED = 0.25
 """Part of the thrust that stalled sections carry beyond which there is no power. Measured rotors have up to 22 % (a
 tilted XV-15). Beyond the largest lift a rotor balances the same weight once more, at a multiple of the power, with 33
 to 56 % of the thrust stalled and 19 to 44 % of the disk: the share of the disk does not tell the two apart."""
+LEAST_ASPECT_RATIO = 10.0
+"""R/c below which thrust at a given collective is not trusted. Our choice: that of Caradonna and Tung's rotor (NASA
+TM-81232) is 6, those of the other rotors compared here 10.7 and more."""
 CONTROL_SHARE = 0.005
 """Power of pitch links and actuators over that of the main rotor from which it is named. Our choice."""
 FAST_PITCH = 0.2
@@ -100,6 +104,12 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
         said["thesis-models"] = (
             f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade."
         )
+    stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
+    if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
+        said["small-aspect-ratio"] = (
+            f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
+            "and Tung, of 6, a quarter to a half more than was measured in hover. Give the thrust instead."
+        )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
             "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
@@ -114,7 +124,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     if off := switched_off(models):
         names = ", ".join(switch.title.lower() for switch in off)
         said["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
-    if not models.flapping and trim.mu > 0.0:
+    if not design.flaps and trim.mu > 0.0:
         said["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
             said["rigid-blades-linear-inflow"] = (
@@ -136,13 +146,13 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         said["control-power"] = (
-            f"Pitch links and actuators put {control_power / 1e3:.1f} kW into the pitching blades; that is not part of "
-            "the power here."
+            f"Pitch links and actuators put {power_text(control_power, 1)} into the pitching blades; that is not part "
+            "of the power here."
         )
     if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
         said["torque-without-drag"] = (
-            f"Only the thrust is trimmed, so the shaft's torque carries {power.shaft / 1e3:.0f} kW; with the drag of "
-            f"the airframe the rotor takes {power.main_rotor / 1e3:.0f} kW, the sum of its parts."
+            f"Only the thrust is trimmed, so the shaft's torque carries {power_text(power.shaft)}; with the drag of "
+            f"the airframe the rotor takes {power_text(power.main_rotor)}, the sum of its parts."
         )
     return said
 
@@ -162,7 +172,7 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
         )
     if design.condition.climb_speed < 0.0:
         inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
-        descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
+        descent, edge = (-design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
         if descent > -VORTEX_RING_ONSET and edge < math.inf:
             said["vortex-ring"] = (
                 f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
@@ -177,8 +187,13 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
         said["installed-power"] = (
-            f"The rotors take {1e-3 * power.total:.0f} kW; the engines give {1e-3 * installed:.0f} kW at sea level, "
-            "and less at altitude."
+            f"The rotors take {power_text(power.total)}; the engines give {power_text(installed)} at sea level on "
+            "a standard day, and less at altitude or in warmer air."
+        )
+    elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
+        said["engines-of-a-standard-day"] = (
+            f"The engines' {power_text(installed)} are those of a standard day at sea level: in warmer air engines "
+            "give less, which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
         said["controls"] = f"The trim needs more than the controls give: {', '.join(beyond)}."
@@ -283,9 +298,10 @@ def _nearest_to_stall(margin: Array, r: Array) -> str:
 def _rigid(moment: HubMoment) -> str:
     side = "retreating" if moment.roll >= 0.0 else "advancing"
     nose = "up" if moment.pitch >= 0.0 else "down"
+    unit, size = ("kN m", 1e3) if moment.size >= 1e4 else ("N m", 1.0)
     return (
-        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
-        f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
+        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / size:.0f} {unit} rolling to the {side} side "
+        f"and {abs(moment.pitch) / size:.0f} {unit} nose-{nose}."
     )
 
 
@@ -303,14 +319,14 @@ LARGEST_TILT = math.radians(40.0)
 def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> str:
     """Why a trim that closes is refused all the same, as a sentence; empty where nothing speaks against it."""
     state, design = elements.state, problem.design
-    lighter = "lower the mass, the altitude or the speed"
+    lighter = _advice(design)
     checks = (
-        ("coning", state.coning, LARGEST_FLAPPING, "check the blade's mass and flap inertia, or lower the mass"),
+        ("coning", state.coning, LARGEST_FLAPPING, f"check the blade's mass and flap inertia, or {lighter}"),
         ("flapping", math.hypot(state.flap_1c, state.flap_1s), LARGEST_FLAPPING, lighter),
         ("collective", state.collective, LARGEST_CONTROL, lighter),
         ("cyclic", math.hypot(state.cyclic_1c, state.cyclic_1s), LARGEST_CONTROL, lighter),
-        ("shaft tilt", state.shaft_tilt, LARGEST_TILT, "raise the mass, or lower the speed or the drag area"),
-        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, "stiffen the blade, or lower the mass"),
+        ("shaft tilt", state.shaft_tilt, LARGEST_TILT, _HEAVIER),
+        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, f"stiffen the blade, or {lighter}"),
     )
     for name, value, largest, remedy in checks:
         if not abs(value) <= largest:
@@ -319,12 +335,34 @@ def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> s
                 f"±{math.degrees(largest):.0f}°, where these equations no longer hold: {remedy}."
             )
     loading = total.thrust / design.rotor.solidity
-    if design.hovering and loading > HOVER_LIMIT:
+    if design.hovering and abs(loading) > HOVER_LIMIT:
         return (
             f"Not trimmed: hover needs C_T/σ {loading:.3f}, and rotors have reached about {HOVER_LIMIT:g} with every "
-            "blade element at its maximum lift: lower the mass or the altitude."
+            f"blade element at its maximum lift: {lighter}."
         )
     return ""
+
+
+_HEAVIER = "raise the mass, or lower the speed or the drag area"
+
+
+def _tilt(design: Design) -> float:
+    """Shaft tilt [rad] at which thrust overcomes drag."""
+    drag, down = design.drag_parts
+    return math.atan2(drag, design.weight_coefficient + down)
+
+
+def _advice(design: Design) -> str:
+    """What brings a flight or a test nearer to a trim."""
+    condition = design.condition
+    if condition.stand is not None:
+        given = "change the collective" if condition.stand.collective is not None else "lower the thrust"
+        return given if design.hovering else f"{given} or the advance ratio"
+    if _tilt(design) > LARGEST_TILT:
+        return _HEAVIER
+    lower = ["load factor"] if condition.load_factor > 1.0 else []
+    lower += ["mass", "altitude"] if design.hovering else ["mass", "altitude", "speed"]
+    return f"lower the {', the '.join(lower[:-1])} or the {lower[-1]}"
 
 
 def _largest_twist(elements: BladeElements) -> float:
@@ -346,11 +384,17 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     condition = design.condition
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
-    share = _share(stalled, reached)
+    share, advice = _share(stalled, reached), _advice(design)
+    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.beside))
     if design.hovering:
         return (
-            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that "
-            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the mass or the altitude."
+            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
+            f"needs; {advice}."
+        )
+    if _tilt(design) > LARGEST_TILT:
+        return (
+            f"Not trimmed: drag tilts the shaft by {math.degrees(_tilt(design)):.0f}° at {what} and advance ratio "
+            f"{condition.advance_ratio:.3f}, and these equations hold to {math.degrees(LARGEST_TILT):.0f}°: {advice}."
         )
     near = easier_condition(design, reached)
     how_far = ""
@@ -359,19 +403,18 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     elif reached > 0.0:
         how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (
-        f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
-        f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
-        f"Lower the mass, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
+        f"Not trimmed: {what} and advance ratio {condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
+        f"{advice[:1].upper()}{advice[1:]}{'' if design.flaps else ', or let the blades flap'}."
     )
 
 
 def stalled_sentence(design: Design, stalled: float, mass: float | None, mu: float | None) -> str:
     """Why a trim with very much stall has no power, with the largest mass and advance ratio that have one."""
-    remedy = "Lower the thrust or the advance ratio."
+    advice = _advice(design)
+    remedy = f"{advice[:1].upper()}{advice[1:]}."
     if design.condition.stand is None:
         largest = [f"{math.floor(mass)} kg at this speed"] if mass is not None else []
         largest += [f"advance ratio {math.floor(1e3 * mu) / 1e3:.3f} at this mass"] if mu is not None else []
-        remedy = "Lower the mass, the altitude or the speed."
         remedy = f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
         remedy = f"The largest that trims is {largest[0]}." if len(largest) == 1 else remedy
     return (

@@ -64,7 +64,7 @@ class Watched:
         if label == "Limit stall" and not self.row(label).is_visible():
             self.page.get_by_text("Limits", exact=True).click()
             self.row(label).wait_for()
-        if label.startswith(("Altitude", "Climb", "Rotor speed", "Load factor", "Flight or test")):
+        if label.startswith(("Altitude", "ISA offset", "Climb", "Rotor speed", "Load factor", "Flight or test")):
             self.page.evaluate("() => RX.send('more', 'on')")
             self.row(label).wait_for()
 

@@ -7,10 +7,11 @@ import pytest
 
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS, meant, shown
+from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS, meant, shown, units_of
 from explorer.tabs.controls import DesignControls
 from explorer.text import readout
 from explorer.text.design_words import flight_name
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 
 
@@ -71,3 +72,14 @@ class TestControls:
         controls.refresh(wanted, SI)
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05
+
+
+def test_a_model_rotor_has_watts_and_a_propeller_climbs():
+    """Knight and Hefner's rotor carries 58 N at C_T/σ 0.07: √(58³/(2·1.225·1.824)) is 209 W."""
+    model, uh60a = shipped_aircraft("knight-hefner-3"), shipped_aircraft("uh60a")
+    for title, units in UNITS.items():
+        small = units_of(title, model)
+        assert (units_of(title, uh60a), small.power[0].symbol) == (units, "W")
+        assert (small.watts(100.2), small.mass) == ("100 W", units.mass)
+        assert meant(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
+    assert flight_name(Inputs(isa_offset_c=-10.0), AVIATION).startswith("µ 0.2, ISA − 10 °C, ")

@@ -239,6 +239,23 @@ class TestSweep:
         assert_allclose(drawn.lines[0].get_xdata(), [7000, 9000])
         pyplot.close("all")
 
+    def test_power_relative_to_one_of_the_designs(self, design: rotor.Design):
+        table = rotor.sweep([design, design.with_twist("linear:-4")], isa_offset_c=[-10, 20])
+        changed = table.relative_to("linear:-4")
+        powers = [one.power.total for one in table]
+        by_hand = [100.0 * (power / powers[k] - 1.0) for power, k in zip(powers, (2, 3, 2, 3), strict=True)]
+        assert changed.changes == pytest.approx(by_hand)
+        assert changed.to_dict()["change_percent"] == list(changed.changes)
+        assert by_hand[0] != 0.0 == by_hand[2]
+        drawn = rotor.plot_power(changed)
+        assert drawn.get_ylabel() == "Power relative to UH-60A, linear:-4 [%]"
+        assert_allclose(drawn.lines[0].get_ydata(), by_hand[:2])
+        pyplot.close("all")
+        with pytest.raises(
+            ValueError, match="'linear:-5' is none of the designs of this sweep: use UH-60A, linear:-12; "
+        ):
+            table.relative_to("linear:-5")
+
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         """The tests do without pandas: something else takes its place."""
         table = rotor.sweep(design, [0.2])

@@ -53,6 +53,18 @@ def test_standard_atmosphere():
         assert_allclose(condition.sound_speed, sound, rtol=1e-4)
 
 
+def test_a_hot_day_has_the_pressure_of_its_altitude():
+    """1500 m, ISA + 20 °C: p 84 556 Pa and T 298.40 K (ISO 2533: 278.40 K), so that ρ is 0.987 kg/m³, a 346.3 m/s,
+    and Sutherland's law gives 1.8384·10⁻⁵ Pa s."""
+    hot = make_design(altitude_m=1500, isa_offset_c=20).condition
+    assert_allclose(hot.density, 84_556.0 / (287.05287 * 298.40), rtol=1e-5)
+    assert_allclose((hot.density, hot.sound_speed, hot.viscosity), (0.987, 346.3, 1.8384e-5), rtol=2e-4)
+    assert hot.beside == ("ISA + 20 °C",)
+    assert make_design(isa_offset_c=-10, climb_m_s=-3).condition.beside == ("ISA − 10 °C", "descent 3 m/s")
+    with pytest.raises(ValueError, match=r"ISA offset 80 °C is outside -60…60 °C"):
+        make_design(isa_offset_c=80)
+
+
 def test_fuselage_drag_3_19():
     """½·1.225·100²·3.2646 = 19 996 N."""
     assert_allclose(make_design().fuselage.drag(1.225, 100.0), 19_995.7, rtol=1e-5)

@@ -126,7 +126,7 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
         assert row.input in CONTROLS
         assert name in sweep_columns([design])
         study = parse_study(f"[axes]\nmu = [0.2]\n{name} = [{value}]")
-        assert next(column.unit for column in columns_of(study) if column.name == name) == row.symbol
+        assert next(column.unit for column in columns_of(study) if column.name == name) == row.unit
         mission = tmp_path / "mission.csv"
         mission.write_text(f"mu,{name}\n0.2,{value}\n", encoding="utf-8")
         assert read_mission(mission, rotor.make_design(**SMALL))[0].flight == design.condition

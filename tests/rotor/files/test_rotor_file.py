@@ -18,6 +18,7 @@ from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.trim.solve import solve
+from rotor.trim.stability import stability
 
 POLARS = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
 DECK = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
@@ -61,6 +62,41 @@ def polar_file(polar: Polar) -> str:
         "  ------ -------- --------- --------- -------- -------- --------\n"
         f"{rows}\n"
     )
+
+
+def test_a_rotor_alone_needs_neither_mass_nor_spring():
+    """Power in hover is that of any mass, and a rigid blade has none to flap with; without a mass γ is 8."""
+    text = GOOD.partition("[airframe]")[0].replace("flap_hinge_m = 0.2\n", "")
+    bare = text.replace("blade_mass_kg = 40.0\n", "")
+    rigid = bare.replace("blades = 3", 'blades = 3\nhub = "hingeless"\nprecone_deg = 2.0')
+    powers = list[float]()
+    for craft in map(read, (text, bare, rigid)):
+        powers.append(solve(make_design(rotor=craft, hover=True, stand={"ct_over_sigma": 0.08})).require().power.shaft)
+    assert_allclose(powers, powers[0], rtol=1e-9)
+    assumed, held = read(bare), read(rigid)
+    assert_allclose(1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12)
+    assert "no blade_mass_kg: the blades flap as those of Lock number 8" in assumed.remarks[0]
+    assert not held.remarks
+    flown = solve(make_design(rotor=held, mu=0.15, stand={"ct_over_sigma": 0.08})).require()
+    assert_allclose(math.degrees(flown.controls.coning), 2.0)
+    assert (flown.controls.cyclic_1s, flown.controls.flap_1s) == (0.0, 0.0)
+    assert flown.hub_moment.roll > 0.0  # More lift on the advancing side.
+    assert "rigid-blades" in {caveat.name for caveat in flown.caveats}
+    with pytest.raises(ValueError, match="these blades are rigid and have no modes"):
+        stability(flown)
+    bends = 'structure = "uh60a"\n[airframe]'
+    with pytest.raises(ValueError, match="a hingeless blade that can bend needs it"):
+        read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
+
+
+def test_thrust_at_a_collective_is_not_trusted_on_short_blades():
+    text = GOOD.partition("[airframe]")[0]
+    for chord, told in ((0.45, False), (0.6, True)):  # R/c 11.1 and 8.3.
+        craft = read(text.replace("[0.30, 0.20]", f"[{chord}, {chord}]"))
+        for stand in ({"collective_deg": 8.0}, {"ct_over_sigma": 0.05}):
+            found = solve(make_design(rotor=craft, hover=True, stand=stand)).require()
+            names = {caveat.name for caveat in found.caveats}
+            assert ("small-aspect-ratio" in names) == (told and "collective_deg" in stand)
 
 
 def test_a_minimal_file_is_enough():

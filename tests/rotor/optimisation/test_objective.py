@@ -103,7 +103,7 @@ def test_mission_file(tmp_path: Path):
         ("mass_kg\n8000\n", "only mu is required"),
         ("mu,hours\n0.2,1\nfast,1\n", "line 3: mu is 'fast'"),
         ("mu,hours\n0.2,0\n", "line 2: 0 hours"),
-        ("mu,climb_m_s\n0.2,1\n0.2,90\n", "line 3: rate of climb 90 m/s"),
+        ("mu,climb_m_s\n0.2,1\n0.2,900\n", "line 3: rate of climb 900 m/s"),
     ],
 )
 def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from rotor.aero.problem import build_problem
 from rotor.airfoil.sections import load_installed
 from rotor.columns.hover import closed_form_inflow, hover_system, lift_curve
+from rotor.command.solve import report
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -113,6 +114,34 @@ def test_too_heavy_is_one_sentence():
     assert "lower the mass or the altitude" in solution.message
     with pytest.raises(RuntimeError, match="Not trimmed"):
         solution.require()
+
+
+def test_a_rotor_that_presses_down_is_the_mirrored_one():
+    """A blade of a symmetrical section: thrust and inflow of −4° are those of 4° with another sign; at 0° neither."""
+
+    def at(collective: float) -> Solution:
+        stand = {"collective_deg": collective}
+        return solve(make_design(rotor="knight-hefner-3", hover=True, trim="controls", stand=stand)).require()
+
+    up, none, down = map(at, (4.0, 0.0, -4.0))
+    assert down.ct < 0.0
+    for read in (lambda s: s.ct, lambda s: s.controls.lambda0, lambda s: float(s.disk.induced.mean())):
+        assert_allclose(read(down), -read(up), rtol=1e-4)
+    assert_allclose(down.controls.lambda0, -math.sqrt(-0.5 * down.ct), rtol=1e-12)
+    assert down.figure_of_merit == pytest.approx(up.figure_of_merit, rel=5e-3)
+    assert down.induced_power_factor == pytest.approx(up.induced_power_factor, rel=1e-4)
+    assert abs(none.ct) < 1e-12
+    assert none.induced_power_factor is None
+    assert "κ = P_i/(C_T λ0) none: there is no thrust" in report(none)
+    assert f"shaft       {none.power.shaft:10.1f} W" in report(none)
+
+
+def test_too_light_is_told_to_be_heavier():
+    """UH-60A at µ 0.2: D = ½·1.225·(0.2·221)²·3.265 = 3.91 kN, four times 100 kg."""
+    solution = solve(make_design(mu=0.2, mass_kg=100.0))
+    assert not solution.converged
+    assert "drag tilts the shaft by 76°" in solution.message
+    assert solution.message.endswith("raise the mass, or lower the speed or the drag area.")
 
 
 @pytest.mark.parametrize(("altitude", "side"), [(6000.0, "below"), (6950.0, "above")])
