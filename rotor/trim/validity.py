@@ -108,7 +108,7 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
         said["small-aspect-ratio"] = (
             f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
-            "and Tung, of 6, a quarter to a half more than was measured in hover. Give the thrust instead."
+            "and Tung, of 6, a quarter to two thirds more than was measured in hover. Give the thrust instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
