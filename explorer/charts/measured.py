@@ -18,15 +18,16 @@ from rotor.validation import Comparison, MeasuredSet, compare_point, design_at
 from rotor.validation.compare import ComparedPoint, quantity_of
 from rotor.validation.flown import POWER_REPORTS, MeasuredPower
 
-_AT_ONCE = ("cp", "cq_over_sigma", "cp_drag")
+_AT_ONCE = ("ct", "cp", "cq_over_sigma", "cp_drag")
 """Quantities that a solution has by itself; the others need further trims."""
 _KEPT = 20
 """Curves remembered per session, and models whose flights are."""
 _PACE = 0.3
 """[s] between two drawings of a curve that grows."""
 _MILLE = "×10³"
-_AXES = {"ct": ("CT ×10³", 1e3), "ct_over_sigma": ("CT/σ", 1.0), "mu": ("µ", 1.0)}
+_AXES = {"ct": ("CT ×10³", 1e3), "ct_over_sigma": ("CT/σ", 1.0), "mu": ("µ", 1.0), "collective_deg": ("θ₀ [°]", 1.0)}
 _QUANTITIES = {
+    "ct": ("CT over the collective", "CT ×10³", 1e3),
     "cp": ("CP over CT", "CP ×10³", 1e3),
     "cq_over_sigma": ("CQ/σ over µ", "CQ/σ ×10³", 1e3),
     "cp_drag": ("CP of the drag over µ", "CP ×10³", 1e3),
@@ -58,7 +59,15 @@ class MeasuredChart:
         scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
         ours = [(wide * point.given[along], size * point.ours[measured.quantity]) for point in known if point.ours]
         ours.sort()
-        x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
+        x = (
+            wide
+            * {
+                "mu": solution.design.condition.advance_ratio,
+                "ct": solution.ct,
+                "ct_over_sigma": solution.ct_over_sigma,
+                "collective_deg": math.degrees(solution.controls.collective),
+            }[along]
+        )
         y = size * now
         seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
         low, high = min(places), max(places)

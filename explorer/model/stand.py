@@ -248,7 +248,7 @@ def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
     return condition.advance_ratio, condition.stand
 
 
-SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt"}
+SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt", "collective_deg": "collective"}
 _TITLES = {
     "xv15-hover": "Hover (OARF)",
     "xv15-forward-15deg": "Tunnel, 15° forward",
@@ -257,6 +257,7 @@ _TITLES = {
     "pca2": "Tunnel, no torque",
     "knight-hefner-3": "Hover (TN 626)",
     "knight-hefner-4": "Hover (TN 626)",
+    "caradonna-tung": "Hover (TM-81232)",
     "castles-gray": "Hover (TN 2474)",
     "castles-gray-twisted": "Hover (TN 2474)",
     "uh60a-hover": "Hover (digitised)",

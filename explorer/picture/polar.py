@@ -173,16 +173,14 @@ def _along(points: Array, r: Array) -> Array:
 
 def stall_angles(solution: Solution) -> tuple[Array, Array]:
     """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each."""
-    disk, blade = solution.disk, solution.design.rotor.blade
-    places = [blade.section_at(float(r)) for r in disk.r]
+    disk, design = solution.disk, solution.design
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
-    mach = disk.mach if solution.design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
-    for name in {span.section for span in blade.spans}:
-        section = blade.installed(name)
-        share = np.array([(1.0 - w) * (inner == name) + w * (outer == name) for inner, outer, w in places])[:, None]
-        negative, positive = section.table.stall_alpha(mach)
-        lower += share * (negative + section.incidence_offset)
-        upper += share * (positive + section.incidence_offset)
+    mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
+    for i, r in enumerate(disk.r.tolist()):
+        for section, share in design.rotor.blade.mixture(r, design.reynolds_per_metre):
+            negative, positive = section.table.stall_alpha(mach[i])
+            lower[i] += share * (negative + section.incidence_offset)
+            upper[i] += share * (positive + section.incidence_offset)
     return lower, upper
 
 

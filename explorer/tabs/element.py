@@ -41,22 +41,15 @@ class FlowRegion(Enum):
 
 @dataclass(frozen=True)
 class Blend:
-    """The section at a radius: between two spans a mixture."""
+    """The section at a radius: between two spans, or two Reynolds numbers of its data, a mixture."""
 
-    inner: Section
-    outer: Section
-    weight: float
-    """Weight of the outer section, 0…1."""
-
-    def installed(self) -> tuple[tuple[Section, float], ...]:
-        """The sections that take part, with their shares."""
-        pair = ((self.inner, 1.0 - self.weight), (self.outer, self.weight))
-        return tuple((section, share) for section, share in pair if share > 0.0)
+    parts: tuple[tuple[Section, float], ...]
+    """The sections that take part, with their shares."""
 
     def moment(self, alpha: float, mach: float) -> float | None:
         """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
         total = 0.0
-        for section, share in self.installed():
+        for section, share in self.parts:
             moment = section.table.moment(alpha - section.incidence_offset, mach)
             if moment is None:
                 return None
@@ -65,14 +58,14 @@ class Blend:
 
     def stall_angles(self, mach: float) -> tuple[float, float]:
         """Negative and positive stall angle [rad] about the blade's reference line."""
-        ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.installed()]
+        ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.parts]
         low, high = (sum(share * (float(end[k]) + offset) for end, offset, share in ends) for k in (0, 1))
         return low, high
 
     def lift_curve(self, alpha: Array, mach: float) -> Array:
         """C_l at angles of attack [rad] about the blade's reference line."""
         curve = np.zeros_like(alpha)
-        for section, share in self.installed():
+        for section, share in self.parts:
             curve += share * section.table(alpha - section.incidence_offset, mach).cl
         return curve
 
@@ -178,13 +171,12 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     phi = math.atan2(u_p, u_t)
     per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
     thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
-    inner, outer, weight = rotor.blade.section_at(r)
-    section = Blend(rotor.blade.installed(inner), rotor.blade.installed(outer), weight)
+    section = Blend(rotor.blade.mixture(r, design.reynolds_per_metre))
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
     alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
-    chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed())
+    chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.parts)
     cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
     if cm is not None and unsteady is not None:
         cm += at.held(unsteady.moment)
@@ -230,8 +222,7 @@ def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) ->
 
 def outline(section: Blend) -> Array:
     """The true outline, blended as the blade is; (y, z) in reference chords about the quarter chord."""
-    inner, outer = (blade_axes_outline(name, _OUTLINE) for name in (section.inner, section.outer))
-    return (1.0 - section.weight) * inner + section.weight * outer
+    return sum((share * blade_axes_outline(part, _OUTLINE) for part, share in section.parts), np.zeros(()))
 
 
 def where(psi: float) -> str:
@@ -243,7 +234,7 @@ def where(psi: float) -> str:
 
 def sections_of(section: Blend) -> str:
     """Name of the section; of two where one goes over into the other."""
-    return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.installed()))
+    return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.parts))
 
 
 class _GridPoint:

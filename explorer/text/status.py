@@ -212,7 +212,12 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     if climb:
         return f"rate of climb {climb:g} m/s, compared in level flight"
     points = [point for point in measured.points if measured.is_judged(point)] or list(measured.points)
-    place = {"mu": solution.design.condition.advance_ratio, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma}
+    place = {
+        "mu": solution.design.condition.advance_ratio,
+        "ct": solution.ct,
+        "ct_over_sigma": solution.ct_over_sigma,
+        "collective_deg": math.degrees(solution.controls.collective),
+    }
     for name, value in place.items():
         if name not in measured.given:
             continue

@@ -7,10 +7,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.section_table import MACH_STEP, N_MACH, held_beyond_peak
+from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, held_beyond_peak
+from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.arrays import Array, read_only
-from rotor.design.blade import Rotor
+from rotor.design.blade import Blade, Rotor
 
 
 class OnDisk:
@@ -47,6 +48,8 @@ class Disk(OnDisk):
     sin: Array
     half_solidity: Array
     """½σ(r) = N_b c(r)/(2πR) with the chord there, (elements,)."""
+    sections: tuple[Section, ...]
+    """Those of the rows of `tables`; a section with data of several Reynolds numbers has a row for each."""
     section: NDArray[np.int64]
     """Rows of `tables` blended at each element, (elements, 2)."""
     weight: Array
@@ -109,48 +112,52 @@ def build_disk(
     swept: bool = True,
     surface: bool = True,
     fine_tip: bool = False,
+    reynolds: float = 0.0,
 ) -> Disk:
     """The rotor on a grid of elements, evenly spaced or finer towards the tip, and evenly spaced azimuths.
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
-    `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count.
+    `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count. `reynolds`:
+    `Design.reynolds_per_metre`, needed where a section has data of several Reynolds numbers.
     """
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
     rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "fine_tip": fine_tip}
-    return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, **shown))
+    reynolds = reynolds if blade.follows_reynolds else 0.0
+    return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown))
 
 
 @lru_cache(maxsize=16)
 @read_only
 def _disk(
-    rotor: Rotor, *, elements: int, azimuths: int, only_mach: float | None, swept: bool, surface: bool, fine_tip: bool
+    rotor: Rotor,
+    *,
+    elements: int,
+    azimuths: int,
+    only_mach: float | None,
+    swept: bool,
+    surface: bool,
+    fine_tip: bool,
+    reynolds: float,
 ) -> Disk:
     blade = rotor.blade
     edges, r = stations(blade.root_cutout, elements, fine_tip)
     psi = azimuths_of(azimuths)
 
-    names = tuple(dict.fromkeys(span.section for span in blade.spans))
-    installed = [blade.installed(name) for name in names]
-    tables = [item.table if only_mach is None else item.table.held_at(only_mach) for item in installed]
-    section = np.zeros((elements, 2), dtype=np.int64)
-    weight = np.zeros(elements)
-    offset = np.zeros((elements, 2))
-    ratio = np.ones(elements)
-    for i, station in enumerate(r):
-        inner, outer, blend = blade.section_at(float(station))
-        pair = names.index(inner), names.index(outer)
-        section[i] = pair
-        weight[i] = blend
-        offset[i] = [installed[k].incidence_offset for k in pair]
-        ratio[i] = (1.0 - blend) * installed[pair[0]].chord_ratio + blend * installed[pair[1]].chord_ratio
+    installed = {span.section: blade.installed(span.section) for span in blade.spans}
+    pairs = [_pair(blade, installed, float(station), reynolds) for station in r]
+    own = (part for item in installed.values() for part in ([each for _, each in item.of_reynolds] or [item]))
+    sections = tuple(dict.fromkeys((*own, *(item for pair in pairs for item in pair[:2]))))
+    section = np.array([[sections.index(item) for item in pair[:2]] for pair in pairs])
+    weight = np.array([pair[2] for pair in pairs])
+    offset = np.array([[item.incidence_offset for item in pair[:2]] for pair in pairs])
+    ratio = np.array([(1.0 - share) * inner.chord_ratio + share * outer.chord_ratio for inner, outer, share in pairs])
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
-    mach = MACH_STEP * np.arange(N_MACH + 1)
     sweep = blade.sweep(r, rotor.radius) if swept else np.zeros(elements)
-    coefficients = np.stack([table.coefficients for table in tables])
-    if surface:
-        coefficients[:, :, :, 1] *= blade.surface_drag
+    tables = _at_mach(sections, only_mach)
+    coefficients, held = _stacked(tables, blade.surface_drag if surface else 1.0)
+    mach = MACH_STEP * np.arange(N_MACH + 1)
     return Disk(
         r=r,
         dr=np.diff(edges),
@@ -160,11 +167,12 @@ def _disk(
         cos=np.cos(psi),
         sin=np.sin(psi),
         half_solidity=half_solidity,
+        sections=sections,
         section=section,
         weight=weight,
         offset=offset,
         tables=coefficients,
-        held=np.stack([held_beyond_peak(each) for each in coefficients]),
+        held=held,
         cos_sweep=np.cos(sweep),
         sin_sweep=np.sin(sweep),
         stall=np.stack([table.stall_alpha(mach) for table in tables]),
@@ -173,16 +181,45 @@ def _disk(
     )
 
 
+def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float) -> tuple[Section, Section, float]:
+    """The two sections blended at r = y/R, each with one table, and the share of the second.
+
+    Within a span they are those of the two nearest Reynolds numbers. In a gap between spans, where there would be four,
+    the table of each span is made at its Reynolds number.
+    """
+    inner, outer, weight = blade.section_at(r)
+    (first, there), (second, beyond) = (
+        (item, float(blade.reynolds(item, r, reynolds))) for item in (installed[inner], installed[outer])
+    )
+    if weight > 0.0:
+        return first.one_at(there), second.one_at(beyond), weight
+    (one, _), *rest = first.at(there)
+    return (one, *rest[0]) if rest else (one, one, 0.0)
+
+
+@lru_cache(maxsize=16)
+def _at_mach(sections: tuple[Section, ...], only_mach: float | None) -> tuple[SectionTable, ...]:
+    """Their tables, or those of one Mach number."""
+    return tuple(item.table if only_mach is None else item.table.held_at(only_mach) for item in sections)
+
+
 @lru_cache(maxsize=16)
 @read_only
-def build_onset(rotor: Rotor, disk: Disk, only_mach: float | None = None) -> tuple[Array, Array]:
+def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Array]:
+    """`Disk.tables` and `Disk.held`; drag: of the real surface over that of the data."""
+    coefficients = np.stack([table.coefficients for table in tables])
+    coefficients[:, :, :, 1] *= drag
+    return coefficients, np.stack([held_beyond_peak(each) for each in coefficients])
+
+
+@lru_cache(maxsize=16)
+@read_only
+def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Array]:
     """`StallOnset.numbers` of every element, about the blade's reference line, and the tables of its sections.
 
     (elements, 8, Mach nodes) and (sections, α cells, Mach cells, 2, 4, 4); only_mach as for `build_disk`.
     """
-    names = tuple(dict.fromkeys(span.section for span in rotor.blade.spans))
-    tables = [rotor.blade.installed(name).table for name in names]
-    onsets = [stall_onset(table if only_mach is None else table.held_at(only_mach)) for table in tables]
+    onsets = [stall_onset(table) for table in _at_mach(disk.sections, only_mach)]
     numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]

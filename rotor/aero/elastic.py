@@ -153,7 +153,6 @@ def _at_unit_density(
     inertia[0] += max(inner, 0.0) / (unit * disk.dr[0])
     chord = disk.half_solidity * 2.0 * math.pi / rotor.blades
     behind = np.maximum(disk.r - blade.tip_sweep_start, 0.0) * (math.tan(blade.tip_sweep) if swept else 0.0)
-    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
     mass = structure.at(disk.r * radius, structure.mass_per_length)
     tension, own_tension = _tension(modes, disk, radius)
     return BladeTorsion(
@@ -172,7 +171,7 @@ def _at_unit_density(
         damping=rotor.blades * chord**3 / 8.0,
         lag=behind,
         tip_mass=mass * behind * disk.r * radius**3 / unit,
-        moment_tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names])[:, :, :, None],
+        moment_tables=np.stack([moment_table(item.table, only_mach) for item in disk.sections])[:, :, :, None],
         moment_unit=unit * rotor.angular_speed**2,
     )
 

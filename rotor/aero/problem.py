@@ -168,7 +168,8 @@ def build_problem(design: Design) -> Problem:
     only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
     elements, azimuths = grid_of(design)
     shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
-    disk = build_disk(rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, **shown)
+    reynolds = design.reynolds_per_metre
+    disk = build_disk(rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown)
     flow = expected_flow(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
@@ -218,7 +219,7 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     rotor, models = design.rotor, design.models
     if not models.has("dynamic_stall") or design.hovering or not inflow.pointwise:
         return None
-    numbers, tables = build_onset(rotor, disk, None if models.compressibility else LOW_MACH)
+    numbers, tables = build_onset(disk, None if models.compressibility else LOW_MACH)
     own = {"numbers": numbers, "tables": tables, "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius)}
     return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
 

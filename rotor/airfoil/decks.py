@@ -184,7 +184,8 @@ class SectionTraits:
 
     `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `cap_native` says whether XFOIL's own
     lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive;
-    `korn` is the technology factor of Korn's relation.
+    `korn` is the technology factor of Korn's relation; `fixed_reynolds`: the polars are all of one Reynolds number
+    of several, which is that of any Mach number.
     """
 
     thickness: float
@@ -192,6 +193,7 @@ class SectionTraits:
     cap_native: bool = False
     negative_ratio: float = 1.0
     korn: float = KORN_KAPPA
+    fixed_reynolds: bool = False
 
     def correct(self, mach: float, alpha: Array, polar: Columns, polar_mach: float) -> Columns:
         """(cl, cd, cm) at `mach` from the polar at `polar_mach`: as it is where both are one, else extended."""
@@ -250,7 +252,7 @@ def corrected_polar(
     cap = lift_cap(mach, traits)
     lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
     # A polar at Mach 0 is incompressible, not of a rotor at rest: its Reynolds number is the one meant.
-    reynolds_ratio = mach / base if base > INCOMPRESSIBLE_MACH else 1.0
+    reynolds_ratio = 1.0 if traits.fixed_reynolds or base <= INCOMPRESSIBLE_MACH else mach / base
     friction = float(np.min(cd)) * (1.0 - reynolds_ratio**FRICTION_REYNOLDS_POWER)
     drag = (
         with_lost_suction(alpha, cl * growth, lifted, cd)

@@ -289,6 +289,17 @@ def make_table(
     return replace(bare, alpha_stall_negative=onsets[0], alpha_stall_positive=onsets[1])
 
 
+def between(first: SectionTable, second: SectionTable, share: float) -> SectionTable:
+    """A table between two; share: of the second."""
+    limit = min(first.mach_limit, second.mach_limit)
+    coefficients = (1.0 - share) * first.coefficients + share * second.coefficients
+    made = make_table(first.name, first.source, coefficients, limit)
+    if first.moment_coefficients is None or second.moment_coefficients is None:
+        return made
+    moment = (1.0 - share) * first.moment_coefficients + share * second.moment_coefficients
+    return replace(made, moment_coefficients=moment)
+
+
 def _check_lift(table: SectionTable) -> None:
     """ValueError with one sentence for lift that does not rise through zero near zero angle of attack."""
     mach = mach_nodes()[mach_nodes() <= table.mach_limit + 1e-9]

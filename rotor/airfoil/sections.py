@@ -4,7 +4,7 @@ Bundled sections are identified by name. A user's section is a value (`OwnSectio
 so that a design stays hashable and can be sent to other processes.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -13,7 +13,8 @@ from rotor.airfoil.c81 import parse_c81, read_c81
 from rotor.airfoil.contour import SECTION_NAMES, Contour, load_contour, parse_contour
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polynomial import THESIS_NAME, parse_reading, polynomial_table
-from rotor.airfoil.section_table import SectionTable, table_from_deck
+from rotor.airfoil.reynolds import shares
+from rotor.airfoil.section_table import SectionTable, between, table_from_deck
 from rotor.arrays import read_only
 from rotor.assets import asset_path
 from rotor.user_input import did_you_mean
@@ -22,6 +23,10 @@ TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 
 _TUNNEL_SOURCE = (
     "XFOIL 6.99 tripped at 5 % chord; levels, shocks and moments from public tunnel-derived data; wrapped to ±180 deg"
+)
+_SLOPE = (
+    "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor; lift slope of tunnels; compressibility and ±180 deg wrap by "
+    "this project"
 )
 _MEASURED = "measured by Knight and Hefner (NACA TN 626) at Re 242 000; wrapped to +-180 deg by this project"
 _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility and +-180 deg wrap by this project"
@@ -36,8 +41,9 @@ def load_section(name: str) -> SectionTable:
     if name not in SECTION_NAMES:
         hint = did_you_mean(name, TABLE_NAMES) or ":"
         raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(TABLE_NAMES)}")
+    sources = {"naca0012": _SLOPE, "naca63a015": _SLOPE, "naca0015re242k": _MEASURED}
     tunnel = name.startswith(("sc109", "oa209", "naca23012tab"))
-    source = _TUNNEL_SOURCE if tunnel else _MEASURED if name == "naca0015re242k" else _SOURCE
+    source = _TUNNEL_SOURCE if tunnel else sources.get(name, _SOURCE)
     return table_from_deck(name, source, read_c81(asset_path(f"airfoils/{name}.c81")))
 
 
@@ -61,6 +67,20 @@ class Section:
     incidence_offset: float
     chord_ratio: float
     outline: Contour
+    of_reynolds: tuple[tuple[float, "Section"], ...] = ()
+    """The section with the table of one Reynolds number each, ascending; empty where `table` holds at any."""
+
+    def at(self, reynolds: float) -> tuple[tuple["Section", float], ...]:
+        """The one or two of `of_reynolds` at the Reynolds number of its chord, with their shares; else itself."""
+        if not self.of_reynolds:
+            return ((self, 1.0),)
+        places = shares([number for number, _ in self.of_reynolds], reynolds)
+        return tuple((self.of_reynolds[place][1], share) for place, share in places)
+
+    def one_at(self, reynolds: float) -> "Section":
+        """The section with the table of that Reynolds number, made where it lies between two."""
+        (first, _), *other = self.at(reynolds)
+        return replace(first, table=between(first.table, other[0][0].table, other[0][1])) if other else first
 
 
 @dataclass(frozen=True)
@@ -69,13 +89,15 @@ class OwnSection:
 
     name: str
     deck: str
-    """C81 text: the user's deck, or one made from the user's polars."""
+    """C81 text: the user's deck, or one made from the user's polars; of several Reynolds numbers the middle one."""
     outline: str
     """Name of a bundled or NACA outline, or coordinates as text (Selig), one point a line."""
     source: str
     incidence_offset: float = 0.0
     """[rad], nose-down positive."""
     chord_ratio: float = 1.0
+    decks: tuple[tuple[float, str], ...] = ()
+    """All by Reynolds number, ascending; empty where `deck` holds at any."""
 
 
 def load_installed(name: str) -> Section:
@@ -94,7 +116,12 @@ def install_own(section: OwnSection) -> Section:
 
     Raises ValueError with one sentence that gives line and remedy for a deck or an outline that cannot be used.
     """
-    deck = on_run_time_grid(parse_c81(section.deck, section.name))
     outline = parse_contour(section.outline, section.name) if "\n" in section.outline else load_contour(section.outline)
-    table = table_from_deck(section.name, section.source, deck)
-    return Section(section.name, table, section.incidence_offset, section.chord_ratio, outline)
+
+    def with_deck(text: str) -> Section:
+        table = table_from_deck(section.name, section.source, on_run_time_grid(parse_c81(text, section.name)))
+        return Section(section.name, table, section.incidence_offset, section.chord_ratio, outline)
+
+    return replace(
+        with_deck(section.deck), of_reynolds=tuple((number, with_deck(text)) for number, text in section.decks)
+    )

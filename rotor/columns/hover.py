@@ -62,9 +62,8 @@ def closed_form_inflow(
 
 def lift_curve(problem: Problem) -> tuple[Array, Array]:
     """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
-    disk, blade = problem.disk, problem.design.rotor.blade
-    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
-    slopes, zeros = np.array([_straight_line(blade.installed(name), LIFT_CURVE_MACH) for name in names]).T
+    disk = problem.disk
+    slopes, zeros = np.array([_straight_line(item, LIFT_CURVE_MACH) for item in disk.sections]).T
     first, second = disk.section.T
     return (
         slopes[first] + disk.weight * (slopes[second] - slopes[first]),

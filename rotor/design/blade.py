@@ -173,6 +173,29 @@ class Blade:
         supplied = next((section for section in self.own_sections if section.name == name), None)
         return install_own(supplied) if supplied else load_installed(name)
 
+    @property
+    def follows_reynolds(self) -> bool:
+        """Whether a section has data of several Reynolds numbers."""
+        return any(section.decks for section in self.own_sections)
+
+    def reynolds(self, section: Section, r: ArrayLike, per_metre: float) -> Array:
+        """Reynolds number of a section's chord at Ωr, its mean around the azimuth at any advance ratio; r = y/R.
+
+        per_metre: ΩR over the kinematic viscosity [1/m]. The mean of U_T = Ω(r + µ sin ψ) leaves out reverse flow.
+        """
+        return per_metre * np.asarray(r, dtype=float) * self.chord(r) * section.chord_ratio
+
+    def mixture(self, r: float, per_metre: float) -> tuple[tuple[Section, float], ...]:
+        """Sections at r = y/R with their shares, each with the table of one Reynolds number; per_metre as above."""
+        inner, outer, weight = self.section_at(r)
+        parts = list[tuple[Section, float]]()
+        for name, share in ((inner, 1.0 - weight), (outer, weight)):
+            if share > 0.0:
+                section = self.installed(name)
+                at = section.at(float(self.reynolds(section, r, per_metre)))
+                parts += [(each, share * part) for each, part in at]
+        return tuple(parts)
+
     def section_at(self, r: float) -> tuple[str, str, float]:
         """Inner section, outer section and the weight of the outer one (0 within a span) at r = y/R."""
         for inner, outer in zip(self.spans, self.spans[1:], strict=False):

@@ -368,6 +368,11 @@ class Design:
         return ct
 
     @property
+    def reynolds_per_metre(self) -> float:
+        """ΩR over the kinematic viscosity [1/m]: Reynolds number of a chord of 1 m at the tip in hover."""
+        return self.rotor.tip_speed * self.condition.density / self.condition.viscosity
+
+    @property
     def tip_mach(self) -> float:
         """ΩR over the speed of sound."""
         stand = self.condition.stand

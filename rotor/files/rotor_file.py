@@ -39,6 +39,8 @@ LARGEST_FILE = 2_000_000
 """[bytes], of a rotor file or of a file it names; a deck has about 40 000."""
 MOST_SECTIONS = 12
 """Sections of its own that a blade may use: each takes some 0.1 s to build."""
+MOST_TABLES = 24
+"""Tables that they may have together, one for each Reynolds number: each takes some 10 MB."""
 MOST_NAMED = 40
 """Files that the sections in use may name."""
 _LONGEST, _LONGEST_LINE = 200_000, 20_000
@@ -105,7 +107,12 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         more = f" and {len(spare) - 1} more" if len(spare) > 1 else ""
         remarks.append(f"Section {shorten(spare[0])}{more} is left out: no span of the blade uses it.")
     with naming(main, texts[main]):
-        sections = tuple(read_section(table, name, texts, used, remarks) for name, table in file.sections.items())
+        sections = tuple[OwnSection, ...]()
+        for name, table in file.sections.items():
+            sections = (*sections, read_section(table, name, texts, used, remarks))
+            if sum(max(len(section.decks), 1) for section in sections) > MOST_TABLES:
+                says = f"the sections of the blade have polars of more than {MOST_TABLES} Reynolds numbers"
+                raise Refusal(f"{says}: keep fewer", "sections", name)
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
         if not (rotor.blade.rigid or file.main.weighed or file.main.flap_inertia_kg_m2):
             remarks.append(

@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Annotated
 
 import numpy as np
@@ -13,6 +13,7 @@ from rotor.airfoil.c81 import C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, USED_ALPHA_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, PolarSet, parse_polars
+from rotor.airfoil.reynolds import by_reynolds, same
 from rotor.airfoil.section_table import SectionTable
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
@@ -20,6 +21,7 @@ from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
 UNKNOWN_OUTLINE = "naca0012"
 """The outline drawn for a section without one."""
 THICKNESS = (0.02, 0.4)
+MOST_REYNOLDS = 12
 _LEAST_ALPHA_DEG = (-4.0, 8.0)
 """A polar must at least cover these."""
 _WIDEST_HOLE_DEG = 3.0
@@ -73,14 +75,15 @@ def read_section(
     key = "deck" if table.deck else "polars"
     contents = [_file(("sections", name, key), file, texts, used) for file in table.data]
     outline, thickness, shape = _outline(table, name, texts, used)
-    given, assumed = None, list[str]()
+    given, assumed, decks = None, list[str](), tuple[tuple[float, str], ...]()
     if key == "deck":
         deck = contents[0]
         given = parse_c81(deck, table.data[0])
         says = _deck_says(given)
     else:
         sets = [parse_polars(text, file) for file, text in zip(table.data, contents, strict=True)]
-        deck, says = _deck_of(name, sets, thickness)
+        decks, says = _decks_of(name, sets, thickness)
+        deck = decks[len(decks) // 2][1]
         assumed = [f"{file} {each}." for file, read in zip(table.data, sets, strict=True) for each in read.assumed]
     remarks += [f"Section {name}: {says}; {shape}.", *assumed]
     section = OwnSection(
@@ -90,6 +93,7 @@ def read_section(
         source=", ".join(table.data),
         incidence_offset=math.radians(table.incidence_offset_deg),
         chord_ratio=table.chord_ratio,
+        decks=decks if len(decks) > 1 else (),
     )
     try:
         installed = install_own(section)
@@ -155,33 +159,42 @@ def _off_its_knots(deck: C81Deck, table: SectionTable) -> str:
     )
 
 
-def _deck_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[str, str]:
-    """A C81 deck from polars, one per Mach number, and what was read."""
+def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[tuple[float, str], ...], str]:
+    """C81 decks from polars by Reynolds number, one where no Mach number has polars of several, and what was read."""
     at = ("sections", name, "polars")
     polars = sorted((polar for each in sets for polar in each.polars), key=lambda polar: polar.mach)
-    for polar, after in pairwise(polars):
-        if after.mach - polar.mach < 0.01:
-            # Several Reynolds numbers at one Mach number.
-            says = f"two polars of {name} have Mach {polar.mach:g}"
-            raise Refusal(f"{says}: keep one for each Mach number", *at)
+    for one, other in combinations(polars, 2):
+        if same(one, other):
+            says = f"two polars of {name} have Mach {one.mach:g}"
+            if one.reynolds and other.reynolds:
+                raise Refusal(f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at)
+            raise Refusal(f"{says} and no Reynolds numbers to tell them apart: keep one, or add a column reynolds", *at)
     for polar in polars:
         _check_range(name, polar, at)
-    machs = [polar.mach for polar in polars]
+    machs = list(dict.fromkeys(polar.mach for polar in polars))
     low = max(polar.alpha_deg[0] for polar in polars)
     high = min(polar.alpha_deg[-1] for polar in polars)
-    listed = ", ".join(f"{polar.mach:g} (Re {_millions(polar.reynolds)})" for polar in polars)
+    listed = ", ".join(f"{mach:g} (Re {_millions([p.reynolds for p in polars if p.mach == mach])})" for mach in machs)
     above = ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag" if machs[-1] < 0.99 else ""
     says = f"polars at Mach {listed} over {_range(low, high)}°{above}, a closed form beyond stall"
-    if machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
+    families = by_reynolds(polars)
+    if len(families) > MOST_REYNOLDS:
+        says = f"the polars of {name} have {len(families)} Reynolds numbers"
+        raise Refusal(f"{says}: keep {MOST_REYNOLDS}, each some 1.5 times that before", *at)
+    if len(families) > 1:
+        says += "; each blade element takes those of its Reynolds number Ωr c/ν, linear in its logarithm between two"
+    elif machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
         says += "; its polar is incompressible, so friction keeps its Reynolds number at every Mach"
     if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
         says += f"; used as given above Mach {NATIVE_MACH_LIMIT:g}, where XFOIL does not model shocks"
-    deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness).correct)
-    return format_c81(deck), says
+    correct = SectionTraits(thickness=thickness, fixed_reynolds=len(families) > 1).correct
+    title = name.upper()[:30]
+    return tuple((number, format_c81(assemble_deck(title, family, correct))) for number, family in families), says
 
 
-def _millions(reynolds: float | None) -> str:
-    return "not said" if reynolds is None else f"{reynolds / 1e6:.3g} million"
+def _millions(reynolds: list[float | None]) -> str:
+    known = [f"{number / 1e6:.3g}" for number in reynolds if number]
+    return f"{', '.join(known)} million" if known else "not said"
 
 
 def _check_range(name: str, polar: Polar, at: Place) -> None:

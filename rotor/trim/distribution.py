@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.problem import LOW_MACH, build_problem, on_azimuths
+from rotor.airfoil.sections import Section
 from rotor.arrays import Array, ShortRepr
 from rotor.design.design import Design
 from rotor.trim.solution import DiskFields, Solution
@@ -77,13 +78,12 @@ def distribution(solution: Solution) -> Distribution:
 
 def _moments(design: Design, flow: DiskFields) -> Array:
     """C_m by section data at the flow of a solution; NaN without data, 0 on elements that carry no load."""
-    problem, blade = on_azimuths(build_problem(design), len(flow.psi)), design.rotor.blade
-    moments = np.zeros_like(flow.alpha)
-    for i, r in enumerate(flow.r.tolist()):
-        *names, share = blade.section_at(r)
-        for name, weight in zip(names, (1.0 - share, share), strict=True):
-            if weight > 0.0:
-                moments[i] += weight * _moment(design, name, flow.alpha[i], flow.mach[i])
+    problem = on_azimuths(build_problem(design), len(flow.psi))
+    disk, moments = problem.disk, np.zeros_like(flow.alpha)
+    for which, shares in enumerate((1.0 - disk.weight, disk.weight)):
+        for i in np.flatnonzero(shares).tolist():
+            section = disk.sections[int(disk.section[i, which])]
+            moments[i] += shares[i] * _moment(design, section, flow.alpha[i], flow.mach[i])
     if flow.unsteady is not None:
         moments += flow.unsteady.moment
     if problem.unloaded is not None:
@@ -91,9 +91,8 @@ def _moments(design: Design, flow: DiskFields) -> Array:
     return moments
 
 
-def _moment(design: Design, name: str, alpha: Array, mach: Array) -> Array:
+def _moment(design: Design, section: Section, alpha: Array, mach: Array) -> Array:
     """C_m of one section of the blade at angles of attack about the blade's reference line, shape of alpha."""
-    section = design.rotor.blade.installed(name)
     at = mach if design.models.compressibility else np.full_like(mach, LOW_MACH)
     moment = section.table.moment(alpha - section.incidence_offset, at)
     return np.full_like(alpha, np.nan) if moment is None else moment

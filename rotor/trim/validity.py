@@ -108,7 +108,7 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
         said["small-aspect-ratio"] = (
             f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
-            "and Tung, of 6, a quarter to a half more than was measured in hover. Give the thrust instead."
+            "and Tung, of 6, a quarter to two thirds more than was measured in hover. Give the thrust instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
@@ -224,6 +224,8 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
             f"The inflow {design.models.inflow} balances the load at each point by itself, which sections that stall "
             "with lags do not allow: they are steady here."
         )
+    if held := _held_reynolds(trim):
+        said["reynolds-outside-data"] = held
     top_mach = float(fields.mach.max())
     if disk.fit_range is None:  # Tables, not polynomials of one Mach number.
         if top_mach > disk.mach_limit:
@@ -248,6 +250,27 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
             f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
         )
     return said
+
+
+def _held_reynolds(trim: Trimmed) -> str:
+    """Where the blade has Reynolds numbers beyond those of its section data; empty where it has none."""
+    design, r = trim.design, trim.problem.disk.r
+    blade, said = design.rotor.blade, list[str]()
+    for name in dict.fromkeys(span.section for span in blade.spans):
+        section = blade.installed(name)
+        if not section.of_reynolds:
+            continue
+        low, high = section.of_reynolds[0][0], section.of_reynolds[-1][0]
+        own = np.array([name in blade.section_at(at)[:2] for at in r.tolist()])
+        number = blade.reynolds(section, r, design.reynolds_per_metre)
+        for beyond, end in ((own & (number < low), low), (own & (number > high), high)):
+            if beyond.any():
+                there = f"{number[beyond].min():,.0f} to {number[beyond].max():,.0f}"
+                said.append(
+                    f"From {r[beyond][0]:.2f} to {r[beyond][-1]:.2f} R the Reynolds number is {there}; the data of "
+                    f"{name} at {end:,.0f} are used there."
+                )
+    return " ".join(said)
 
 
 def _beyond_stops(trim: Trimmed) -> list[str]:

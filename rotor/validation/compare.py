@@ -9,6 +9,8 @@ from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any, Literal, cast
 
+import numpy as np
+
 from rotor.assets import asset_path
 from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.aircraft import Stand
@@ -22,19 +24,23 @@ from rotor.validation.trust import TrustRow, TrustSet
 
 _XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
 _CASTLES_GRAY = ("castles-gray", "castles-gray-twisted", "castles-gray-twist-effect")
-SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CASTLES_GRAY, "uh60a-hover")
+_CARADONNA_TUNG = ("caradonna-tung-lift", "caradonna-tung")
+SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CARADONNA_TUNG, *_CASTLES_GRAY, "uh60a-hover")
 """Names of the sets, in the order in which they are shown."""
 FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
 LABELS = {
     "mu": "Advance ratio µ",
+    "r": "r/R",
     "ct": "C_T",
     "ct_over_sigma": "C_T/σ",
+    "cl": "Section C_l",
     "cp": "C_P",
     "cq_over_sigma": "C_Q/σ",
     "cp_drag": "C_P of the rotor's drag",
     "cq_above_zero": "C_Q above its zero",
     "change_percent": "Change of C_Q [%]",
+    "collective_deg": "Collective [°]",
     "shaft_tilt_deg": "Shaft tilt [°]",
     "tip_mach": "Tip Mach number",
 }
@@ -107,8 +113,12 @@ class MeasuredSet:
 
 
 def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
-    """The sets of a shipped rotor by its name, for example `xv15`; none for a rotor that was not measured."""
-    return tuple(measured for measured in map(load_set, SETS) if measured.rotor == rotor)
+    """The sets of a shipped rotor by its name, for example `xv15`; none for a rotor that was not measured.
+
+    Without those whose points are places on the blade in one condition.
+    """
+    sets = (measured for measured in map(load_set, SETS) if measured.rotor == rotor)
+    return tuple(measured for measured in sets if "r" not in measured.given)
 
 
 @cache
@@ -238,7 +248,7 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     wanted, judged = targets[measured.quantity], measured.is_judged(point)
     if not solution.converged:
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
-    ours = {name: quantity_of(name, solution, measured) for name in targets}
+    ours = {name: quantity_of(name, solution, measured, given.get("r", math.nan)) for name in targets}
     value = ours[measured.quantity]
     error, within = 100.0 * (value / wanted - 1.0), abs(value - wanted) <= measured.scatter_of(wanted)
     passed = not judged or measured.allows(wanted, value)
@@ -335,9 +345,11 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:
     """The test of one point, with the blade and models of `base`; else the rotor as built with those of `flight`."""
     stand = {key: point[key] for key in ("shaft_tilt_deg", "ct_over_sigma", "tip_mach") if key in point}
+    if "collective_deg" in measured.given:
+        stand["collective_deg"] = point["collective_deg"]
     if measured.trim != "free-rotor" and "shaft_tilt_deg" not in measured.given:
         stand.pop("shaft_tilt_deg", None)
-    if "ct" in point:
+    if "ct" in measured.given:
         stand["ct_over_sigma"] = point["ct"] / shipped_aircraft(measured.rotor).rotor.solidity
     design = make_design(rotor=measured.rotor, mu=point.get("mu", 0.0), trim=measured.trim, stand=stand)
     if base is None:
@@ -346,10 +358,14 @@ def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | Non
     return replace(base, condition=replace(design.condition, mass=base.condition.mass), models=models)
 
 
-def quantity_of(name: str, solution: Solution, measured: MeasuredSet) -> float:
-    """One of our quantities under the name of a measured one, for a solution of the set's rotor."""
+def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float = math.nan) -> float:
+    """One of our quantities under the name of a measured one, for a solution of the set's rotor; r: of a section."""
     design = solution.design
     match name:
+        case "ct":
+            return solution.ct
+        case "cl":
+            return float(np.interp(r, solution.disk.r, solution.disk.cl[:, 0]))
         case "cp":
             return solution.cp
         case "cq_over_sigma":

@@ -201,7 +201,7 @@ class TestDrawing:
         assert len(shape) == 61  # The outline is the first polygon.
         nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
         pitch = math.atan2(tail[1] - nose[1], tail[0] - nose[0])
-        assert pitch == pytest.approx(p.theta - p.section.installed()[0][0].incidence_offset, abs=math.radians(0.5))
+        assert pitch == pytest.approx(p.theta - p.section.parts[0][0].incidence_offset, abs=math.radians(0.5))
         reach = math.dist(nose, tail)
         assert reach == pytest.approx(100.0, rel=0.02)
 

@@ -190,7 +190,7 @@ class TestRanges:
                     seen = np.quantile(values, (0.02, 0.98))
                     case = field.title, mu, low, high, seen
                     hair = 1e-3 * (high - low)  # Where nothing is stalled the vortex is zero to some digits.
-                    assert np.mean((values < low - hair) | (values > high)) < 0.12, case
+                    assert np.mean((values < low - hair) | (values > high)) < 0.13, case
                     assert field.two_sided or field.needs == "unsteady" or seen[1] - seen[0] > 0.18 * (high - low), case
 
 

@@ -19,6 +19,7 @@ SHORT = {
     "pca2": "PCA-2 autogiro",
     "knight-hefner-3": "Knight–Hefner, three blades",
     "knight-hefner-4": "four",
+    "caradonna-tung-lift": "Caradonna–Tung, section C_l",
     "hart2-airloads": "HART II airloads, correlation",
     "gazelle-airloads": "Gazelle airloads, correlation",
     "flown-power": "Gazelle power, shape",

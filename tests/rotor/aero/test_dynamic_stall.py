@@ -67,7 +67,7 @@ def test_separation_reaches_leishman_and_beddoes_0_7_near_static_stall():
 
 
 PSI = 2.0 * np.pi * np.arange(24) / 24
-RETREATING = np.radians(10.0 - 8.0 * np.sin(PSI)), 0.463 + 0.203 * np.sin(PSI)
+RETREATING = np.radians(10.5 - 8.0 * np.sin(PSI)), 0.463 + 0.203 * np.sin(PSI)
 
 
 @pytest.mark.parametrize("degrees", [-12.0, 0.0, 8.0, 14.0, 20.0])

@@ -51,10 +51,10 @@ def test_drag_level_is_between_the_tunnel_and_the_deck() -> None:
 
 
 def test_lift_slope_is_that_of_the_trusted_tunnels() -> None:
-    """McCroskey, NASA TM-100019: 0.1025 + 0.00485 log10(Re/10⁶) per degree over √(1 − M²), Re 12.27 million × Mach."""
-    for name in ("sc1095", "sc1094r8"):
+    """McCroskey, NASA TM-100019: 0.1025 + 0.00485 log10(Re/10⁶) per degree over √(1 − M²), Re in millions × Mach."""
+    for name, reynolds in (("sc1095", 12.27), ("sc1094r8", 12.27), ("naca0012", 10.80), ("naca63a015", 4.40)):
         for mach in (0.3, 0.4, 0.5, 0.6):
-            by_hand = (0.1025 + 0.00485 * np.log10(12.27 * mach)) / np.sqrt(1.0 - mach**2)
+            by_hand = (0.1025 + 0.00485 * np.log10(reynolds * mach)) / np.sqrt(1.0 - mach**2)
             assert_allclose(np.deg2rad(load_section(name).lift_slope(mach)), by_hand, rtol=0.02)
 
 
@@ -89,7 +89,7 @@ def test_beyond_stall_it_agrees_with_the_measured_naca_0012(name: str) -> None:
 
 # Indicative: a public NACA 0012 table in C81 layout, (Mach, cl(2), cl(4), largest cl, cd(0), cd(4)). The cap on cl and
 # Korn's factor were chosen for least error against it at M 0.4-0.8, so there agreement is calibration; below M 0.4 and
-# in the slope nothing was fitted.
+# in the slope, which is McCroskey's, nothing was fitted.
 @pytest.mark.parametrize(
     ("mach", "cl2", "cl4", "cl_max", "cd0", "cd4"),
     [
@@ -106,11 +106,10 @@ def test_naca_0012_is_close_to_the_public_table(
 ) -> None:
     table = load_section("naca0012")
     at = table(np.deg2rad([0.0, 2.0, 4.0]), mach)
-    assert_allclose(at.cl, [0.0, cl2, cl4], rtol=0.13, atol=0.005)  # XFOIL's slope is 8-11 % above the table's
-    assert_allclose(
-        table(np.deg2rad(np.arange(0.0, 15.0, 0.25)), mach).cl.max(), cl_max, rtol=0.21
-    )  # XFOIL stalls late
-    assert_allclose(at.cd[[0, 2]], [cd0, cd4], rtol=0.25, atol=0.0065 if mach == 0.8 else 0.0)
+    # Above Mach 0.75 the slope grows no more, in the table it does up to 0.8 at 2 deg; at 0.7 its drag rises earlier.
+    assert_allclose(at.cl, [0.0, cl2, cl4], rtol={0.7: 0.05, 0.8: 0.2}.get(mach, 0.025), atol=0.005)
+    assert_allclose(table(np.deg2rad(np.arange(0.0, 15.0, 0.25)), mach).cl.max(), cl_max, rtol=0.13)
+    assert_allclose(at.cd[[0, 2]], [cd0, cd4], rtol=0.27, atol=0.0065 if mach == 0.8 else 0.0)
 
 
 def test_symmetric_sections_are_as_symmetric_as_xfoil() -> None:

@@ -15,7 +15,7 @@ from rotor.airfoil.decks import BLEND_END_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import PolarSet
 from rotor.arrays import Array
 from rotor.user_input import did_you_mean
-from tests.tools.sections.tunnel import TunnelTraits
+from tests.tools.sections.tunnel import MeasuredSlope, TunnelTraits
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, run_polar
 
 TRIP = 0.05  # Transition at 5 % chord, both sides: free transition gives 16-35 % too little drag.
@@ -31,7 +31,7 @@ class Recipe:
 
     title: str
     reynolds_per_mach: float
-    traits: SectionTraits | TunnelTraits
+    traits: SectionTraits | TunnelTraits | MeasuredSlope
     machs: tuple[float, ...] = NATIVE_MACHS
     """Mach numbers of its polars."""
     polars: Literal["trip5", "measured"] = "trip5"
@@ -95,9 +95,9 @@ RECIPES = {
         ),
     ),
     # The S-61's chord, 0.464 m.
-    "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, _textbook(0.12)),
+    "naca0012": Recipe("NACA0012 XFOIL TUNNEL SLOPE", 10.80e6, MeasuredSlope(_textbook(0.12), 10.80e6)),
     # The R22's chord, 0.189 m. No public table with Mach was found.
-    "naca63a015": Recipe("NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, _textbook(0.15)),
+    "naca63a015": Recipe("NACA63A015 XFOIL TUNNEL SLOPE", 4.40e6, MeasuredSlope(_textbook(0.15), 4.40e6)),
     # The XV-15's chord, 0.356 m, root to tip; no table was read off.
     "naca64208": Recipe("NACA64-208 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.08)),
     "naca64118": Recipe("NACA64-118 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.18)),
