@@ -34,7 +34,7 @@ def part_titles(*designs: Design) -> dict[str, str]:
     if all(tested):
         return _ON_A_STAND
     titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
-    if not any(design.condition.climb_speed for design in designs):
+    if not any(design.vertical_speed for design in designs):
         return titles
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 

@@ -148,7 +148,7 @@ def report(solution: Solution) -> str:
             "induced": power.induced,
             "profile": power.profile,
             "parasite": power.parasite,
-            **({"climb": power.climb} if design.condition.climb_speed else {}),
+            **({"climb": power.climb} if design.vertical_speed else {}),
             "tail rotor": power.tail,
         }
         if design.condition.stand is not None:

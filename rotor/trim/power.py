@@ -102,8 +102,8 @@ def outside_power(problem: Problem) -> tuple[float, float]:
         return 0.0, 0.0
     watts, weight = design.power_unit, design.weight_coefficient / design.condition.load_factor
     pressed = problem.weight - weight  # In a turn n W too, of which `drag_parts` has taken away its part of the path.
-    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
-    return parasite, weight * problem.climb * watts
+    parasite = (problem.drag * design.condition.advance_ratio + pressed * design.vertical_ratio) * watts
+    return parasite, weight * design.vertical_ratio * watts
 
 
 def _around(array: Array, other: Array) -> Array:

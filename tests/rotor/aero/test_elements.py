@@ -127,7 +127,7 @@ def test_loss_average_over_azimuth_is_settled():
     wake, psi = elements_of(p, point).flow, 2.0 * np.pi * np.arange(360) / 360
     model, rotor = INFLOW_MODELS["pitt-peters"], p.design.rotor
     assert isinstance(model, LinearInflow)
-    field = model.field(p.disk.r, np.cos(psi), np.sin(psi), wake)[0]
+    field = model.field(p.disk.r, psi, wake)[0]
     factor, _ = loss_factor(p.disk.r[:, None], wake.mu_z + field, rotor.blades, rotor.blade.root_cutout)
     assert_allclose(point.channels[LOSS, :, 0], factor.mean(axis=1), atol=1e-4)
 

@@ -46,7 +46,7 @@ def test_ideal_rotor_follows_momentum_theory(climb: float):
             swirl=False, elastic_twist=False, swept_tip=False, compressibility=False,
         )  # fmt: skip
         blade = at.rotor.blade.root_cutout
-        ct, total = at.weight_coefficient / (1.0 - blade**2), at.climb_ratio
+        ct, total = at.weight_coefficient / (1.0 - blade**2), at.vertical_ratio
         slope = float(np.mean(lift_curve(build_problem(at))[0]))
         tip = ideal_tip_pitch(ct, at.rotor.solidity, slope) - math.sqrt(0.5 * ct) + axial_inflow(ct, total) + total
         found = solve(at.with_twist(IdealTwist(tip))).require()
@@ -87,7 +87,7 @@ def test_closed_form_is_eq_2_28(climb: float):
     factor, _ = loss_factor(problem.disk.r, found.disk.inflow[:, 0], 4, problem.disk.root)
     expected = closed_form_inflow(
         problem.disk.r, found.disk.theta[:, 0] - zero, 2.0 * problem.disk.half_solidity * slope, 1.0, factor=factor,
-        climb=problem.climb,
+        climb=problem.design.vertical_ratio,
     )  # fmt: skip
     lifting = found.disk.induced[:, 0] > 0.0
     assert lifting.sum() > 20
@@ -135,8 +135,8 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
     """
     flown = solve(design(0.2, climb), None, TIGHT).require()
     at, tilt = flown.design, flown.controls.shaft_tilt
-    along = 0.2 * math.cos(tilt) - at.climb_ratio * math.sin(tilt)
-    through = 0.2 * math.sin(tilt) + at.climb_ratio * math.cos(tilt)
+    along = 0.2 * math.cos(tilt) - at.vertical_ratio * math.sin(tilt)
+    through = 0.2 * math.sin(tilt) + at.vertical_ratio * math.cos(tilt)
     stand = {"shaft_tilt_deg": math.degrees(math.atan2(through, along)), "ct_over_sigma": flown.ct_over_sigma}
     found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), flown, TIGHT).require()
     assert_allclose(found.power.shaft, flown.power.shaft, rtol=1e-7)
@@ -160,7 +160,7 @@ def test_autorotation():
     power = flown.power
     assert_allclose(-power.climb, power.induced + power.profile + power.parasite, rtol=1e-6)
     flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
-    along = math.hypot(0.17, flown.design.climb_ratio)
+    along = math.hypot(0.17, flown.design.vertical_ratio)
     free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
     assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=2e-3)
     beyond = solve(design(0.17, rate - 1.0)).require()
