@@ -50,16 +50,16 @@ class HarmonicInflow(InflowModel):
         at, step = np.array([flow.mu_x, flow.mu_z, flow.lambda0]), _STEP * flow.speed
 
         def of_mean(point: Array) -> Array:
-            gains: Array = np.array(self.gains(DiskFlow(*point.tolist())), dtype=np.float64)
-            return float(point[2]) * gains
+            k: Array = np.array(self.gains(DiskFlow(*point.tolist())), dtype=np.float64)
+            return k * float(point[2])
 
-        ends = [(of_mean(at + way), of_mean(at - way)) for way in step * np.eye(3)]
-        return np.stack([of_mean(at), *((high - low) / (2.0 * step) for high, low in ends)], axis=1)
+        slopes: list[Array] = [(of_mean(at + way) - of_mean(at - way)) / (2.0 * step) for way in step * np.eye(3)]
+        return np.stack([of_mean(at), *slopes], axis=1)
 
     def field(self, r: Array, psi: Array, flow: DiskFlow) -> Array:
         """λ_i at radii (n,) and azimuths (m,), and its slopes by (µ_x, µ_z, λ0), (4, n, m)."""
         along, waves = self.along(r), waves_at(1 + 2 * max(harmonic_of(wave) for wave, _ in self.columns), psi)
-        shapes = np.stack([np.outer(along[name], waves[wave]) for wave, name in self.columns])
+        shapes = np.stack([along[name][:, None] * waves[wave] for wave, name in self.columns])
         out = np.tensordot(self.strengths(flow), shapes, (0, 0))
         out[0] += flow.lambda0
         out[3] += 1.0
