@@ -102,6 +102,12 @@ def test_unknown_model_is_one_sentence():
         inflow_model("drela")
 
 
+def test_a_lifting_line_of_too_many_points_is_one_sentence():
+    assert make_design(inflow="uniform", elements=100, azimuths=100).models.panels == 100
+    with pytest.raises(ValueError, match="100 elements at 100 azimuths has more than 6000 points"):
+        make_design(elements=100, azimuths=100)
+
+
 def test_a_trim_has_the_first_harmonics_of_its_model():
     """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29)."""
     solution = solve(make_design(mu=0.2, inflow="drees"))
