@@ -20,6 +20,7 @@ from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
+from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
@@ -124,7 +125,7 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     r, data, arm = disk.r[:, None], problem.section_data(), disk.r - flap.hinge
     spread = np.ones_like(r)
     if problem.design.models.loss_on == "inflow":  # λ_i/F, with F averaged over azimuth.
-        around = azimuths_of(24)
+        around = waves_at(3, azimuths_of(24))
         total = flow.mu_z + model.field(disk.r, around, at_disk)[0]
         spread = 1.0 / loss_factor(r, total, disk.blades, disk.root)[0].mean(axis=1, keepdims=True)
 
@@ -137,7 +138,7 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
             flow.mu_x * cos,
             loss,
         )
-        channels[UP] = spread * model.field(disk.r, np.array([psi]), at_disk)[0] + arm[:, None] * motion[1]
+        channels[UP] = spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0] + arm[:, None] * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
         return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]

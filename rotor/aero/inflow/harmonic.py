@@ -56,9 +56,9 @@ class HarmonicInflow(InflowModel):
         slopes: list[Array] = [(of_mean(at + way) - of_mean(at - way)) / (2.0 * step) for way in step * np.eye(3)]
         return np.stack([of_mean(at), *slopes], axis=1)
 
-    def field(self, r: Array, psi: Array, flow: DiskFlow) -> Array:
-        """λ_i at radii (n,) and azimuths (m,), and its slopes by (µ_x, µ_z, λ0), (4, n, m)."""
-        along, waves = self.along(r), waves_at(1 + 2 * max(harmonic_of(wave) for wave, _ in self.columns), psi)
+    def field(self, r: Array, waves: Array, flow: DiskFlow) -> Array:
+        """λ_i at radii (n,) and azimuths of `waves`, (w, m), and its slopes by (µ_x, µ_z, λ0): (4, n, m)."""
+        along = self.along(r)
         shapes = np.stack([along[name][:, None] * waves[wave] for wave, name in self.columns])
         out = np.tensordot(self.strengths(flow), shapes, (0, 0))
         out[0] += flow.lambda0
@@ -81,6 +81,8 @@ class HarmonicTerms(InflowTerms):
         self._waves = [
             (wave, ("inflow", "along", name), f"lambda0 k{j}") for j, (wave, name) in enumerate(model.columns)
         ]
+        highest = max(harmonic_of(wave) for wave, _ in model.columns)
+        self._around = waves_at(1 + 2 * highest, azimuths_of(LOSS_AZIMUTHS))
         self.key = "harmonics", losses.on, tuple(self._waves)
         self.names, self.live = tuple(self._along), ((LOSS, "loss"),)
         if self._over:
@@ -122,7 +124,7 @@ class HarmonicTerms(InflowTerms):
         disk, (tip, hub, _, spacing) = self._disk, self._losses
         if not (tip or hub):
             return np.ones_like(disk.r), np.zeros((3, len(disk.r)))
-        field = self._model.field(disk.r, azimuths_of(LOSS_AZIMUTHS), flow)
+        field = self._model.field(disk.r, self._around, flow)
         factors = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (spacing * disk.blades, disk.root), tip, hub)
         if sees_tilt:
             factors[3] += factors[1]  # λ by µ_z itself.

@@ -14,6 +14,7 @@ from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
+from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -62,7 +63,7 @@ def test_the_mass_flow_in_hover_at_speed_and_without_flow():
 @pytest.mark.parametrize("wake", WAKES)
 def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
     def field(at: Array) -> Array:
-        return LINEAR[name].field(R, PSI, DiskFlow(*at.tolist()))
+        return LINEAR[name].field(R, waves_at(3, PSI), DiskFlow(*at.tolist()))
 
     base = np.array([wake.mu_x, wake.mu_z, wake.lambda0])
     assert_allclose(field(base)[0].mean(axis=1), wake.lambda0, rtol=1e-13)
@@ -73,7 +74,7 @@ def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
 
 def gradient(name: str, wake: DiskFlow) -> tuple[float, float]:
     """(k_x, k_y) read off the field at the disk edge over the tail, ψ = 0, and at ψ = 90°."""
-    field = LINEAR[name].field(np.array([1.0]), np.array([0.0, 0.5 * math.pi]), wake)[0]
+    field = LINEAR[name].field(np.array([1.0]), waves_at(3, np.array([0.0, 0.5 * math.pi])), wake)[0]
     return field[0, 0] / wake.lambda0 - 1.0, field[0, 1] / wake.lambda0 - 1.0
 
 
