@@ -145,9 +145,9 @@ def trim_along(
 
 def linear_problem(design: Design) -> Problem:
     """The design with the inflow along which its wake lies, and steady sections."""
-    along = inflow_model(design.models.inflow).wake_along
-    assert along is not None
-    models = replace(design.models, inflow=along, dynamic_stall=False, unsteady=False)
+    linear = inflow_model(design.models.inflow).wake_along
+    assert linear is not None
+    models = replace(design.models, inflow=linear, dynamic_stall=False, unsteady=False)
     return build_problem(replace(design, models=models))
 
 
