@@ -105,35 +105,24 @@ def _white_blake(flow: DiskFlow) -> Gradient:
 
 MODELS = (
     LinearInflow(
-        "uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, in_index_band=True
+        "uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, in_index_band=True,
     ),
     LinearInflow(
-        "coleman",
-        "Coleman",
-        "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
+        "coleman", "Coleman", "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
         scaled_half_skew(1.0),
     ),
     LinearInflow(
-        "drees",
-        "Drees",
-        "kx = 4/3 (1 − cos χ − 1.8µ²)/sin χ and a lateral ky = −2µ (1949).",
-        _drees_longitudinal,
-        _drees_lateral,
-        in_index_band=True,
+        "drees", "Drees", "kx = 4/3 (1 − cos χ − 1.8µ²)/sin χ and a lateral ky = −2µ (1949).",
+        _drees_longitudinal, _drees_lateral, in_index_band=True,
     ),
     LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake),
     LinearInflow(
-        "pitt-peters",
-        "Pitt–Peters (15π/32)",
-        "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
-        scaled_half_skew(15.0 * math.pi / 32.0),
-        usual=True,
-        in_index_band=True,
+        "pitt-peters", "Pitt–Peters (15π/32)", "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
+        scaled_half_skew(15.0 * math.pi / 32.0), usual=True, in_index_band=True,
     ),
     LinearInflow(
-        "pitt-peters-15pi/23",
-        "Pitt–Peters (15π/23 as printed)",
+        "pitt-peters-15pi/23", "Pitt–Peters (15π/23 as printed)",
         "kx = 15π/23 tan(χ/2), eq. (2.32) as the document prints it; closer to measured gradients.",
         scaled_half_skew(15.0 * math.pi / 23.0),
     ),
-)
+)  # fmt: skip
