@@ -177,7 +177,7 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
     installed = design.aircraft.installed_power
     if installed is not None and math.isfinite(top := top_speed(mus, curve.design, installed / KILOWATT.size)):
         walls.append((top, "engines"))
-    if design.condition.climb_speed == 0.0:
+    if design.vertical_speed == 0.0:
         fine = np.linspace(max(float(x[0]), 0.02), float(x[-1]), 800)
         total = CubicSpline(x, power)(fine)
         for word, cost in (("endurance", total), ("range", total / fine)):

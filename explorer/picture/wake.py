@@ -70,9 +70,7 @@ def tip_vortex_path(solution: Solution) -> TipVortexPath:
     if solution.wake_course is not None:
         return _path_on(solution.wake_course, age)
     disk, controls, design = solution.disk, solution.controls, solution.design
-    mu, climb = design.condition.advance_ratio, design.climb_ratio
-    cos, sin = math.cos(controls.shaft_tilt), math.sin(controls.shaft_tilt)
-    along, axial = mu * cos - climb * sin, mu * sin + climb * cos
+    along, axial = design.in_disk_axes(controls.shaft_tilt)
     down = axial + controls.lambda0
     narrowing = abs(down) / max(math.hypot(along, down), 1e-9) * _CONTRACTION
     radius = 1.0 - narrowing * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))

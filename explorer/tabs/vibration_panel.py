@@ -20,7 +20,7 @@ from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.chart import Chart
 from rotor.trim import HubLoads, why_no_hub_loads
-from rotor.trim.hub_loads import BAND
+from rotor.trim.hub_loads import band_inflows
 
 _NOTICEABLE = 0.5
 """Changes of the index below this [% of itself] have no colour."""
@@ -175,7 +175,7 @@ def _title(loads: HubLoads) -> str:
         f"{name[0].upper()}{name[1]} {number(value / 1e3, 2)} {'kN' if name[0] == 'f' else 'kN m'}"
         for name, value in loads.amplitudes.items()
     )
-    wakes = ", ".join(INFLOW_MODELS[name].title for name in BAND)
+    wakes = ", ".join(INFLOW_MODELS[name].title for name in band_inflows())
     return (
         f"Vibration index: √((0.5 Fx)² + (0.67 Fy)² + Fz²)/W + √(Mx² + My²)/(R W), amplitudes on the hub at "
         f"{loads.per_rev}/rev: {values}. Weights of the forces: 0.5 aft, 0.67 to starboard, 1 vertical. "

@@ -33,7 +33,7 @@ def part_titles(*designs: Design) -> dict[str, str]:
     tested = [design.condition.stand is not None for design in designs]
     titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
     titles = _ON_A_STAND if all(tested) else titles
-    if not any(design.condition.climb_speed for design in designs):
+    if not any(design.vertical_speed for design in designs):
         return titles
     titles = {**titles, "climb": "Climb"}
     return {name: titles[name] for name in PARTS if name in titles}

@@ -27,7 +27,7 @@ from rotor.design import Harmonic
 from rotor.markup import tag
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim import why_no_hub_loads
-from rotor.trim.hub_loads import BAND
+from rotor.trim.hub_loads import band_inflows
 
 _REACH = 1.5
 """Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
@@ -52,7 +52,7 @@ def _asked(now: Now) -> tuple[Call, ...]:
     losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
     reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH
     both, calls = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
-    for inflow in dict.fromkeys((pair[0].models.inflow, *BAND)):
+    for inflow in dict.fromkeys((pair[0].models.inflow, *band_inflows())):
         flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
         calls.append(Call(dial_answer, (flown, still, losses, 0.0 if calls else reach)))
     return tuple(calls)

@@ -14,7 +14,7 @@ from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
 from rotor.optimisation.doubt import mean_doubt
-from rotor.trim.hub_loads import BAND, hub_index, why_no_hub_loads
+from rotor.trim.hub_loads import band_inflows, hub_index, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 
@@ -43,7 +43,7 @@ def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
 class EffectInFlight:
     """What an actuator changes in one flight, against another blade there.
 
-    By inflow model that trims: the design's own first, then those of `hub_loads.BAND`.
+    By inflow model that trims: the design's own first, then those of `hub_loads.band_inflows`.
     """
 
     power: tuple[float, ...]
@@ -62,7 +62,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     """
     power, index, doubt = list[float](), list[float](), None
     shaken = design.models.bending and why_no_hub_loads(design) is None
-    for inflow in dict.fromkeys((design.models.inflow, *BAND)):
+    for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
         flown = replace(design, models=replace(design.models, inflow=inflow))
         trims = analyse(flown), analyse(replace(reference, models=flown.models))
         one, other = (trim.solution for trim in trims)

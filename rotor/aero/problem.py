@@ -56,8 +56,6 @@ class Problem:
     """What residuals are measured by: C_W, and on a test stand C_T, at least 0.02 σ."""
     drag: float
     """Horizontal part of the fuselage drag over ρA(ΩR)²."""
-    climb: float
-    """V_c/(ΩR)"""
     inflow: InflowModel
     friction: float
     """c_f for the flow along the blade; 0 where it is left out."""
@@ -163,8 +161,6 @@ def build_problem(design: Design) -> Problem:
     check_azimuths(design)
     drag, down = design.drag_parts
     inflow = inflow_model(models.inflow)
-    if not models.tip_loss:
-        inflow = inflow.without_tip_loss()
     only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
     elements, azimuths = grid_of(design)
     shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
@@ -199,7 +195,6 @@ def build_problem(design: Design) -> Problem:
         weight=weight,
         scale=weight if condition.stand is None else max(weight, 0.02 * rotor.solidity),
         drag=drag,
-        climb=design.climb_ratio,
         inflow=inflow,
         expected=flow,
         course=expected_course(design, flow, flap),
@@ -291,7 +286,7 @@ def expected_flow(design: Design) -> DiskFlow:
         if stand.shaft_tilt is None and design.models.trim == "free-rotor":
             profile = design.rotor.solidity * FREE_ROTOR_DRAG / 8.0 * (1.0 + 4.65 * mu**2)
             tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
-    mu_x, mu_z = in_disk_axes(mu, design.climb_ratio, tilt)
+    mu_x, mu_z = design.in_disk_axes(tilt)
     return DiskFlow(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
 
 
@@ -305,12 +300,6 @@ def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeC
     core = tip_core(chord, thrust, rotor.blades, reynolds)
     flapping = {"coning": coning, "flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
     return WakeCourse(flow.mu_x, flow.mu_z, flow.lambda0, **flapping, core=core)
-
-
-def in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:
-    """Flight velocity along the disk and through it: µ cos α − µ_c sin α, µ sin α + µ_c cos α with µ_c = V_c/ΩR."""
-    cos, sin = math.cos(tilt), math.sin(tilt)
-    return mu * cos - climb * sin, mu * sin + climb * cos
 
 
 def skin_friction(reynolds: float) -> float:

@@ -50,7 +50,7 @@ def no_effect(design: Design, name: str) -> str:
             return "this inflow balances each point by itself, without lags"
         case "fuselage" if design.flight_speed == 0.0:
             return "no drag in hover"
-        case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
+        case "tip_loss" if not hovering and inflow.keeps_tips:
             return "tip loss is part of this wake"
         case "hub_loss" if not hovering and inflow.load_dependent:
             return "root loss is part of this wake"

@@ -18,7 +18,7 @@ import numpy as np
 from rotor.aero.bent_section import SLOPES
 from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState, section_fields
 from rotor.aero.inflow.interface import DiskFlow, InflowTerms
-from rotor.aero.problem import Problem, in_disk_axes, swirl_of
+from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import FZ, LOSS, RATE, TH, UP, UR, UT, M
 from rotor.aero.unsteady_section import DTH, RATES
 from rotor.arrays import Array
@@ -225,15 +225,15 @@ class _Flow:
     """Made atoms and live shapes of a flight."""
 
     def __init__(self, problem: Problem, structure: Structure, terms: InflowTerms) -> None:
-        condition, models = problem.design.condition, problem.design.models
-        self._mu, self._climb, self._sees_tilt = condition.advance_ratio, problem.climb, models.disk_axial_flow
+        self._design, models = problem.design, problem.design.models
+        self._mu, self._sees_tilt = self._design.condition.advance_ratio, models.disk_axial_flow
         self._swirls, self._r, self._terms = models.has("swirl"), problem.disk.r, terms
         self._tilt, self._lambda0 = structure.roots
         self._atoms = {name: k for k, name in enumerate(structure.derived)}
 
     def at_disk(self, x: Array) -> DiskFlow:
         """The flow of momentum theory, in axes of the shaft."""
-        return DiskFlow(*in_disk_axes(self._mu, self._climb, float(x[self._tilt])), float(x[self._lambda0]))
+        return DiskFlow(*self._design.in_disk_axes(float(x[self._tilt])), float(x[self._lambda0]))
 
     def flow(self, x: Array) -> DiskFlow:
         """The flow as the blade elements see it."""

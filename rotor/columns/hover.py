@@ -228,11 +228,11 @@ def hover_system(problem: Problem) -> System:
             0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
         ]
     )
-    slope, zero = lift_curve(problem) if closed else (none, none)
+    (slope, zero), climb = lift_curve(problem) if closed else (none, none), problem.design.vertical_ratio
     data = AnnulusData(
-        Annuli(r=disk.r, climb=problem.climb, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
+        Annuli(r=disk.r, climb=climb, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
         section=problem.section_data(len(disk.psi)),
-        start=np.full_like(disk.r, axial_inflow(problem.scale, problem.climb)),
+        start=np.full_like(disk.r, axial_inflow(problem.scale, climb)),
     )
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
@@ -248,7 +248,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     channels, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     collective, coning = (float(point.x[states[name]]) for name in ("collective", "coning"))
-    lambda0 = axial_inflow(float(disk.dr @ f[FZ, :, 0]), problem.climb)
+    lambda0 = axial_inflow(float(disk.dr @ f[FZ, :, 0]), problem.design.vertical_ratio)
     everywhere = partial(over_azimuths, azimuths=azimuths)
     twist = None
     if torsion is not None:
@@ -257,7 +257,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
         twist = TwistState(coordinates, everywhere(torsion.radial.T @ coordinates[:, 0]), everywhere(f[M, :, 0]))
     return BladeElements(
         state=TrimState(collective=collective, coning=coning, lambda0=lambda0),
-        flow=DiskFlow(0.0, problem.climb, lambda0),
+        flow=DiskFlow(0.0, problem.design.vertical_ratio, lambda0),
         theta=everywhere(channels[TH]),
         u_t=everywhere(channels[UT]),
         u_p=everywhere(channels[UP]),

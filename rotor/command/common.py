@@ -46,7 +46,6 @@ def add_command(commands: Any, name: str, run: Run, description: str = "") -> ar
 
 _FLAGS = {name: row for name, row in ARGUMENTS.items() if name not in ("models", "stand")}
 """Arguments of `make_design` that have one flag."""
-_INFLOWS = (*INFLOW_MODELS, *HOVER_INFLOWS)
 
 
 def add_design_arguments(
@@ -72,7 +71,7 @@ def add_design_arguments(
 
 def _how(row: Quantity) -> dict[str, Any]:
     """How argparse reads its flag, and what it says of it."""
-    choices = _INFLOWS if row.name == "inflow" else row.choices
+    choices = (*INFLOW_MODELS, *HOVER_INFLOWS) if row.name == "inflow" else row.choices
     match row.kind:
         case "switch":
             return {"help": row.help, "action": "store_true"}

@@ -150,7 +150,7 @@ def report(solution: Solution) -> str:
             "induced": power.induced,
             "profile": power.profile,
             "parasite": power.parasite,
-            **({"climb": power.climb} if design.condition.climb_speed else {}),
+            **({"climb": power.climb} if design.vertical_speed else {}),
             "tail rotor": power.tail,
         }
         if design.condition.stand is not None:
@@ -159,7 +159,7 @@ def report(solution: Solution) -> str:
                 "induced": power.induced,
                 "profile": power.profile,
                 "propulsive": power.parasite,
-                **({"climb": power.climb} if design.condition.climb_speed else {}),
+                **({"climb": power.climb} if design.vertical_speed else {}),
             }
         symbol, size = power_unit(*powers.values())
         digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1

@@ -60,7 +60,7 @@ def run_sweep(args: argparse.Namespace) -> int:
 
 def sweep_table(solutions: SweepTable, over: str) -> Table:
     """Without the columns that are the same in all rows; the text has the status only where it did not converge."""
-    level = all(solution.design.condition.climb_speed == 0.0 for solution in solutions)
+    level = all(solution.design.vertical_speed == 0.0 for solution in solutions)
     kept = [k for k, name in enumerate(solutions.columns) if name not in SHARED_COLUMNS or name == over]
     fine = 0 if power_unit(*(solution.last_power.total for solution in solutions))[0] == "kW" else 3
     columns = "; ".join(_sweep_column(solutions.columns[k], level, fine) for k in kept)
@@ -253,7 +253,7 @@ def waterfall_report(result: Waterfall) -> str:
 
 def _steps_text(steps: Sequence[WaterfallStep], design: Design) -> str:
     """The first step has its parts of the power, the others what they change; the climb's where there is one."""
-    parts = [part for part in PARTS if part != "climb" or design.condition.climb_speed]
+    parts = [part for part in PARTS if part != "climb" or design.vertical_speed]
     symbol, size = power_unit(*(step.power or 0.0 for step in steps))
     columns = f"|{symbol}|<; |total|.1f; |change|+.1f; {''.join(f'|{part}; ' for part in parts)}||<"
     return table(columns, (_step_row(step, parts, size) for step in steps)).text()

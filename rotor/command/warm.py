@@ -3,6 +3,7 @@
 import argparse
 from typing import Any
 
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.common import add_command
 from rotor.compiled import tell_in_a_log
 from rotor.design.quantities import PRESETS
@@ -32,6 +33,6 @@ def compile_all() -> None:
     for preset in PRESETS:
         for advance_ratio in (0.2, 0.0):
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
-    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
-    power_gradient(solve(make_design(mu=0.2, bending=True)))
+    for name in (name for name, model in INFLOW_MODELS.items() if not model.pointwise):
+        power_gradient(solve(make_design(mu=0.2, inflow=name)))
     power_gradient(solve(make_design(mu=0.2, bending=True)))

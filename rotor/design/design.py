@@ -59,12 +59,6 @@ BEYOND_DOCUMENT = (
 """Switches of `Models` for effects that the document does not have."""
 
 
-FLIGHT_INFLOW = "lifting-line"
-"""The inflow model of the preset `flight`, which has a grid of its own."""
-LARGEST_LINE = 6000
-"""Elements times azimuths of a lifting line: its influence matrix then has 140 MB."""
-
-
 @dataclass(frozen=True)
 class Models:
     """The models of a computation. A preset is a value of this type."""
@@ -144,11 +138,6 @@ class Models:
             raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
-        if self.inflow == FLIGHT_INFLOW and self.panels * self.line_azimuths > LARGEST_LINE:
-            raise ValueError(
-                f"a lifting line of {self.panels} elements at {self.line_azimuths} azimuths has more than "
-                f"{LARGEST_LINE} points: 24 × 24 is enough for power"
-            )
 
 
 @dataclass(frozen=True, repr=False)
@@ -303,12 +292,23 @@ class Design:
     @property
     def flight_speed(self) -> float:
         """Along the flight path [m/s]."""
-        return math.hypot(self.airspeed, self.condition.climb_speed)
+        return math.hypot(self.airspeed, self.vertical_speed)
 
     @property
-    def climb_ratio(self) -> float:
-        """V_c/(ΩR)"""
-        return self.condition.climb_speed / self.rotor.tip_speed
+    def vertical_speed(self) -> float:
+        """V_c, up through the air [m/s]: the rate of climb. Rotor, wake, airframe and power read it here, so what else
+        moves the air along, as vertical wind would, is a further term of this sum."""
+        return self.condition.climb_speed
+
+    @property
+    def vertical_ratio(self) -> float:
+        """µ_c = V_c/(ΩR)"""
+        return self.vertical_speed / self.rotor.tip_speed
+
+    def in_disk_axes(self, tilt: float) -> tuple[float, float]:
+        """Velocity of flight along and through a disk tilted by α [rad]: µ cos α − µ_c sin α, µ sin α + µ_c cos α."""
+        mu, climb, cos, sin = self.condition.advance_ratio, self.vertical_ratio, math.cos(tilt), math.sin(tilt)
+        return mu * cos - climb * sin, mu * sin + climb * cos
 
     @property
     def drag(self) -> float:
@@ -327,8 +327,8 @@ class Design:
         speed, here = self.flight_speed, self.condition
         if speed == 0.0 or here.stand is not None:
             return 0.0, 0.0
-        drag = (self.drag - (here.load - here.weight) * here.climb_speed / speed) / self.thrust_unit
-        return drag * (self.airspeed / speed), drag * (self.condition.climb_speed / speed)
+        drag = (self.drag - (here.load - here.weight) * self.vertical_speed / speed) / self.thrust_unit
+        return drag * (self.airspeed / speed), drag * (self.vertical_speed / speed)
 
     @property
     def elastic(self) -> bool:
@@ -392,7 +392,7 @@ class Design:
 
 
 FLIGHT_MODELS = Models(
-    inflow=FLIGHT_INFLOW,
+    inflow="lifting-line",
     hover_inflow="annulus",
     trim="propulsive",
     disk_axial_flow=True,

@@ -292,7 +292,7 @@ def not_bounded(design: Design) -> str:
     models = design.models
     if design.aircraft.key != TABLE_ROTOR:
         return "not computed for this rotor"
-    if design.condition.climb_speed:
+    if design.vertical_speed:
         return "computed for level flight only"
     if not design.hovering:
         if models.inflow != LiftingLineInflow.name:

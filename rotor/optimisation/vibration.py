@@ -37,7 +37,7 @@ from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import tail_gain
 from rotor.trim.analysis import Analysis, analysed
-from rotor.trim.hub_loads import BAND, hub_index, index_of, load_units, terms_and_loads
+from rotor.trim.hub_loads import band_inflows, hub_index, index_of, load_units, terms_and_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
@@ -188,7 +188,7 @@ class FrontPoint:
     preview: tuple[float, float] | None = None
     """Power [W] and index [%] that the T-matrix foresaw; None where there is none."""
     band: tuple[float, float] | None = None
-    """Least and largest index over the inflow models of `hub_loads.BAND` with which it trims [%]."""
+    """Least and largest index over the inflow models of `hub_loads.band_inflows` with which it trims [%]."""
     over_inflows: tuple[float, float] | None = None
     """Least and largest change of the index from the start, each with the same wake [%]; None for the start."""
 
@@ -272,7 +272,7 @@ def _trimmed(given: Solution | Analysis) -> FrontPoint:
 def _over_inflows(front: VibrationFront) -> VibrationFront:
     """With band and changes of the index over inflow models."""
     every = (front.start, *front.points)
-    indices = np.array([[_index_with(point, inflow) for inflow in BAND] for point in every])
+    indices = np.array([[_index_with(point, inflow) for inflow in band_inflows()] for point in every])
     changes = 100.0 * (indices / indices[0] - 1.0)
     points = [
         replace(

@@ -56,7 +56,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         message = vortex_ring(design) or failure_sentence(design, result.reached, there)
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
-    climb = design.condition.climb_speed
+    climb = design.vertical_speed
     least = 0.0 if climb >= 0.0 else -math.inf
     if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
         converged = False

@@ -8,6 +8,7 @@ Inputs are wrong independently of one another, so their changes are summed as sq
 import math
 from dataclasses import dataclass, replace
 
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
 from rotor.trim.analysis import Analysis, analysed
@@ -16,8 +17,6 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import power_unit
 
-INFLOWS = ("lifting-line", "pitt-peters")
-"""The two inflow models that most rotor codes have: vortices of the blades, and states of the disk."""
 SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; a smaller one cannot be told."""
 LEAST_TOLD = 0.01
@@ -197,6 +196,11 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
     )
 
 
+def usual_inflows() -> tuple[str, ...]:
+    """Names of the inflow models that most rotor codes have, the most detailed first."""
+    return tuple(name for name, model in reversed(INFLOW_MODELS.items()) if model.usual)
+
+
 def models_beside(design: Design, against: Design | None = None) -> tuple[OtherModels, ...]:
     """A design, or two, solved with one model changed, a new trim each; those that do not trim are left out."""
     rows: list[OtherModels] = []
@@ -212,16 +216,16 @@ def models_beside(design: Design, against: Design | None = None) -> tuple[OtherM
 def other_models(design: Design) -> dict[str, Design]:
     """The design with one model changed, by name: another wake, blades that bend or do not, and steady flow.
 
-    In hover the other wake is the lifting line, at the least speed that it has.
+    In hover the other wake is one that answers the load, at the least speed that it has.
     """
     models, designs = design.models, dict[str, Design]()
     if design.hovering:
-        line = replace(models, inflow=INFLOWS[0], low_speed="wake")
-        slow = replace(design.at(mu=SLOWEST), models=line)
-        return {f"inflow {INFLOWS[0]}": slow} if models.disk_axial_flow else designs
-    for inflow in INFLOWS:
-        if inflow != models.inflow:
-            designs[f"inflow {inflow}"] = replace(design, models=replace(models, inflow=inflow))
+        slow, others = design.at(mu=SLOWEST), [name for name in usual_inflows() if INFLOW_MODELS[name].load_dependent]
+        flown = {name: replace(models, inflow=name, low_speed="wake") for name in others if models.disk_axial_flow}
+        return {f"inflow {name}": replace(slow, models=one) for name, one in flown.items()}
+    for name in usual_inflows():
+        if name != models.inflow:
+            designs[f"inflow {name}"] = replace(design, models=replace(models, inflow=name))
     structure = design.rotor.blade.structure
     if structure is not None and structure.bends and models.flapping:
         name = "rigid in bending" if models.bending else "bending"

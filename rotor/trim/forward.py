@@ -16,19 +16,17 @@ from itertools import chain
 from rotor.aero.display import stalled_parts
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
-from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line import WakeCourse
-from rotor.aero.problem import Problem, build_problem, in_disk_axes
+from rotor.aero.problem import Problem, build_problem
 from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, STAND
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
-LINEAR = "pitt-peters"
-"""The linear inflow along whose trim the wake of a lifting line lies, and from which it starts below `FAST`."""
 FAST = 0.25
-"""µ from which simple estimates are the better start: with linear inflow more of the disk stalls there. Our choice."""
+"""µ from which simple estimates are a better start than the trim of `wake_along`: with linear inflow more of the disk
+stalls there. Our choice."""
 SLOWEST = 1e-4
 """Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
 FOLLOWING_PASSES = 25
@@ -46,7 +44,7 @@ def with_course(problem: Problem) -> Problem:
 
 def found_course(design: Design) -> WakeCourse | None:
     """The course of the wake of a design; None where the inflow has none or it is not found, and in hover."""
-    if design.hovering or not inflow_model(design.models.inflow).fine_tip:
+    if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
     return _course(
@@ -67,7 +65,7 @@ def _course(design: Design) -> WakeCourse | None:
 
 def course_of(problem: Problem) -> WakeCourse | None:
     """The course that the inflow's wake lies on; None for other inflow models, and in hover."""
-    lies = isinstance(problem.inflow, LiftingLineInflow) and not problem.design.hovering
+    lies = problem.inflow.wake_along is not None and not problem.design.hovering
     return problem.course if lies else None
 
 
@@ -81,7 +79,7 @@ def along(result: TrimResult, course: WakeCourse) -> WakeCourse:
     design, tilt = problem.design, state.shaft_tilt
     if not design.models.disk_axial_flow:
         tilt -= state.flap_1c
-    mu_x, mu_z = in_disk_axes(design.condition.advance_ratio, problem.climb, tilt)
+    mu_x, mu_z = design.in_disk_axes(tilt)
     return replace(
         course,
         mu_x=mu_x,
@@ -98,7 +96,7 @@ def trim_on_course(
 ) -> TrimResult:
     """`trim`, and of a free rotor once more with its wake along the trim found."""
     result = trim(problem, start, options, most_stalled)
-    if problem.design.models.trim != "free-rotor" or not problem.inflow.fine_tip or not result.converged:
+    if problem.design.models.trim != "free-rotor" or problem.inflow.wake_along is None or not result.converged:
         return result
     again = trim(replace(problem, course=along(result, problem.course)), result.guess, options)
     return replace(again, passes=result.passes + again.passes)
@@ -146,8 +144,10 @@ def trim_along(
 
 
 def linear_problem(design: Design) -> Problem:
-    """The design with a linear inflow and steady sections."""
-    models = replace(design.models, inflow=LINEAR, dynamic_stall=False, unsteady=False)
+    """The design with the inflow along which its wake lies, and steady sections."""
+    linear = inflow_model(design.models.inflow).wake_along
+    assert linear is not None
+    models = replace(design.models, inflow=linear, dynamic_stall=False, unsteady=False)
     return build_problem(replace(design, models=models))
 
 
@@ -161,7 +161,7 @@ def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
     guess = first_guess(problem)
     slow = problem.design.condition.advance_ratio < FAST
-    if problem.inflow.fine_tip and slow and (near := _linear_guess(problem)) is not None:
+    if problem.inflow.wake_along is not None and slow and (near := _linear_guess(problem)) is not None:
         yield near
     yield guess
     if problem.design.models.trim == "free-rotor":

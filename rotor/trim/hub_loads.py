@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotor.aero.bending import can_bend
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.arrays import Array
 from rotor.columns.bending import LOADS, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
@@ -29,8 +30,6 @@ from rotor.trim.solve import analyse
 
 SLOWEST = 0.2
 """Advance ratio below which the wake model decides the loads."""
-BAND = ("uniform", "drees", "pitt-peters", "lifting-line")
-"""Inflow models over which the index is stated."""
 _AFT, _SIDE = 0.5, 0.67
 """Weights of the in-plane forces in the index."""
 
@@ -87,10 +86,15 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool 
     return HubLoads(design.rotor.blades, sizes, angles, index, ends)
 
 
+def band_inflows() -> tuple[str, ...]:
+    """Names of the inflow models over which the index is stated."""
+    return tuple(name for name, model in INFLOW_MODELS.items() if model.in_index_band)
+
+
 def _indices(design: Design, solve: Solve) -> list[float]:
     """The index with each inflow model with which the design trims [%]."""
     indices = list[float]()
-    for name in BAND:
+    for name in band_inflows():
         if name != design.models.inflow:
             other = solve(replace(design, models=replace(design.models, inflow=name)), None)
             loads = hub_loads(other, solve=solve, band=False) if other.solution.converged else None

@@ -64,7 +64,7 @@ def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifferen
     if not hovering.converged:
         return None
     elements, disk = hovering.linear.elements, problem.disk
-    flow = DiskFlow(0.0, problem.climb, elements.state.lambda0)
+    flow = DiskFlow(0.0, design.vertical_ratio, elements.state.lambda0)
     load = elements.fz[:, 0]
     flown = problem if course is None else replace(problem, course=course)
     axial, slope = flown.inflow_terms.axial(flow, elements.u_t[:, 0])
@@ -132,15 +132,15 @@ def hover_share(design: Design) -> float:
 
 def vortex_ring(design: Design) -> str:
     """Why a descent has no steady wake, as a sentence; empty where it has one."""
-    if design.condition.climb_speed >= 0.0:
+    if design.vertical_speed >= 0.0:
         return ""
     inflow, mu = math.sqrt(0.5 * design.weight_coefficient), design.condition.advance_ratio
     edge = vortex_ring_edge(mu / inflow) if inflow else -math.inf
-    if design.climb_ratio >= edge * inflow:
+    if design.vertical_ratio >= edge * inflow:
         return ""
     speed = design.rotor.tip_speed
     return (
-        f"Not trimmed: in descent at {-design.condition.climb_speed:g} m/s and advance ratio {mu:.3f} the rotor is in "
+        f"Not trimmed: in descent at {-design.vertical_speed:g} m/s and advance ratio {mu:.3f} the rotor is in "
         "or beyond the vortex ring state, where its wake is not steady and momentum theory has no valid answer: "
         f"descend at less than {math.floor(-10.0 * edge * inflow * speed) / 10.0:.1f} m/s, or fly faster than advance "
         f"ratio {math.ceil(1e3 * FASTEST_RING * inflow) / 1e3:.3f}."

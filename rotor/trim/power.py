@@ -90,7 +90,7 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
         lift, drag = wind_forces(elements, total)
-        parasite, climb = -drag * design.condition.advance_ratio * watts, lift * problem.climb * watts
+        parasite, climb = -drag * design.condition.advance_ratio * watts, lift * design.vertical_ratio * watts
     damping = total.damping * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
@@ -103,8 +103,8 @@ def outside_power(problem: Problem) -> tuple[float, float]:
         return 0.0, 0.0
     watts, weight = design.power_unit, design.weight_coefficient / design.condition.load_factor
     pressed = problem.weight - weight  # In a turn n W too, of which `drag_parts` has taken away its part of the path.
-    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
-    return parasite, weight * problem.climb * watts
+    parasite = (problem.drag * design.condition.advance_ratio + pressed * design.vertical_ratio) * watts
+    return parasite, weight * design.vertical_ratio * watts
 
 
 def _around(array: Array, other: Array) -> Array:

@@ -141,7 +141,7 @@ def _structure(name: str) -> Change:
 
 
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
-    if problem.design.hovering or not problem.inflow.fine_tip:
+    if problem.design.hovering or problem.inflow.wake_along is None:
         return None
     course, part = problem.course, 1.0 - hover_share(problem.design)  # The hover model has no such wake.
     return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * part * amount)))
@@ -149,7 +149,7 @@ def _wake_transport(problem: Problem, amount: float) -> Problem | None:
 
 def _tip_loss(problem: Problem, amount: float) -> Problem | None:
     """1 − B, the part of the radius that does not lift, goes with 1/f."""
-    if not problem.design.models.tip_loss or (problem.inflow.fine_tip and not problem.design.hovering):
+    if not problem.design.models.tip_loss or (problem.inflow.keeps_tips and not problem.design.hovering):
         return None
     return replace(problem, tip_spacing=1.0 / (1.0 + 0.01 * amount))
 

@@ -317,8 +317,8 @@ class Solution:
         if not self.design.hovering or power <= 0.0:
             return None
         ideal = abs(self.ct) ** 1.5 / np.sqrt(2.0).item()
-        if self.design.climb_ratio:
-            ideal = self.ct * axial_inflow(self.ct, self.design.climb_ratio)
+        if self.design.vertical_ratio:
+            ideal = self.ct * axial_inflow(self.ct, self.design.vertical_ratio)
         return ideal / power
 
     @property

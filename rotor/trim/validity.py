@@ -161,7 +161,7 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     design, mu, power = trim.design, trim.mu, trim.solution.last_power
     said = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
-        said["low-speed-inflow"] = f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+        said["low-speed-inflow"] = f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
     if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
         said["low-speed-inflow"] = (
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
@@ -170,9 +170,9 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
         said["low-speed-not-matched"] = (
             "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
         )
-    if design.condition.climb_speed < 0.0:
+    if design.vertical_speed < 0.0:
         inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
-        descent, edge = (-design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
+        descent, edge = (-design.vertical_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
         if descent > -VORTEX_RING_ONSET and edge < math.inf:
             said["vortex-ring"] = (
                 f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "

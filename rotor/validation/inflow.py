@@ -10,13 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.inflow.lifting_line import LiftingLineInflow, LiftingLineTerms, mean_share
-from rotor.aero.inflow.linear import LINEAR_MODELS
-from rotor.aero.lifting_line import at_points
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.chart import Chart, Line, Points, Series
 from rotor.files.make_design import make_design
+from rotor.trim.doubt import usual_inflows
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -26,7 +25,6 @@ from rotor.validation.trust import TrustRow, TrustSet, description, rms
 ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
 """Shaft tilt [°] and C_T at each advance ratio (NASA TM-100541 to 100543)."""
-MODELS = (*(model.name for model in LINEAR_MODELS), "local-momentum", LiftingLineInflow.name)
 SET = "2mrts-inflow"
 """Name of the set on the command line."""
 
@@ -76,19 +74,19 @@ def measured_inflow() -> tuple[MeasuredInflow, ...]:
     return tuple(inflows)
 
 
-SHOWN = ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", LiftingLineInflow.name)
-"""Models of the trust page; the last is that of `flight`."""
-DRAWN, RADIUS = (LiftingLineInflow.name, "pitt-peters"), 0.74
-"""Models of its charts, and their radius r/R."""
+RADIUS = 0.74
+"""r/R of the charts of the trust page."""
 
 
 def inflow_set() -> TrustSet:
     """For the trust page: the correlations, and the inflow over azimuth at one radius."""
     words, agreements = description(SET), list(inflow_agreement())
     rows: list[TrustRow] = []
-    for name in reversed(SHOWN):
+    for name in reversed(INFLOW_MODELS):
         mine = [row for row in agreements if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
+        if not known:
+            continue
         rows.append(
             words.row(
                 f"{words.title}: correlation at µ {', '.join(f'{row.mu:g}' for row in mine)}, {name}",
@@ -107,7 +105,7 @@ def _chart(measured: MeasuredInflow) -> Chart:
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     ring = MeasuredInflow(measured.mu, np.full_like(psi, RADIUS), psi, np.zeros_like(psi))
     series: list[Series] = [Points("measured", np.degrees(measured.psi)[here], measured.inflow[here])]
-    for k, name in enumerate(DRAWN, start=1):
+    for k, name in enumerate(usual_inflows(), start=1):
         series.append(Line(name, np.degrees(psi), _time_mean(name, ring), k))
     title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
     return azimuth_chart(title, f"inflow over ΩR, µ {measured.mu:g}", series)
@@ -116,7 +114,7 @@ def _chart(measured: MeasuredInflow) -> Chart:
 def inflow_agreement() -> Iterator[InflowAgreement]:
     """Every model at every advance ratio; RuntimeError where the rotor does not trim."""
     for measured in measured_inflow():
-        for name in MODELS:
+        for name in INFLOW_MODELS:
             ours = _time_mean(name, measured)
             yield InflowAgreement(
                 mu=measured.mu,
@@ -131,9 +129,9 @@ def inflow_agreement() -> Iterator[InflowAgreement]:
 def _time_mean(name: str, measured: MeasuredInflow) -> Array:
     """λ_i of a model at the measured points, (points,)."""
     solution = trimmed(name, measured)
-    if name == LiftingLineInflow.name:
-        return above_disk(solution, measured, solution.design.rotor.reference_chord / solution.design.rotor.radius)
-    return _at(solution.disk.r, solution.disk.induced, measured)
+    chord = solution.design.rotor.reference_chord / solution.design.rotor.radius
+    above = above_disk(solution, measured, chord)
+    return _at(solution.disk.r, solution.disk.induced, measured) if above is None else above
 
 
 def trimmed(name: str, measured: MeasuredInflow) -> Solution:
@@ -144,20 +142,14 @@ def trimmed(name: str, measured: MeasuredInflow) -> Solution:
     return solve(make_design(rotor=ROTOR, mu=measured.mu, inflow=name, stand=stand)).require()
 
 
-def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> Array:
-    """Mean over time of a lifting line's downwash normal to the plane of the tips, at points above it, (points,).
+def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> Array | None:
+    """Mean over time of the inflow normal to the plane of the tips, at points above it, (points,); None as `off_disk`.
 
     height: over R. The disk of the test is normal to the shaft: the rotor is trimmed without flapping.
     """
-    terms, circulation = trim_problem(solution.design).inflow_terms, solution.start.inflow
-    assert isinstance(terms, LiftingLineTerms)
-    assert circulation is not None
     above = np.full_like(measured.r, solution.controls.coning + height)
     points = np.stack([measured.r * np.cos(measured.psi), measured.r * np.sin(measured.psi), above], axis=1)
-    upward = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
-    matrix = at_points(terms.line, terms.course, points, upward).mean(axis=0)
-    wake = matrix @ circulation * (math.pi / terms.line.blades)
-    return wake / terms.course.mass_flow + mean_share(terms.course) * terms.course.lambda0
+    return trim_problem(solution.design).inflow_terms.off_disk(points, solution.start.inflow)
 
 
 def _at(radii: Array, field: Array, measured: MeasuredInflow) -> Array:

@@ -10,15 +10,17 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
+from rotor.aero.disk import azimuths_of
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
-from rotor.aero.problem import build_problem, in_disk_axes
+from rotor.aero.problem import build_problem
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UR, UT, section
 from rotor.arrays import Array
 from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
+from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
@@ -119,12 +121,12 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)
     disk, flap, flow, loss = problem.disk, problem.flap, elements.flow, trim.point.channels[LOSS, :, :1]
-    at_disk = DiskFlow(*in_disk_axes(mu, problem.climb, state.shaft_tilt), state.lambda0)
+    at_disk = DiskFlow(*design.in_disk_axes(state.shaft_tilt), state.lambda0)
     r, data, arm = disk.r[:, None], problem.section_data(), disk.r - flap.hinge
     spread = np.ones_like(r)
     if problem.design.models.loss_on == "inflow":  # λ_i/F, with F averaged over azimuth.
-        around = np.arange(24) * math.pi / 12.0
-        total = flow.mu_z + model.field(disk.r, np.cos(around), np.sin(around), at_disk)[0]
+        around = waves_at(3, azimuths_of(24))
+        total = flow.mu_z + model.field(disk.r, around, at_disk)[0]
         spread = 1.0 / loss_factor(r, total, disk.blades, disk.root)[0].mean(axis=1, keepdims=True)
 
     def rates(psi: float, motion: Array) -> list[float]:
@@ -136,7 +138,7 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
             flow.mu_x * cos,
             loss,
         )
-        channels[UP] = spread * model.field(disk.r, cos, sin, at_disk)[0] + arm[:, None] * motion[1]
+        channels[UP] = spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0] + arm[:, None] * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
         return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]

@@ -38,7 +38,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import BAND, hub_index
+from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.solve import solve
 from tests.actuate import foreseen
 
@@ -144,7 +144,7 @@ def lost(waves: tuple[Harmonic, ...]) -> float:
 @pytest.fixture(scope="module")
 def whole() -> list[DialAnswer]:
     """With every inflow model, the design's own first."""
-    models = [replace(BENDING.models, inflow=one) for one in dict.fromkeys((BENDING.models.inflow, *BAND))]
+    models = [replace(BENDING.models, inflow=one) for one in dict.fromkeys((BENDING.models.inflow, *band_inflows()))]
     flown = with_harmonics(BENDING, WAVES)
     return [dial_answer(replace(flown, models=one), replace(STILL, models=one), LOSSES, 1.0) for one in models]
 

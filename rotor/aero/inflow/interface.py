@@ -75,7 +75,7 @@ class Losses(NamedTuple):
     """Factor on f of the tip, so on the distance between the sheets of the wake there."""
 
 
-class InflowTerms(ABC):
+class InflowTerms:
     """A model on a disk, as parts of the engine's structure; one without unknowns of its own where nothing is said."""
 
     key: Hashable
@@ -97,7 +97,7 @@ class InflowTerms(ABC):
         del half_chord
         return self
 
-    def build(self, structure: Structure) -> None:  # noqa: B027
+    def build(self, structure: Structure) -> None:
         """Add derived atoms and columns."""
 
     def live_columns(self, structure: Structure) -> list[tuple[int, Shape, int, int]]:
@@ -122,16 +122,24 @@ class InflowTerms(ABC):
         """Unknowns at every point of the grid, or None; tolerance: of these, thrust: C_T, for the size of steps."""
         del tolerance, thrust
 
-    @abstractmethod
+    def off_disk(self, points: Array, nodes: Array | None) -> Array | None:
+        """Mean over time of the inflow along the shaft at points off the disk, (points, 3) over R in axes of the shaft.
+
+        nodes: what was solved for. None for a model that knows the disk alone.
+        """
+        del points, nodes
+
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """The matrix from an axisymmetric load to the mean inflow in axial flow, and its slopes by U_T at the load.
 
-        (elements, elements) both; u_t: U_T, (elements,).
+        (elements, elements) both; u_t: U_T, (elements,). Zero where the load does not change it.
         """
+        del flow
+        return np.zeros((len(u_t),) * 2), np.zeros((len(u_t),) * 2)
 
 
 class InflowModel(ABC):
-    """A forward-flight inflow model."""
+    """A forward-flight inflow model: all that others know of it, so a further one is a file with its `MODELS`."""
 
     name: str
     """Name on the command line."""
@@ -149,14 +157,20 @@ class InflowModel(ABC):
     pointwise = True
     """Whether its section is that of `section`, not one that balances itself at each azimuth."""
 
+    wake_along: str | None = None
+    """Name of the model along whose trim its wake of vortices lies, and from whose trim it starts; None without such a
+    wake, see `rotor.trim.forward`."""
+    keeps_tips = False
+    """Whether tip loss is part of its answer to the load, and cannot be left out."""
+    usual = False
+    """Whether most rotor codes have such a model: a power is told with it as well, see `rotor.trim.doubt`."""
+    in_index_band = False
+    """Whether the vibration index is told with it as well, see `rotor.trim.hub_loads`."""
+
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
-        """Elements and azimuths on which it is solved: those asked for."""
+        """Elements and azimuths on which it is solved: those asked for. ValueError for more than it can have."""
         del blades
         return models.elements, models.azimuths
-
-    def without_tip_loss(self) -> "InflowModel":
-        """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
-        return self
 
     @abstractmethod
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> InflowTerms:

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
-from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence, mean_influence, shed_correction
+from rotor.aero.lifting_line import LiftingLine, WakeCourse, at_points, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, section
 from rotor.arrays import Array, read_only
 from rotor.design.design import Models
@@ -33,6 +33,8 @@ from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY
 
+LARGEST = 6000
+"""Panels times azimuths: the influence matrix then has 140 MB."""
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
 
@@ -80,9 +82,18 @@ class LiftingLineInflow(InflowModel):
     )
     load_dependent = True
     fine_tip = True
+    wake_along = "pitt-peters"
+    keeps_tips = True
+    usual = True
+    in_index_band = True
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """Panels, and azimuths in a multiple of the number of blades."""
+        if models.panels * models.line_azimuths > LARGEST:
+            raise ValueError(
+                f"a lifting line of {models.panels} elements at {models.line_azimuths} azimuths has more than "
+                f"{LARGEST} points: 24 × 24 is enough for power"
+            )
         return models.panels, -(-models.line_azimuths // blades) * blades
 
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "LiftingLineTerms":
@@ -145,6 +156,14 @@ class LiftingLineTerms(InflowTerms):
         shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
         return np.repeat(2.2 * thrust * shape, self.line.azimuths)
 
+    def off_disk(self, points: Array, nodes: Array | None) -> Array:
+        """From the wakes of all blades."""
+        assert nodes is not None
+        upward = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
+        matrix = at_points(self.line, self.course, points, upward).mean(axis=0)
+        wake = matrix @ nodes * (math.pi / self.line.blades)
+        return wake / self.course.mass_flow + mean_share(self.course) * self.course.lambda0
+
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """Through the circulation of the load, and through its thrust, λ0 = C_T/2V."""
         course = replace(self.course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, flap_1c=0.0, flap_1s=0.0)
@@ -152,3 +171,6 @@ class LiftingLineTerms(InflowTerms):
         gain, slope = circulation_gain(u_t)
         of_thrust = mean_share(course) * 0.5 / course.speed * np.diff(self.line.edges)
         return matrix * gain + of_thrust, matrix * slope
+
+
+MODELS = (LiftingLineInflow(),)

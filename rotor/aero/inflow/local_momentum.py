@@ -11,14 +11,14 @@ derivatives follow by the implicit function theorem, dλ = (g Σ ∂F_z/∂c dc 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, Followed, InflowModel, InflowTerms, Losses, SectionInterface
-from rotor.aero.inflow.linear import STRENGTHS, of_mean, scaled_half_skew
+from rotor.aero.inflow.linear import of_mean, scaled_half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
@@ -29,6 +29,7 @@ from rotor.engine.waves import COS, STEADY
 
 _GRADIENT = scaled_half_skew(15.0 * math.pi / 32.0)
 """k_x: that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
+_STRENGTH = "lambda0 kx"
 
 GAIN, MEAN = len(CHANNELS), len(CHANNELS) + 1
 """Channels beside those of the section: g, and λ0, from which the search for λ begins."""
@@ -121,19 +122,13 @@ class LocalMomentumInflow(InflowModel):
     explanation = (
         "Each sector responds to its own load, plus a fore-aft gradient: induced power 17–37 % low above µ 0.3."
     )
-    tip: bool = True
-
     pointwise = False
     load_dependent = True
-
-    def without_tip_loss(self) -> "LocalMomentumInflow":
-        """F = 1."""
-        return replace(self, tip=False)
 
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "SectorTerms":
         """The model on a disk."""
         del course
-        return SectorTerms(disk, losses.spacing if self.tip else math.inf)
+        return SectorTerms(disk, losses.spacing if losses.tip else math.inf)
 
 
 class SectorTerms(InflowTerms):
@@ -149,7 +144,7 @@ class SectorTerms(InflowTerms):
 
     def build(self, structure: Structure) -> None:
         """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
-        structure.column(UP, self.names[0], COS, 1.0, structure.quantity(STRENGTHS[0]))
+        structure.column(UP, self.names[0], COS, 1.0, structure.quantity(_STRENGTH))
         structure.column(MEAN, "one", STEADY, 1.0, structure.states["lambda0"])
 
     def shapes(self) -> dict[Shape, Array]:
@@ -160,7 +155,7 @@ class SectorTerms(InflowTerms):
         """λ0 k_x and the gain 1/(4 r F V)."""
         del mu_z, sees_tilt
         gradient = of_mean(_GRADIENT(flow), flow.lambda0)
-        return Followed({STRENGTHS[0]: gradient}, {(GAIN, "gain"): self._gain(flow)})
+        return Followed({_STRENGTH: gradient}, {(GAIN, "gain"): self._gain(flow)})
 
     def _gain(self, flow: DiskFlow) -> tuple[Array, Array]:
         """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""
@@ -174,3 +169,6 @@ class SectorTerms(InflowTerms):
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """Diagonal: 1/(4 r F V)."""
         return np.diag(self._gain(flow)[0]), np.zeros((len(u_t),) * 2)
+
+
+MODELS = (LocalMomentumInflow(),)

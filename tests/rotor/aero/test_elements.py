@@ -16,6 +16,7 @@ from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import disk_sums as sums_at
 from rotor.columns.flight import elements_of
+from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
@@ -127,7 +128,7 @@ def test_loss_average_over_azimuth_is_settled():
     wake, psi = elements_of(p, point).flow, 2.0 * np.pi * np.arange(360) / 360
     model, rotor = INFLOW_MODELS["pitt-peters"], p.design.rotor
     assert isinstance(model, LinearInflow)
-    field = model.field(p.disk.r, np.cos(psi), np.sin(psi), wake)[0]
+    field = model.field(p.disk.r, waves_at(3, psi), wake)[0]
     factor, _ = loss_factor(p.disk.r[:, None], wake.mu_z + field, rotor.blades, rotor.blade.root_cutout)
     assert_allclose(point.channels[LOSS, :, 0], factor.mean(axis=1), atol=1e-4)
 

@@ -9,17 +9,18 @@ from numpy.testing import assert_allclose
 from rotor.aero.disk import build_disk
 from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.inflow.interface import Losses
-from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.linear import MODELS
 from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import build_problem
 from rotor.arrays import Array
+from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
-LINEAR = {model.name: model for model in LINEAR_MODELS}
+LINEAR = {model.name: model for model in MODELS}
 WAKES = [DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.3, 0.04, 0.011), DiskFlow(0.4, -0.01, 0.02)]
 DISK = build_disk(make_design().rotor, elements=12, azimuths=24)
 
@@ -62,7 +63,7 @@ def test_the_mass_flow_in_hover_at_speed_and_without_flow():
 @pytest.mark.parametrize("wake", WAKES)
 def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
     def field(at: Array) -> Array:
-        return LINEAR[name].field(R, np.cos(PSI), np.sin(PSI), DiskFlow(*at.tolist()))
+        return LINEAR[name].field(R, waves_at(3, PSI), DiskFlow(*at.tolist()))
 
     base = np.array([wake.mu_x, wake.mu_z, wake.lambda0])
     assert_allclose(field(base)[0].mean(axis=1), wake.lambda0, rtol=1e-13)
@@ -73,7 +74,7 @@ def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
 
 def gradient(name: str, wake: DiskFlow) -> tuple[float, float]:
     """(k_x, k_y) read off the field at the disk edge over the tail, ψ = 0, and at ψ = 90°."""
-    field = LINEAR[name].field(np.array([1.0]), np.array([1.0, 0.0]), np.array([0.0, 1.0]), wake)[0]
+    field = LINEAR[name].field(np.array([1.0]), waves_at(3, np.array([0.0, 0.5 * math.pi])), wake)[0]
     return field[0, 0] / wake.lambda0 - 1.0, field[0, 1] / wake.lambda0 - 1.0
 
 
@@ -102,6 +103,12 @@ def test_unknown_model_is_one_sentence():
         inflow_model("drela")
 
 
+def test_a_lifting_line_of_too_many_points_is_one_sentence():
+    assert make_design(inflow="uniform", elements=100, azimuths=100).models.panels == 100
+    with pytest.raises(ValueError, match="100 elements at 100 azimuths has more than 6000 points"):
+        make_design(elements=100, azimuths=100)
+
+
 def test_a_trim_has_the_first_harmonics_of_its_model():
     """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29)."""
     solution = solve(make_design(mu=0.2, inflow="drees"))
@@ -113,7 +120,7 @@ def test_a_trim_has_the_first_harmonics_of_its_model():
 
 def local_momentum(load: Array, wake: DiskFlow) -> Array:
     """λ_i of a load, without tip loss."""
-    terms = LocalMomentumInflow(tip=False).on(DISK, build_problem(make_design()).course, Losses(True, True))
+    terms = LocalMomentumInflow().on(DISK, build_problem(make_design()).course, Losses(False, True))
     followed = terms.follow(wake, wake.mu_z, sees_tilt=True)
     along = followed.atoms["lambda0 kx"][0] * np.outer(DISK.r, DISK.cos)
     return followed.live[GAIN, "gain"][0][:, None] * load[:, None] + along

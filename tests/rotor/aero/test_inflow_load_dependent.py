@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.local_momentum import GAIN
-from rotor.aero.problem import Problem, in_disk_axes
+from rotor.aero.problem import Problem
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
@@ -43,7 +43,7 @@ def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:
     if nodes is not None:
         (mean,) = problem.inflow_terms.shapes().values()
         return mean[:, None] + nodes.field(point.forces[nodes.force].ravel()).reshape(disk.shape)
-    along, through = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
+    along, through = problem.design.in_disk_axes(state.shaft_tilt)
     followed = problem.inflow_terms.follow(DiskFlow(along, through, state.lambda0), through, sees_tilt=True)
     gradient = followed.atoms["lambda0 kx"][0] * np.outer(disk.r, disk.cos)
     return followed.live[GAIN, "gain"][0][:, None] * elements.fz + gradient

@@ -191,10 +191,8 @@ class TestLossesAndFuselage:
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
         problem, wake, model = build_problem(small(0.2)), DiskFlow(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
         disk = problem.disk
-        on, off = (
-            m.on(disk, problem.course, Losses(True, True)).follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0]
-            for m in (model, model.without_tip_loss())
-        )
+        terms = [model.on(disk, problem.course, Losses(tip, True)) for tip in (True, False)]
+        on, off = (one.follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0] for one in terms)
         assert_allclose(on * tip_factor(disk.r, wake.axial, 4)[0], off, rtol=1e-9)
 
     def test_a_lifting_line_keeps_its_tips_and_roots(self):

@@ -46,7 +46,7 @@ def test_ideal_rotor_follows_momentum_theory(climb: float):
             swirl=False, elastic_twist=False, swept_tip=False, compressibility=False,
         )  # fmt: skip
         blade = at.rotor.blade.root_cutout
-        ct, total = at.weight_coefficient / (1.0 - blade**2), at.climb_ratio
+        ct, total = at.weight_coefficient / (1.0 - blade**2), at.vertical_ratio
         slope = float(np.mean(lift_curve(build_problem(at))[0]))
         tip = ideal_tip_pitch(ct, at.rotor.solidity, slope) - math.sqrt(0.5 * ct) + axial_inflow(ct, total) + total
         found = solve(at.with_twist(IdealTwist(tip))).require()
@@ -87,7 +87,7 @@ def test_closed_form_is_eq_2_28(climb: float):
     factor, _ = loss_factor(problem.disk.r, found.disk.inflow[:, 0], 4, problem.disk.root)
     expected = closed_form_inflow(
         problem.disk.r, found.disk.theta[:, 0] - zero, 2.0 * problem.disk.half_solidity * slope, 1.0, factor=factor,
-        climb=problem.climb,
+        climb=problem.design.vertical_ratio,
     )  # fmt: skip
     lifting = found.disk.induced[:, 0] > 0.0
     assert lifting.sum() > 20
@@ -135,8 +135,8 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
     """
     flown = solve(design(0.2, climb), None, TIGHT).require()
     at, tilt = flown.design, flown.controls.shaft_tilt
-    along = 0.2 * math.cos(tilt) - at.climb_ratio * math.sin(tilt)
-    through = 0.2 * math.sin(tilt) + at.climb_ratio * math.cos(tilt)
+    along = 0.2 * math.cos(tilt) - at.vertical_ratio * math.sin(tilt)
+    through = 0.2 * math.sin(tilt) + at.vertical_ratio * math.cos(tilt)
     stand = {"shaft_tilt_deg": math.degrees(math.atan2(through, along)), "ct_over_sigma": flown.ct_over_sigma}
     found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), flown, TIGHT).require()
     from_above = on_stand({**stand, "shaft_tilt_deg": math.degrees(tilt)}, 0.2, "wind-tunnel").at(climb_m_s=climb)
@@ -155,7 +155,7 @@ def test_a_propeller_on_a_stand():
     power, thrust = found.power, found.ct * found.design.thrust_unit
     assert_allclose(power.climb, 60.0 * thrust, rtol=1e-9)
     assert_allclose(power.shaft, power.climb + power.induced + power.profile, rtol=1e-9)
-    induced = axial_inflow(found.ct, found.design.climb_ratio) * found.design.rotor.tip_speed
+    induced = axial_inflow(found.ct, found.design.vertical_ratio) * found.design.rotor.tip_speed
     assert 0.75 < power.climb / power.shaft < 60.0 / (60.0 + induced)
 
 
@@ -175,7 +175,7 @@ def test_autorotation():
     power = flown.power
     assert_allclose(-power.climb, power.induced + power.profile + power.parasite, rtol=1e-6)
     flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
-    along = math.hypot(0.17, flown.design.climb_ratio)
+    along = math.hypot(0.17, flown.design.vertical_ratio)
     free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
     assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=2e-3)
     beyond = solve(design(0.17, rate - 1.0)).require()
@@ -264,3 +264,15 @@ def test_what_cannot_climb_says_so():
         make_design(climb_m_s=101.0)
     with pytest.raises(TypeError, match="climb_m_s is 'fast'"):
         make_design(climb_m_s="fast")  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2])
+def test_all_that_moves_the_rotor_up_through_the_air_is_read_in_one_place(mu: float, monkeypatch: pytest.MonkeyPatch):
+    """Level flight in air that sinks at 3 m/s is a climb at 3 m/s in still air: same power, same figure of merit."""
+    climbing = solve(make_design(mu=mu, mass_kg=7777.0, climb_m_s=3.0)).require()
+    merit = climbing.figure_of_merit
+    monkeypatch.setattr(Design, "vertical_speed", property(lambda self: self.condition.climb_speed + 3.0))
+    level = solve(make_design(mu=mu, mass_kg=7777.0)).require()
+    assert level.last_power == climbing.last_power
+    assert level.figure_of_merit == merit
+    assert level.controls == climbing.controls

@@ -17,7 +17,7 @@ from rotor.aero.section import LOSS, RATE, TH, UP, UR, UT, M, section
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.engine.newton import Factors
-from rotor.engine.waves import rate_of, wave_grid
+from rotor.engine.waves import rate_of, wave_grid, waves_at
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import first_guess
@@ -153,7 +153,7 @@ def test_harmonic_balance_against_a_time_march():
         channels[TH, :, 0] = problem.twist + state.collective + cyclic + q @ torsion.radial
         channels[RATE, :, 0] = state.cyclic_1s * cos - state.cyclic_1c * sin + rate @ torsion.radial
         channels[UT, :, 0] = disk.r - elements.swirl + wake.mu_x * sin
-        channels[UP] = model.field(disk.r, np.array([cos]), np.array([sin]), wake)[0]
+        channels[UP] = model.field(disk.r, waves_at(3, np.array([psi])), wake)[0]
         channels[UP] += wake.mu_z + wake.mu_x * state.coning * cos
         channels[UR] = wake.mu_x * cos
         along = section(channels, data, False, False)[0][M, :, 0] + torsion.inertia * cyclic

@@ -10,7 +10,7 @@ from scipy.integrate import dblquad
 
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.linear import MODELS
 from rotor.aero.problem import build_problem
 from rotor.files.make_design import make_design
 from rotor.trim.power import power_budget, profile_power_coefficient
@@ -48,7 +48,7 @@ def test_thesis_torque_is_not_power():
     assert solution.power.shaft < 0.5 * solution.power.main_rotor
 
 
-@pytest.mark.parametrize("name", [model.name for model in LINEAR_MODELS])
+@pytest.mark.parametrize("name", [model.name for model in MODELS])
 def test_induced_power_of_linear_inflow_does_not_depend_on_twist(name: str):
     """Induced power is λ0 C_T and a hub-moment term: the same for every twist to 1 % (DESIGN: ≤ 1 kW … of 150–560)."""
     for mu in (0.15, 0.3):

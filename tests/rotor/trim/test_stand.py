@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import DiskFlow
-from rotor.aero.inflow.linear import LINEAR_MODELS, half_skew
+from rotor.aero.inflow.linear import MODELS, half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.design.aircraft import Stand, read_stand
 from rotor.design.design import Design
@@ -165,7 +165,7 @@ def test_wake_parameters_of_upflow(axial: float):
     wake = DiskFlow(0.2, axial - 0.01, 0.01)
     here, mirrored = half_skew(wake), half_skew(DiskFlow(0.2, abs(axial) - 0.01, 0.01))
     assert_allclose(here[0], mirrored[0])
-    for model in LINEAR_MODELS:
+    for model in MODELS:
         assert_allclose(model.longitudinal(wake)[0], model.longitudinal(DiskFlow(0.2, abs(axial) - 0.01, 0.01))[0])
     for name, slope in (("mu_x", here[1]), ("mu_z", here[2]), ("lambda0", here[2])):
         low, high = (half_skew(replace(wake, **{name: getattr(wake, name) + h}))[0] for h in (-1e-7, 1e-7))

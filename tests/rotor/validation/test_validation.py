@@ -196,6 +196,7 @@ def test_measured_inflow():
         assert line.rms < 0.0078
         assert found[measured.mu, "uniform"].correlation is None
         lower = above_disk(trimmed("lifting-line", measured), measured, 0.0)
+        assert lower is not None
         assert np.corrcoef(lower, measured.inflow)[0, 1] == pytest.approx(in_disk, abs=0.01)
 
 
