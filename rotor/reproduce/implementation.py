@@ -78,7 +78,7 @@ def error_figure(number: str) -> Report:
         panels=[errors_drawn],
         numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
         mach=polar.mach,
-        reynolds=polar.reynolds / 1e6,
+        reynolds=(polar.reynolds or 0.0) / 1e6,
         good=GOOD,
         enough=enough,
     )
