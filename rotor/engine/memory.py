@@ -4,43 +4,227 @@ A section whose forces follow lags has, beside the partial derivatives at a poin
 
     ∂F_o(r, ψ)/∂c(r, ψ') = Σ L_ok(r, ψ) N_kl(r, ψ, ψ') R_lc(r, ψ')
 
-L: forces by what is remembered; N: that by its inputs around the azimuth; R: inputs by channels. No waves come out of
-it in pairs, so products of measures and columns are formed at all azimuths of an element.
+L: forces by what is remembered; N: that by its inputs around the azimuth; R: inputs by channels. N is never formed: its
+products, and those of its transposed, follow the linear lags around the azimuth. No waves come out of it in pairs, so
+products of measures and columns are formed at all azimuths of an element.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 from rotor.engine.terms import Structure
 from rotor.engine.waves import WaveGrid
 
 _compile = compiled(error_model="numpy")
 
+INPUTS, OUTPUTS = 2, 3
+"""Of the lags: the first variables are the inputs, those after them the outputs."""
+
+
+class Lags(NamedTuple):
+    """Linear lags of every element, each fed by those before it, on finer azimuths k.
+
+    A link adds p[k] y[a] + q[k] y[a + 1] to what a variable z is given, from a variable y, where a is k or another
+    azimuth. Then z[k] is what is given, or z[k + 1] = decay[k] z[k] + what is given: periodic, or a sum from zero where
+    nothing decays.
+    """
+
+    links: Integers
+    """Variable fed, variable it comes from, row of `places` (−1: a = k), terms (1: no q), (links, 4)."""
+    decaying: Integers
+    """Row of `decays` of every variable, −1 where it does not lag, (variables,)."""
+    count: Integers
+    """How many of the links an element has, (elements,)."""
+    share: Array
+    """By which the first input counts, (elements, azimuths)."""
+    decays: Array
+    """(elements, rows, finer azimuths)"""
+    factors: Array
+    """p and q, (elements, links, 2, finer azimuths)."""
+    places: Integers
+    """a, (elements, rows, finer azimuths)."""
+
 
 @_compile
-def _transposed(left: Any, kernel: Any, right: Any, forces: Any, channels: Any) -> None:
-    """Add (L N R)ᵀ times weights on the forces to the channels: one pass over N, whose rows lie in a row."""
-    outputs, inputs, elements, azimuths = kernel.shape[:4]
-    given = np.empty((inputs, azimuths))
+def spread(coarse: Any, steps: int, out: Any) -> None:
+    """Linear between azimuths, onto finer ones; after the last comes the first again."""
+    n = len(coarse)
+    for c in range(n):
+        here, after = coarse[c], coarse[c + 1 if c + 1 < n else 0]
+        for m in range(steps):
+            w = m / steps
+            out[c * steps + m] = (1.0 - w) * here + w * after
+    out[n * steps] = coarse[0]
+
+
+@_compile
+def gather(fine: Any, steps: int, out: Any) -> None:
+    """The transposed of `spread` over the steps: a mean about every azimuth."""
+    n = len(out)
+    out[:] = 0.0
+    for m in range(steps):
+        after = m / (steps * steps)
+        here = 1.0 / steps - after
+        for c in range(n):
+            out[c] += here * fine[c * steps + m]
+        for c in range(n if m > 0 else 0):
+            out[c] += after * fine[(c - 1 if c > 0 else n - 1) * steps + m]
+
+
+@_compile
+def around(decay: Any, z: Any) -> None:
+    """z[k + 1] = decay[k] z[k] + given[k], in place: z holds what is given.
+
+    Periodic, so that its end is its beginning; a sum from zero where nothing decays.
+    """
+    n = len(decay)
+    value, rest = 0.0, 1.0
+    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+        rest *= decay[k]
+        value = decay[k] * value + z[k]
+    value = value / (1.0 - rest) if rest < 1.0 else 0.0
+    for k in range(n):
+        given = z[k]
+        z[k] = value
+        value = decay[k] * value + given
+    z[n] = z[0] if rest < 1.0 else value
+
+
+@_compile
+def _back_around(decay: Any, z: Any) -> None:
+    """The transposed of `around`, in place."""
+    n = len(decay)
+    value, rest = 0.0, 1.0
+    for k in range(n):
+        rest *= decay[k]
+    if rest < 1.0:
+        z[n] += z[0]
+        for k in range(n - 1, -1, -1):
+            value = decay[k + 1 if k + 1 < n else 0] * value + z[k + 1]
+        value /= 1.0 - rest
+    ahead = z[n]
+    for k in range(n - 1, -1, -1):
+        value = decay[k + 1 if k + 1 < n else 0] * value + ahead
+        ahead, z[k] = z[k], value
+    z[n] = 0.0
+
+
+@_compile
+def _along_links(lags: Any, e: int, z: Any) -> None:
+    """All variables of an element from its inputs, (variables, finer azimuths + 1)."""
+    n, count = z.shape[1] - 1, lags.count[e]
+    for link in range(count):
+        to, of, row, terms = lags.links[link]
+        out, given, (p, q) = z[to], z[of], lags.factors[e, link]
+        if row < 0:
+            for k in range(n):
+                out[k] += p[k] * given[k]
+            for k in range(n if terms > 1 else 0):
+                out[k] += q[k] * given[k + 1]
+        else:
+            at = lags.places[e, row]
+            for k in range(n):
+                out[k] += p[k] * given[at[k]] + q[k] * given[at[k] + 1]
+        if link + 1 == count or lags.links[link + 1, 0] != to:
+            if lags.decaying[to] >= 0:
+                around(lags.decays[e, lags.decaying[to]], out)
+            else:
+                out[n] = out[0]
+
+
+@_compile
+def _back_along_links(lags: Any, e: int, z: Any) -> None:
+    """The transposed of `_along_links`, from weights on the outputs."""
+    n, count = z.shape[1] - 1, lags.count[e]
+    for link in range(count - 1, -1, -1):
+        to, of, row, terms = lags.links[link]
+        weights, out, (p, q) = z[to], z[of], lags.factors[e, link]
+        if link + 1 == count or lags.links[link + 1, 0] != to:
+            if lags.decaying[to] >= 0:
+                _back_around(lags.decays[e, lags.decaying[to]], weights)
+            else:
+                weights[0] += weights[n]
+                weights[n] = 0.0
+        if row < 0:
+            for k in range(n):
+                out[k] += p[k] * weights[k]
+            for k in range(n if terms > 1 else 0):
+                out[k + 1] += q[k] * weights[k]
+        else:
+            at = lags.places[e, row]
+            for k in range(n):
+                out[at[k]] += p[k] * weights[k]
+                out[at[k] + 1] += q[k] * weights[k]
+
+
+@_compile
+def _remembered(lags: Any, inputs: Any, out: Any) -> None:
+    """N times inputs, (inputs, elements, azimuths); the last output is the first input at the same azimuth."""
+    fine = lags.decays.shape[2]
+    z = np.empty((len(lags.decaying), fine + 1))
+    for e in range(inputs.shape[1]):
+        steps = fine // inputs.shape[2]
+        z[:] = 0.0
+        spread(lags.share[e] * inputs[0, e], steps, z[0])
+        spread(inputs[1, e], steps, z[1])
+        _along_links(lags, e, z)
+        for k in range(OUTPUTS):
+            gather(z[INPUTS + k], steps, out[k, e])
+        out[OUTPUTS, e] = inputs[0, e]
+
+
+@_compile
+def _back(lags: Any, e: int, weights: Any, z: Any, out: Any) -> None:
+    """Nᵀ times weights on the outputs of an element, (outputs, azimuths): on its inputs."""
+    steps, fine = lags.decays.shape[2] // out.shape[1], lags.decays.shape[2]
+    z[:] = 0.0
+    for k in range(OUTPUTS):
+        spread(weights[k], steps, z[INPUTS + k])
+        z[INPUTS + k, fine] = 0.0
+    _back_along_links(lags, e, z)
+    for k in range(INPUTS):
+        z[k, 0] += z[k, fine]
+        gather(z[k], steps, out[k])
+    for j in range(out.shape[1]):
+        out[0, j] = lags.share[e, j] * out[0, j] + weights[OUTPUTS, j]
+
+
+@_compile
+def _back_from_forces(left: Any, lags: Any, right: Any, forces: Any, channels: Any) -> None:
+    """Add (L N R)ᵀ times weights on the forces to the channels."""
+    elements, azimuths = forces.shape[1:]
+    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1))
+    weights, given = np.empty((OUTPUTS + 1, azimuths)), np.empty((INPUTS, azimuths))
     for e in range(elements):
-        given[:] = 0.0
-        for k in range(outputs):
-            for i in range(azimuths):
-                weight = 0.0
-                for o in range(len(left)):
-                    weight += forces[o, e, i] * left[o, k, e, i]
-                for inp in range(inputs):
-                    for j in range(azimuths):
-                        given[inp, j] += weight * kernel[k, inp, e, i, j]
-        for inp in range(inputs):
+        weights[:] = 0.0
+        for o in range(len(left)):
+            for k in range(OUTPUTS + 1):
+                for j in range(azimuths):
+                    weights[k, j] += forces[o, e, j] * left[o, k, e, j]
+        _back(lags, e, weights, z, given)
+        for k in range(INPUTS):
             for c in range(len(channels)):
                 for j in range(azimuths):
-                    channels[c, e, j] += given[inp, j] * right[inp, c, e, j]
+                    channels[c, e, j] += given[k, j] * right[k, c, e, j]
+
+
+@_compile
+def _by_inputs(left: Any, lags: Any, used: Any, means: Any, out: Any) -> None:
+    """Add Nᵀ Lᵀ times the means of the forces used with all waves, see `Memory.by_inputs`."""
+    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1))
+    weights = np.empty((OUTPUTS + 1, means.shape[1]))
+    for e in range(len(out)):
+        for o in used:
+            for wave in range(len(means)):
+                for k in range(OUTPUTS + 1):
+                    for j in range(means.shape[1]):
+                        weights[k, j] = left[o, k, e, j] * means[wave, j]
+                _back(lags, e, weights, z, out[e, o, wave])
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,24 +232,24 @@ class Memory:
     """The three factors at a point."""
 
     left: Array
-    """L, (forces, outputs, elements, azimuths)."""
-    kernel: Array
-    """N, (outputs, inputs, elements, azimuths, azimuths)."""
+    """L, (forces, outputs + 1, elements, azimuths); the last output is the first input at the same azimuth."""
+    lags: Lags
+    """N."""
     right: Array
     """R, (inputs, channels, elements, azimuths)."""
 
     def times(self, fields: Mapping[int, Array]) -> Array:
         """What fields added to channels do to the forces, (forces, elements, azimuths)."""
-        given = sum((self.right[:, channel] * field for channel, field in fields.items()), start=np.zeros(1))
-        if not fields:
-            return np.zeros((len(self.left), *self.left.shape[2:]))
-        out = (self.kernel @ given[..., None])[..., 0].sum(axis=1)  # N is not copied.
+        given, out = np.zeros((INPUTS, *self.left.shape[2:])), np.empty(self.left.shape[1:])
+        for channel, field in fields.items():
+            given += self.right[:, channel] * field
+        _remembered(self.lags, given, out)
         return np.einsum("okei,kei->oei", self.left, out)
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
         channels = np.zeros((self.right.shape[1], *forces.shape[1:]))
-        _transposed(self.left, self.kernel, self.right, forces, channels)
+        _back_from_forces(self.left, self.lags, self.right, forces, channels)
         return channels
 
     def by_inputs(self, waves: WaveGrid) -> Array:
@@ -73,11 +257,11 @@ class Memory:
 
         (elements, forces, waves, inputs, azimuths)
         """
-        forces, outputs, elements, azimuths = self.left.shape
-        weighted = np.einsum("okei,ip->keopi", self.left, waves.mean).reshape(outputs, 1, elements, -1, azimuths)
-        whole = sum(part @ kernel for part, kernel in zip(weighted, self.kernel, strict=True))  # N is not copied.
-        assert not isinstance(whole, int)
-        return np.moveaxis(whole, 0, 2).reshape(elements, forces, -1, self.kernel.shape[1], azimuths)
+        forces, _, elements, azimuths = self.left.shape
+        out = np.zeros((elements, forces, waves.waves, INPUTS, azimuths))
+        used = np.flatnonzero(self.left.any(axis=(1, 2, 3)))
+        _by_inputs(self.left, self.lags, used, waves.at / azimuths, out)
+        return out
 
     def by_channel(self, by_inputs: Array, channel: int) -> Array:
         """∂ of the same means by one channel at all azimuths, (forces, waves, elements, azimuths)."""
