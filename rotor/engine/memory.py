@@ -11,6 +11,7 @@ products of measures and columns are formed at all azimuths of an element.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,8 @@ from rotor.engine.waves import WaveGrid
 
 _compile = compiled(error_model="numpy")
 
+_NOTHING = 1e-30
+"""Share of a start that is left, below which it is none: an early end of a sum."""
 INPUTS, OUTPUTS = 2, 3
 """Of the lags: the first variables are the inputs, those after them the outputs."""
 
@@ -54,11 +57,11 @@ class Lags(NamedTuple):
 def spread(coarse: Any, steps: int, out: Any) -> None:
     """Linear between azimuths, onto finer ones; after the last comes the first again."""
     n = len(coarse)
-    for c in range(n):
-        here, after = coarse[c], coarse[c + 1 if c + 1 < n else 0]
-        for m in range(steps):
-            w = m / steps
-            out[c * steps + m] = (1.0 - w) * here + w * after
+    for m in range(steps):
+        w = m / steps
+        for c in range(n - 1):
+            out[c * steps + m] = (1.0 - w) * coarse[c] + w * coarse[c + 1]
+        out[(n - 1) * steps + m] = (1.0 - w) * coarse[n - 1] + w * coarse[0]
     out[n * steps] = coarse[0]
 
 
@@ -83,10 +86,11 @@ def around(decay: Any, z: Any) -> None:
     Periodic, so that its end is its beginning; a sum from zero where nothing decays.
     """
     n = len(decay)
-    value, rest = 0.0, 1.0
-    for k in range(n):  # First from zero: what is left of a start after one turn is known.
+    value, rest, k = 0.0, 1.0, n
+    while k > 0 and rest > _NOTHING:  # First from zero: what is left of a start after one turn is known.
+        k -= 1
+        value += rest * z[k]
         rest *= decay[k]
-        value = decay[k] * value + z[k]
     value = value / (1.0 - rest) if rest < 1.0 else 0.0
     for k in range(n):
         given = z[k]
@@ -97,21 +101,22 @@ def around(decay: Any, z: Any) -> None:
 
 @_compile
 def _back_around(decay: Any, z: Any) -> None:
-    """The transposed of `around`, in place."""
-    n = len(decay)
-    value, rest = 0.0, 1.0
-    for k in range(n):
+    """The transposed of `around` for many columns, (steps + 1, columns), in place."""
+    n, columns = len(decay), z.shape[1]
+    value, rest, k = np.zeros(columns), 1.0, 0
+    while k < n and rest > _NOTHING:
+        for j in range(columns):
+            value[j] += rest * z[k, j]
         rest *= decay[k]
-    if rest < 1.0:
-        z[n] += z[0]
-        for k in range(n - 1, -1, -1):
-            value = decay[k + 1 if k + 1 < n else 0] * value + z[k + 1]
-        value /= 1.0 - rest
-    ahead = z[n]
+        k += 1
+    for j in range(columns):
+        value[j] = z[n, j] + (0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest))
+        z[n, j] = 0.0
     for k in range(n - 1, -1, -1):
-        value = decay[k + 1 if k + 1 < n else 0] * value + ahead
-        ahead, z[k] = z[k], value
-    z[n] = 0.0
+        for j in range(columns):
+            own = z[k, j]
+            z[k, j] = value[j]
+            value[j] = decay[k] * value[j] + own
 
 
 @_compile
@@ -139,8 +144,8 @@ def _along_links(lags: Any, e: int, z: Any) -> None:
 
 @_compile
 def _back_along_links(lags: Any, e: int, z: Any) -> None:
-    """The transposed of `_along_links`, from weights on the outputs."""
-    n, count = z.shape[1] - 1, lags.count[e]
+    """The transposed of `_along_links` for many columns, from weights on the outputs, (variables, …, columns)."""
+    n, columns, count = z.shape[1] - 1, z.shape[2], lags.count[e]
     for link in range(count - 1, -1, -1):
         to, of, row, terms = lags.links[link]
         weights, out, (p, q) = z[to], z[of], lags.factors[e, link]
@@ -150,16 +155,12 @@ def _back_along_links(lags: Any, e: int, z: Any) -> None:
             else:
                 weights[0] += weights[n]
                 weights[n] = 0.0
-        if row < 0:
-            for k in range(n):
-                out[k] += p[k] * weights[k]
-            for k in range(n if terms > 1 else 0):
-                out[k + 1] += q[k] * weights[k]
-        else:
-            at = lags.places[e, row]
-            for k in range(n):
-                out[at[k]] += p[k] * weights[k]
-                out[at[k] + 1] += q[k] * weights[k]
+        for k in range(n):
+            at = k if row < 0 else lags.places[e, row, k]
+            for j in range(columns):
+                out[at, j] += p[k] * weights[k, j]
+            for j in range(columns if terms > 1 else 0):
+                out[at + 1, j] += q[k] * weights[k, j]
 
 
 @_compile
@@ -180,51 +181,67 @@ def _remembered(lags: Any, inputs: Any, out: Any) -> None:
 
 @_compile
 def _back(lags: Any, e: int, weights: Any, z: Any, out: Any) -> None:
-    """Nᵀ times weights on the outputs of an element, (outputs, azimuths): on its inputs."""
-    steps, fine = lags.decays.shape[2] // out.shape[1], lags.decays.shape[2]
+    """Nᵀ times weights on the outputs of an element, (outputs + 1, azimuths, columns): on its inputs."""
+    fine, (azimuths, columns) = lags.decays.shape[2], out.shape[1:]
+    steps = fine // azimuths
     z[:] = 0.0
-    for k in range(OUTPUTS):
-        spread(weights[k], steps, z[INPUTS + k])
-        z[INPUTS + k, fine] = 0.0
+    for m in range(steps):
+        w = m / steps
+        for k in range(OUTPUTS):
+            for c in range(azimuths):
+                after = c + 1 if c + 1 < azimuths else 0
+                for j in range(columns):
+                    z[INPUTS + k, c * steps + m, j] = (1.0 - w) * weights[k, c, j] + w * weights[k, after, j]
     _back_along_links(lags, e, z)
+    out[:] = 0.0
     for k in range(INPUTS):
         z[k, 0] += z[k, fine]
-        gather(z[k], steps, out[k])
-    for j in range(out.shape[1]):
-        out[0, j] = lags.share[e, j] * out[0, j] + weights[OUTPUTS, j]
+        for c in range(azimuths):
+            after = c + 1 if c + 1 < azimuths else 0
+            for m in range(steps):
+                w = m / steps
+                for j in range(columns):
+                    out[k, c, j] += (1.0 - w) / steps * z[k, c * steps + m, j]
+                for j in range(columns if m > 0 else 0):
+                    out[k, after, j] += w / steps * z[k, c * steps + m, j]
+    for c in range(azimuths):
+        for j in range(columns):
+            out[0, c, j] = lags.share[e, c] * out[0, c, j] + weights[OUTPUTS, c, j]
 
 
 @_compile
 def _back_from_forces(left: Any, lags: Any, right: Any, forces: Any, channels: Any) -> None:
     """Add (L N R)ᵀ times weights on the forces to the channels."""
     elements, azimuths = forces.shape[1:]
-    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1))
-    weights, given = np.empty((OUTPUTS + 1, azimuths)), np.empty((INPUTS, azimuths))
+    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1, 1))
+    weights, given = np.empty((OUTPUTS + 1, azimuths, 1)), np.empty((INPUTS, azimuths, 1))
     for e in range(elements):
         weights[:] = 0.0
         for o in range(len(left)):
             for k in range(OUTPUTS + 1):
                 for j in range(azimuths):
-                    weights[k, j] += forces[o, e, j] * left[o, k, e, j]
+                    weights[k, j, 0] += forces[o, e, j] * left[o, k, e, j]
         _back(lags, e, weights, z, given)
         for k in range(INPUTS):
             for c in range(len(channels)):
                 for j in range(azimuths):
-                    channels[c, e, j] += given[k, j] * right[k, c, e, j]
+                    channels[c, e, j] += given[k, j, 0] * right[k, c, e, j]
 
 
 @_compile
-def _by_inputs(left: Any, lags: Any, used: Any, means: Any, out: Any) -> None:
-    """Add Nᵀ Lᵀ times the means of the forces used with all waves, see `Memory.by_inputs`."""
-    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1))
-    weights = np.empty((OUTPUTS + 1, means.shape[1]))
+def _by_inputs(left: Any, lags: Any, means: Any, out: Any) -> None:
+    """Nᵀ Lᵀ times the means of forces with all waves, means: (azimuths, waves), see `Memory.by_inputs`."""
+    azimuths, waves = means.shape
+    columns = len(left) * waves
+    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1, columns))
+    weights = np.empty((OUTPUTS + 1, azimuths, columns))
     for e in range(len(out)):
-        for o in used:
-            for wave in range(len(means)):
-                for k in range(OUTPUTS + 1):
-                    for j in range(means.shape[1]):
-                        weights[k, j] = left[o, k, e, j] * means[wave, j]
-                _back(lags, e, weights, z, out[e, o, wave])
+        for k in range(OUTPUTS + 1):
+            for j in range(azimuths):
+                for o in range(len(left)):
+                    for wave in range(waves):
+                        weights[k, j, o * waves + wave] = left[o, k, e, j] * means[j, wave]
+        _back(lags, e, weights, z, out[e])
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,20 +269,26 @@ class Memory:
         _back_from_forces(self.left, self.lags, self.right, forces, channels)
         return channels
 
-    def by_inputs(self, waves: WaveGrid) -> Array:
-        """∂ of the means of all forces with all waves by the inputs at all azimuths.
+    @cached_property
+    def used(self) -> Integers:
+        """The forces that remember."""
+        return np.flatnonzero(self.left.any(axis=(1, 2, 3)))
 
-        (elements, forces, waves, inputs, azimuths)
+    def by_inputs(self, waves: WaveGrid) -> Array:
+        """∂ of the means of the forces used with all waves by the inputs at all azimuths.
+
+        (elements, inputs, azimuths, forces used, waves)
         """
-        forces, _, elements, azimuths = self.left.shape
-        out = np.zeros((elements, forces, waves.waves, INPUTS, azimuths))
-        used = np.flatnonzero(self.left.any(axis=(1, 2, 3)))
-        _by_inputs(self.left, self.lags, used, waves.at / azimuths, out)
-        return out
+        elements, azimuths = self.left.shape[2:]
+        out = np.empty((elements, INPUTS, azimuths, len(self.used) * waves.waves))
+        _by_inputs(self.left[self.used], self.lags, waves.mean, out)
+        return out.reshape(*out.shape[:-1], -1, waves.waves)
 
     def by_channel(self, by_inputs: Array, channel: int) -> Array:
-        """∂ of the same means by one channel at all azimuths, (forces, waves, elements, azimuths)."""
-        return np.einsum("eoplj,lej->opej", by_inputs, self.right[:, channel])
+        """∂ of the means of all forces by one channel at all azimuths, (forces, waves, elements, azimuths)."""
+        out = np.zeros((len(self.left), by_inputs.shape[-1], *self.left.shape[2:]))
+        out[self.used] = np.einsum("eljop,lej->opej", by_inputs, self.right[:, channel])
+        return out
 
     def add_between(
         self, by_inputs: Array, structure: Structure, phi: Array, psi: Array, waves: WaveGrid, out: Array
@@ -284,12 +307,12 @@ class Memory:
             if not (len(columns) and right.any()):
                 continue
             onto = (right[:, None] * waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, count)
-            for force, left in enumerate(self.left):
+            for force, own in zip(self.used, np.moveaxis(by_inputs, 3, 0), strict=True):
                 first, last = structure.first_weight[force : force + 2].tolist()
                 measures = np.flatnonzero((weight >= first) & (weight < last))
-                if not (len(measures) and left.any()):
+                if not len(measures):
                     continue
-                between = by_inputs[:, force].reshape(elements, count, -1) @ onto
+                between = own.reshape(elements, -1, count).swapaxes(1, 2) @ onto
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
                 product = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
                 place, shape = weight[measures] - first, (row[columns] - begin)[:, None]
