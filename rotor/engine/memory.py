@@ -244,6 +244,16 @@ def _by_inputs(left: Any, lags: Any, means: Any, out: Any) -> None:
         _back(lags, e, weights, z, out[e])
 
 
+@_compile
+def _add_pairs(
+    product: Any, weight: Any, other: Any, measures: Any, row: Any, wave: Any, columns: Any, out: Any
+) -> None:
+    """Add to columns and measures what their pairs of functions along the blade and of waves have."""
+    for c in columns:
+        for m in measures:
+            out[c, 1 + m] += product[weight[m], row[c], other[m], wave[c]]
+
+
 @dataclass(frozen=True, eq=False)
 class Memory:
     """The three factors at a point."""
@@ -302,18 +312,17 @@ class Memory:
         weight, other = np.divmod(structure.measure_places, structure.waves)
         elements, count = len(by_inputs), structure.waves
         for channel, right in enumerate(self.right.swapaxes(0, 1)):
-            begin, end = structure.first_row[channel : channel + 2].tolist()
+            begin, end = structure.first_row[channel : channel + 2]
             columns = np.flatnonzero((row >= begin) & (row < end))
             if not (len(columns) and right.any()):
                 continue
             onto = (right[:, None] * waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, count)
             for force, own in zip(self.used, np.moveaxis(by_inputs, 3, 0), strict=True):
-                first, last = structure.first_weight[force : force + 2].tolist()
+                first, last = structure.first_weight[force : force + 2]
                 measures = np.flatnonzero((weight >= first) & (weight < last))
                 if not len(measures):
                     continue
                 between = own.reshape(elements, -1, count).swapaxes(1, 2) @ onto
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
                 product = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
-                place, shape = weight[measures] - first, (row[columns] - begin)[:, None]
-                out[np.ix_(columns, 1 + measures)] += product[place, shape, other[measures], wave[columns][:, None]]
+                _add_pairs(product, weight - first, other, measures, row - begin, wave, columns, out)
