@@ -245,13 +245,12 @@ def _by_inputs(left: Any, lags: Any, means: Any, out: Any) -> None:
 
 
 @_compile
-def _add_pairs(
-    product: Any, weight: Any, other: Any, measures: Any, row: Any, wave: Any, columns: Any, out: Any
-) -> None:
+def _add_pairs(product: Any, of_measures: Any, of_columns: Any, out: Any) -> None:
     """Add to columns and measures what their pairs of functions along the blade and of waves have."""
+    (weight, first, other, measures), (row, begin, wave, columns) = of_measures, of_columns
     for c in columns:
         for m in measures:
-            out[c, 1 + m] += product[weight[m], row[c], other[m], wave[c]]
+            out[c, 1 + m] += product[weight[m] - first, row[c] - begin, other[m], wave[c]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -311,18 +310,17 @@ class Memory:
         row, wave = np.divmod(structure.coefficient_places, structure.waves)
         weight, other = np.divmod(structure.measure_places, structure.waves)
         elements, count = len(by_inputs), structure.waves
+        ends = structure.first_weight[self.used], structure.first_weight[self.used + 1]
+        measures = [np.flatnonzero((weight >= first) & (weight < last)) for first, last in zip(*ends, strict=True)]
+        from_inputs = by_inputs.reshape(elements, -1, len(self.used) * count).swapaxes(1, 2)
         for channel, right in enumerate(self.right.swapaxes(0, 1)):
             begin, end = structure.first_row[channel : channel + 2]
             columns = np.flatnonzero((row >= begin) & (row < end))
             if not (len(columns) and right.any()):
                 continue
-            onto = (right[:, None] * waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, count)
-            for force, own in zip(self.used, np.moveaxis(by_inputs, 3, 0), strict=True):
-                first, last = structure.first_weight[force : force + 2]
-                measures = np.flatnonzero((weight >= first) & (weight < last))
-                if not len(measures):
-                    continue
-                between = own.reshape(elements, -1, count).swapaxes(1, 2) @ onto
+            onto = np.einsum("lej,qj->eljq", right, waves.at).reshape(elements, -1, count)
+            between = (from_inputs @ onto).reshape(elements, len(self.used), -1)
+            for k, (first, last) in enumerate(zip(*ends, strict=True)):
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
-                product = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
-                _add_pairs(product, weight - first, other, measures, row - begin, wave, columns, out)
+                product = (pairs @ between[:, k]).reshape(last - first, end - begin, count, count)
+                _add_pairs(product, (weight, first, other, measures[k]), (row, begin, wave, columns), out)
