@@ -95,22 +95,6 @@ _compile = compiled(error_model="numpy")
 
 
 @_compile
-def _both_around(decay: Any, z: Any, y: Any) -> None:
-    """`_around` for two: each waits for its own last value, so both take as long as one."""
-    n = len(decay)
-    value, other, rest = 0.0, 0.0, 1.0
-    for k in range(n):
-        rest *= decay[k]
-        value, other = decay[k] * value + z[k], decay[k] * other + y[k]
-    value, other = value / (1.0 - rest), other / (1.0 - rest)
-    for k in range(n):
-        given, beside = z[k], y[k]
-        z[k], y[k] = value, other
-        value, other = decay[k] * value + given, decay[k] * other + beside
-    z[n], y[n] = z[0], y[0]
-
-
-@_compile
 def lag_steps(row: Any, mach: Any, unit: float, slopes: bool, h: Any, by_mach: Any) -> None:
     """Steps over a lag time, and where asked for their slopes by the sum of the Mach numbers at their ends.
 
@@ -146,15 +130,10 @@ def lag_weights(h: Any, weights: Any) -> None:
 
 
 @_compile
-def _feed(u: Any, weights: Any, z: Any) -> None:
-    for k in range(weights.shape[1]):
-        z[k] = weights[_BEGIN, k] * u[k] + weights[_END, k] * u[k + 1]
-
-
-@_compile
 def lag(u: Any, weights: Any, z: Any) -> None:
     """z of dz/ds = (u − z)/T, periodic, exact for an input that is linear in s within every step, (steps + 1,)."""
-    _feed(u, weights, z)
+    for k in range(weights.shape[1]):
+        z[k] = weights[_BEGIN, k] * u[k] + weights[_END, k] * u[k + 1]
     around(weights[_DECAY], z)
 
 
@@ -283,9 +262,8 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
         lag_weights(h[k, 0], weights[k])
     lag(v[_X], weights[0], v[_X_LAGGED])
     _along(element, data, cells, places, v[_X_LAGGED], slopes, lagged)
-    _feed(lagged[0], weights[1], v[_SEPARATED])
-    _feed(lagged[3], weights[1], v[_PLACE])
-    _both_around(weights[1, _DECAY], v[_SEPARATED], v[_PLACE])
+    lag(lagged[0], weights[1], v[_SEPARATED])
+    lag(lagged[3], weights[1], v[_PLACE])
     most = 0.0
     for k in range(fine):
         v[_GATED, k] = _gate(v[_X_LAGGED, k], rows[POSITIVE, 0, k], rows[NEGATIVE, 0, k])[0]

@@ -90,15 +90,18 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
         follow(i, inputs[0], inputs[1], stall, slopes, added, lags, shown)
         for j in range(m):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
+            out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)
+            out[1, i, j] = inside[j] * (added[0, j] * sin - added[1, j] * cos)
+            out[2, i, j] = inside[j] * added[2, j]
+        for j in range(m if slopes else 0):
+            sin, cos = of_double_angle(0.5 * inputs[0, j])
             lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
-            out[0, i, j], out[1, i, j], out[2, i, j] = inside[j] * lift, inside[j] * drag, inside[j] * added[2, j]
-            if slopes:
-                by_angle[i, j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
-                turn[0, 0, i, j], turn[0, 1, i, j] = inside[j] * cos, inside[j] * sin
-                turn[1, 0, i, j], turn[1, 1, i, j] = inside[j] * sin, -inside[j] * cos
-                turn[2, 2, i, j], turn[2, 3, i, j] = inside[j], falls[j] * added[2, j]
-                turn[0, 3, i, j] = falls[j] * lift - inside[j] * drag * by_angle[i, j]
-                turn[1, 3, i, j] = falls[j] * drag + inside[j] * lift * by_angle[i, j]
+            by_angle[i, j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
+            turn[0, 0, i, j], turn[0, 1, i, j] = inside[j] * cos, inside[j] * sin
+            turn[1, 0, i, j], turn[1, 1, i, j] = inside[j] * sin, -inside[j] * cos
+            turn[2, 2, i, j], turn[2, 3, i, j] = inside[j], falls[j] * added[2, j]
+            turn[0, 3, i, j] = falls[j] * lift - inside[j] * drag * by_angle[i, j]
+            turn[1, 3, i, j] = falls[j] * drag + inside[j] * lift * by_angle[i, j]
         for k in range(len(STATES)):
             for j in range(m):
                 states[k, i, j] = shown[k, j] * inside[j]
