@@ -226,7 +226,7 @@ def _over_mach(numbers: Any, cell: Any, places: Any, slopes: bool, row: Any) -> 
 
 @_compile
 def room_for(elements: int, azimuths: int) -> Any:
-    """`count`, `decays`, `factors` and `places` of `Lags` to be filled by `follow`."""
+    """`linked`, `decays`, `factors` and `places` of `Lags` to be filled by `follow`."""
     fine = azimuths * max(1, -(-_LEAST_FINE // azimuths))
     factors, decays = np.empty((elements, _ALL_LINKS, 2, fine)), np.ones((elements, 4, fine))
     return np.empty(elements, np.int64), decays, factors, np.empty((elements, 3, fine), np.int32)
@@ -287,8 +287,8 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
         for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
             shown[state, k] = v[value, k * steps]
     if slopes:
-        count, decays, factors, at = lags[0], lags[1][element], lags[2][element], lags[3][element]
-        count[element] = _ALL_LINKS if most > 0.0 else len(_ATTACHED)
+        linked, decays, factors, at = lags[0], lags[1][element], lags[2][element], lags[3][element]
+        linked[element] = _ALL_LINKS if most > 0.0 else len(_ATTACHED)
         decays[0], decays[1] = weights[0, _DECAY], weights[1, _DECAY]
         _lag_links(v[_X], np.ones(fine), np.zeros(fine), h[0], weights[0], v[_X_LAGGED], factors[0:2])
         _lag_links(lagged[0], lagged[1], lagged[2], h[1], weights[1], v[_SEPARATED], factors[2:4])

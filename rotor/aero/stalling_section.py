@@ -126,7 +126,7 @@ def _with_shown(flow: Array, states: Array, added: Array) -> Array:
 def _memory(c: Array, data: StallingData, forces: int) -> Memory:
     """How forces follow what is added, with the inputs around the azimuth."""
     section = data.section
-    _, _, turn, by_angle, (count, decays, factors, places), right = _added(c, data, True)
+    _, _, turn, by_angle, (linked, decays, factors, places), right = _added(c, data, True)
     t, p = c[UT], c[UP]
     u = np.hypot(t, p)
     k = section.half_solidity[:, None] * u
@@ -139,7 +139,7 @@ def _memory(c: Array, data: StallingData, forces: int) -> Memory:
         left[M, 2] += section.moment_gain[:, None] * u * u
     if len(section.unloaded):
         left *= ~section.unloaded
-    lags = Lags(LINKS, DECAYING, count, by_angle, decays, factors, places)
+    lags = Lags(LINKS, DECAYING, linked, by_angle, decays, factors, places)
     return Memory(np.einsum("oaei,akei->okei", left, turn), lags, right)
 
 

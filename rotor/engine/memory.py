@@ -41,7 +41,7 @@ class Lags(NamedTuple):
     """Variable fed, variable it comes from, row of `places` (−1: a = k), terms (1: no q), (links, 4)."""
     decaying: Integers
     """Row of `decays` of every variable, −1 where it does not lag, (variables,)."""
-    count: Integers
+    linked: Integers
     """How many of the links an element has, (elements,)."""
     share: Array
     """By which the first input counts, (elements, azimuths)."""
@@ -122,7 +122,7 @@ def _back_around(decay: Any, z: Any) -> None:
 @_compile
 def _along_links(lags: Any, e: int, z: Any) -> None:
     """All variables of an element from its inputs, (variables, finer azimuths + 1)."""
-    n, count = z.shape[1] - 1, lags.count[e]
+    n, count = z.shape[1] - 1, lags.linked[e]
     for link in range(count):
         to, of, row, terms = lags.links[link]
         out, given, (p, q) = z[to], z[of], lags.factors[e, link]
@@ -145,7 +145,7 @@ def _along_links(lags: Any, e: int, z: Any) -> None:
 @_compile
 def _back_along_links(lags: Any, e: int, z: Any) -> None:
     """The transposed of `_along_links` for many columns, from weights on the outputs, (variables, …, columns)."""
-    n, columns, count = z.shape[1] - 1, z.shape[2], lags.count[e]
+    n, columns, count = z.shape[1] - 1, z.shape[2], lags.linked[e]
     for link in range(count - 1, -1, -1):
         to, of, row, terms = lags.links[link]
         weights, out, (p, q) = z[to], z[of], lags.factors[e, link]
@@ -180,68 +180,34 @@ def _remembered(lags: Any, inputs: Any, out: Any) -> None:
 
 
 @_compile
-def _back(lags: Any, e: int, weights: Any, z: Any, out: Any) -> None:
-    """Nᵀ times weights on the outputs of an element, (outputs + 1, azimuths, columns): on its inputs."""
-    fine, (azimuths, columns) = lags.decays.shape[2], out.shape[1:]
-    steps = fine // azimuths
-    z[:] = 0.0
-    for m in range(steps):
-        w = m / steps
-        for k in range(OUTPUTS):
-            for c in range(azimuths):
-                after = c + 1 if c + 1 < azimuths else 0
-                for j in range(columns):
-                    z[INPUTS + k, c * steps + m, j] = (1.0 - w) * weights[k, c, j] + w * weights[k, after, j]
-    _back_along_links(lags, e, z)
-    out[:] = 0.0
-    for k in range(INPUTS):
-        z[k, 0] += z[k, fine]
-        for c in range(azimuths):
-            after = c + 1 if c + 1 < azimuths else 0
-            for m in range(steps):
-                w = m / steps
-                for j in range(columns):
-                    out[k, c, j] += (1.0 - w) / steps * z[k, c * steps + m, j]
-                for j in range(columns if m > 0 else 0):
-                    out[k, after, j] += w / steps * z[k, c * steps + m, j]
-    for c in range(azimuths):
-        for j in range(columns):
-            out[0, c, j] = lags.share[e, c] * out[0, c, j] + weights[OUTPUTS, c, j]
-
-
-@_compile
-def _back_from_forces(left: Any, lags: Any, right: Any, forces: Any, channels: Any) -> None:
-    """Add (L N R)ᵀ times weights on the forces to the channels."""
-    elements, azimuths = forces.shape[1:]
-    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1, 1))
-    weights, given = np.empty((OUTPUTS + 1, azimuths, 1)), np.empty((INPUTS, azimuths, 1))
-    for e in range(elements):
-        weights[:] = 0.0
-        for o in range(len(left)):
-            for k in range(OUTPUTS + 1):
-                for j in range(azimuths):
-                    weights[k, j, 0] += forces[o, e, j] * left[o, k, e, j]
-        _back(lags, e, weights, z, given)
-        for k in range(INPUTS):
-            for c in range(len(channels)):
-                for j in range(azimuths):
-                    channels[c, e, j] += given[k, j, 0] * right[k, c, e, j]
-
-
-@_compile
-def _by_inputs(left: Any, lags: Any, means: Any, out: Any) -> None:
-    """Nᵀ Lᵀ times the means of forces with all waves, means: (azimuths, waves), see `Memory.by_inputs`."""
-    azimuths, waves = means.shape
-    columns = len(left) * waves
-    z = np.empty((len(lags.decaying), lags.decays.shape[2] + 1, columns))
-    weights = np.empty((OUTPUTS + 1, azimuths, columns))
+def _back(lags: Any, left: Any, means: Any, out: Any) -> None:
+    """(L N)ᵀ times functions of azimuth on each force, (azimuths, functions), (elements, inputs, azimuths, …)."""
+    (azimuths, functions), fine = means.shape, lags.decays.shape[2]
+    steps, columns = fine // azimuths, len(left) * functions
+    z, weights = np.empty((len(lags.decaying), fine + 1, columns)), np.empty((OUTPUTS + 1, azimuths, columns))
     for e in range(len(out)):
+        z[:], out[e] = 0.0, 0.0
         for k in range(OUTPUTS + 1):
-            for j in range(azimuths):
+            for c in range(azimuths):
                 for o in range(len(left)):
-                    for wave in range(waves):
-                        weights[k, j, o * waves + wave] = left[o, k, e, j] * means[j, wave]
-        _back(lags, e, weights, z, out[e])
+                    for j in range(functions):
+                        weights[k, c, o * functions + j] = left[o, k, e, c] * means[c, j]
+        for c in range(azimuths):
+            for m in range(1 - steps, steps):
+                at, share = (c * steps + m) % fine, 1.0 - abs(m) / steps
+                for k in range(OUTPUTS):
+                    for j in range(columns):
+                        z[INPUTS + k, at, j] += share * weights[k, c, j]
+        _back_along_links(lags, e, z)
+        z[:INPUTS, 0] += z[:INPUTS, fine]
+        for c in range(azimuths):
+            for m in range(1 - steps, steps):
+                at, share = (c * steps + m) % fine, (1.0 - abs(m) / steps) / steps
+                for k in range(INPUTS):
+                    for j in range(columns):
+                        out[e, k, c, j] += share * z[k, at, j]
+            for j in range(columns):
+                out[e, 0, c, j] = lags.share[e, c] * out[e, 0, c, j] + weights[OUTPUTS, c, j]
 
 
 @_compile
@@ -274,9 +240,10 @@ class Memory:
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
-        channels = np.zeros((self.right.shape[1], *forces.shape[1:]))
-        _back_from_forces(self.left, self.lags, self.right, forces, channels)
-        return channels
+        weights, (elements, azimuths) = np.einsum("okej,oej->kej", self.left, forces), forces.shape[1:]
+        on_inputs = np.empty((elements, INPUTS, azimuths, 1))
+        _back(self.lags, weights[None], np.ones((azimuths, 1)), on_inputs)
+        return np.einsum("elj,lcej->cej", on_inputs[..., 0], self.right)
 
     @cached_property
     def used(self) -> Integers:
@@ -290,7 +257,7 @@ class Memory:
         """
         elements, azimuths = self.left.shape[2:]
         out = np.empty((elements, INPUTS, azimuths, len(self.used) * waves.waves))
-        _by_inputs(self.left[self.used], self.lags, waves.mean, out)
+        _back(self.lags, self.left[self.used], waves.mean, out)
         return out.reshape(*out.shape[:-1], -1, waves.waves)
 
     def by_channel(self, by_inputs: Array, channel: int) -> Array:

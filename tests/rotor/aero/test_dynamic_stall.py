@@ -45,10 +45,10 @@ def followed(x: Any, mach: Any, own: StallData) -> tuple[Array, Array]:
 def remembered(x: Array, mach: Array, own: StallData) -> Memory:
     """The derivatives: forces are what is added, channels x and M."""
     n = len(x)
-    count, decays, factors, places = room = room_for(1, n)
+    linked, decays, factors, places = room = room_for(1, n)
     follow(0, x, mach, own, True, np.empty((3, n)), room, np.empty((4, n)))
     left, right = (np.repeat(np.eye(rows, columns)[:, :, None, None], n, axis=3) for rows, columns in ((3, 4), (2, 2)))
-    return Memory(left, Lags(LINKS, DECAYING, count, np.ones((1, n)), decays, factors, places), right)
+    return Memory(left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right)
 
 
 @pytest.mark.parametrize("name", ["naca0012", "sc1095", "sc1094r8"])
