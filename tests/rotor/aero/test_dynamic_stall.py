@@ -77,8 +77,10 @@ def test_separation_reaches_leishman_and_beddoes_0_7_near_static_stall():
     assert found.numbers[TRAVEL, 8] == 9.0
 
 
-PSI = 2.0 * np.pi * np.arange(24) / 24
-RETREATING = np.radians(10.0 - 8.0 * np.sin(PSI)), 0.463 + 0.203 * np.sin(PSI)
+def around(azimuths: int, degrees: float) -> tuple[Array, Array]:
+    """x and M of a blade that stalls where it retreats, by the mean of x."""
+    psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
+    return np.radians(degrees - 0.8 * degrees * np.sin(psi)), 0.463 + 0.203 * np.sin(psi)
 
 
 @pytest.mark.parametrize("degrees", [-12.0, 0.0, 8.0, 14.0, 20.0])
@@ -134,18 +136,13 @@ def _separation(angles: Array, mach: float) -> Array:
 
 
 def test_the_periodic_solution_is_that_of_marching_in_time():
-    x, mach = RETREATING
+    x, mach = around(24, 10.0)
     shown = followed(x, mach, data(0.04, 0.6))[1]
     separation, vortex = _marched(x, mach, data(0.04, 0.6))
     assert shown[SEPARATION].min() < 0.5
     assert shown[VORTEX].max() > 0.05
     assert np.abs(shown[SEPARATION] - separation).max() < 0.015  # .0123 on 48 azimuths.
     assert np.abs(shown[VORTEX] - vortex).max() < 0.01
-
-
-def around(azimuths: int, degrees: float) -> tuple[Array, Array]:
-    psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
-    return np.radians(degrees - 0.8 * degrees * np.sin(psi)), 0.463 + 0.203 * np.sin(psi)
 
 
 @pytest.mark.parametrize("azimuths", [24, 48, 120])  # On finer azimuths, and on those themselves.
