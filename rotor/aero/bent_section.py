@@ -189,7 +189,7 @@ def bent(inner: SectionInterface) -> SectionInterface:
         right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
             *by_air, t, p, r, w, v
         )
-        return Memory(left, within.kernel, right)
+        return Memory(left, within.lags, right)
 
     remembers = None if inner.memory is None else memory
     return SectionInterface(section, tuple(pairs), first + 5, forces + 5, inner.balanced, remembers)

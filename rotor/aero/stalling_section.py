@@ -12,14 +12,26 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED, INPUTS, SEPARATION, STATES, VORTEX, StallData, follow, window
+from rotor.aero.dynamic_stall import (
+    ADDED,
+    DECAYING,
+    INPUTS,
+    LINKS,
+    SEPARATION,
+    STATES,
+    VORTEX,
+    StallData,
+    follow,
+    room_for,
+    window,
+)  # fmt: skip
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
 from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
 from rotor.airfoil.stall_onset import ZERO
 from rotor.arrays import Array
 from rotor.compiled import compiled
-from rotor.engine.memory import Memory
+from rotor.engine.memory import Lags, Memory
 
 _compile = compiled(error_model="numpy")
 
@@ -59,53 +71,51 @@ def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, weigh
 
 @_compile
 def _added(c: Any, data: Any, slopes: bool) -> Any:
-    """ΔC_l, ΔC_d and ΔC_m, `STATES`, and with slopes the kernel and the right factor of the memory."""
+    """ΔC_l, ΔC_d and ΔC_m, `STATES`, and with slopes what the memory is made of.
+
+    That is: slopes of the three by `ADDED` and by the angle from zero lift, (3, 4, elements, azimuths); slope of x by
+    this angle; the inner arrays of the lags; slopes of this angle and of M by the channels.
+    """
     section, stall = data
     n, m = c.shape[1:]
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
     elements = n if slopes else 0
-    kernel, right = np.empty((3, 2, elements, m, m)), np.zeros((2, c.shape[0], elements, m))
+    turn, by_angle, lags = np.zeros((3, 4, elements, m)), np.empty((elements, m)), room_for(elements, m)
+    right = np.zeros((len(INPUTS), c.shape[0], elements, m))
     inputs, y, weight, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty((2, m)), np.empty(m)
-    inside, falls, by_angle = weight[0], weight[1], np.empty(m)
-    added, by, shown = np.empty((len(ADDED), m)), np.empty((3, m, 2 * m if slopes else 0)), np.empty((len(STATES), m))
-    turned = np.empty((3, 2 * m if slopes else 0))
+    inside, falls = weight[0], weight[1]
+    added, shown = np.empty((len(ADDED), m)), np.empty((len(STATES), m))
     for i in range(n):
         _inputs(c, i, section, stall, inputs, y, weight, zero, right)
-        follow(i, inputs[0], inputs[1], stall, slopes, added, by, shown)
+        follow(i, inputs[0], inputs[1], stall, slopes, added, lags, shown)
         for j in range(m):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
             out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)
             out[1, i, j] = inside[j] * (added[0, j] * sin - added[1, j] * cos)
             out[2, i, j] = inside[j] * added[2, j]
+        for j in range(m if slopes else 0):
+            sin, cos = of_double_angle(0.5 * inputs[0, j])
+            lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
+            by_angle[i, j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
+            turn[0, 0, i, j], turn[0, 1, i, j] = inside[j] * cos, inside[j] * sin
+            turn[1, 0, i, j], turn[1, 1, i, j] = inside[j] * sin, -inside[j] * cos
+            turn[2, 2, i, j], turn[2, 3, i, j] = inside[j], falls[j] * added[2, j]
+            turn[0, 3, i, j] = falls[j] * lift - inside[j] * drag * by_angle[i, j]
+            turn[1, 3, i, j] = falls[j] * drag + inside[j] * lift * by_angle[i, j]
         for k in range(len(STATES)):
             for j in range(m):
                 states[k, i, j] = shown[k, j] * inside[j]
         for j in range(m):
             states[SEPARATION, i, j] += 1.0 - inside[j]
-        for j in range(m):
-            by_angle[j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
-        for j in range(m if slopes else 0):
-            sin, cos = of_double_angle(0.5 * inputs[0, j])
-            lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
-            for k in range(2 * m):
-                turned[0, k] = inside[j] * (by[0, j, k] * cos + by[1, j, k] * sin)
-                turned[1, k] = inside[j] * (by[0, j, k] * sin - by[1, j, k] * cos)
-                turned[2, k] = inside[j] * by[2, j, k]
-            turned[0, j] -= inside[j] * drag
-            turned[1, j] += inside[j] * lift
-            for o, value in enumerate((lift, drag, added[2, j])):
-                for k in range(m):
-                    kernel[o, 0, i, j, k] = turned[o, k] * by_angle[k]
-                kernel[o, 0, i, j, j] += falls[j] * value
-                for k in range(m):  # By M through the zero-lift angle too.
-                    kernel[o, 1, i, j, k] = turned[o, m + k] - kernel[o, 0, i, j, k] * zero[k]
-    return out, states, kernel, right
+        for channel in range(len(c) if slopes else 0):
+            for j in range(m):
+                right[0, channel, i, j] -= zero[j] * right[1, channel, i, j]
+    return out, states, turn, by_angle, lags, right
 
 
 def added_to(c: Array, data: StallingData) -> tuple[Array, Array]:
     """ΔC_l, ΔC_d, ΔC_m, (3, elements, azimuths), and `dynamic_stall.STATES`, (4, elements, azimuths)."""
-    out, states, _, _ = _added(c, data, False)
-    return out, states
+    return _added(c, data, False)[:2]
 
 
 def _with_shown(flow: Array, states: Array, added: Array) -> Array:
@@ -116,7 +126,7 @@ def _with_shown(flow: Array, states: Array, added: Array) -> Array:
 def _memory(c: Array, data: StallingData, forces: int) -> Memory:
     """How forces follow what is added, with the inputs around the azimuth."""
     section = data.section
-    _, _, kernel, right = _added(c, data, True)
+    _, _, turn, by_angle, (linked, decays, factors, places), right = _added(c, data, True)
     t, p = c[UT], c[UP]
     u = np.hypot(t, p)
     k = section.half_solidity[:, None] * u
@@ -129,7 +139,8 @@ def _memory(c: Array, data: StallingData, forces: int) -> Memory:
         left[M, 2] += section.moment_gain[:, None] * u * u
     if len(section.unloaded):
         left *= ~section.unloaded
-    return Memory(left, kernel, right)
+    lags = Lags(LINKS, DECAYING, linked, by_angle, decays, factors, places)
+    return Memory(np.einsum("oaei,akei->okei", left, turn), lags, right)
 
 
 @lru_cache(maxsize=8)

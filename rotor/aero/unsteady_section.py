@@ -219,7 +219,7 @@ def unsteady(inner: SectionInterface) -> SectionInterface:
         right = np.concatenate([within.right, np.zeros((len(within.right), len(RATES), *c.shape[1:]))], axis=1)
         for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
             right[:, channel] += within.right[:, TH] * slope
-        return Memory(within.left, within.kernel, right)
+        return Memory(within.left, within.lags, right)
 
     remembers = None if inner.memory is None else memory
     return SectionInterface(section, pairs, channels, inner.forces, inner.balanced, remembers)

@@ -168,10 +168,7 @@ class Point:
 
     @cached_property
     def remembered(self) -> Array:
-        """∂ of the means of all forces with all waves by the inputs of the memory at all azimuths.
-
-        (elements, forces, waves, inputs, azimuths)
-        """
+        """`Memory.by_inputs`, made once."""
         assert self.memory is not None
         return self.memory.by_inputs(self.grid.waves)
 

@@ -4,43 +4,219 @@ A section whose forces follow lags has, beside the partial derivatives at a poin
 
     ∂F_o(r, ψ)/∂c(r, ψ') = Σ L_ok(r, ψ) N_kl(r, ψ, ψ') R_lc(r, ψ')
 
-L: forces by what is remembered; N: that by its inputs around the azimuth; R: inputs by channels. No waves come out of
-it in pairs, so products of measures and columns are formed at all azimuths of an element.
+L: forces by what is remembered; N: that by its inputs around the azimuth; R: inputs by channels. N is never formed: its
+products, and those of its transposed, follow the linear lags around the azimuth. No waves come out of it in pairs, so
+products of measures and columns are formed at all azimuths of an element.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 from rotor.engine.terms import Structure
 from rotor.engine.waves import WaveGrid
 
 _compile = compiled(error_model="numpy")
 
+_NOTHING = 1e-30
+"""Share of a start that is left, below which it is none: an early end of a sum."""
+INPUTS, OUTPUTS = 2, 3
+"""Of the lags: the first variables are the inputs, those after them the outputs."""
+
+
+class Lags(NamedTuple):
+    """Linear lags of every element, each fed by those before it, on finer azimuths k.
+
+    A link adds p[k] y[a] + q[k] y[a + 1] to what a variable z is given, from a variable y, where a is k or another
+    azimuth. Then z[k] is what is given, or z[k + 1] = decay[k] z[k] + what is given: periodic, or a sum from zero where
+    nothing decays.
+    """
+
+    links: Integers
+    """Variable fed, variable it comes from, row of `places` (−1: a = k), terms (1: no q), (links, 4)."""
+    decaying: Integers
+    """Row of `decays` of every variable, −1 where it does not lag, (variables,)."""
+    linked: Integers
+    """How many of the links an element has, (elements,)."""
+    share: Array
+    """By which the first input counts, (elements, azimuths)."""
+    decays: Array
+    """(elements, rows, finer azimuths)"""
+    factors: Array
+    """p and q, (elements, links, 2, finer azimuths)."""
+    places: Integers
+    """a, (elements, rows, finer azimuths)."""
+
 
 @_compile
-def _transposed(left: Any, kernel: Any, right: Any, forces: Any, channels: Any) -> None:
-    """Add (L N R)ᵀ times weights on the forces to the channels: one pass over N, whose rows lie in a row."""
-    outputs, inputs, elements, azimuths = kernel.shape[:4]
-    given = np.empty((inputs, azimuths))
-    for e in range(elements):
-        given[:] = 0.0
-        for k in range(outputs):
-            for i in range(azimuths):
-                weight = 0.0
+def spread(coarse: Any, steps: int, out: Any) -> None:
+    """Linear between azimuths, onto finer ones; after the last comes the first again."""
+    n = len(coarse)
+    for m in range(steps):
+        w = m / steps
+        for c in range(n - 1):
+            out[c * steps + m] = (1.0 - w) * coarse[c] + w * coarse[c + 1]
+        out[(n - 1) * steps + m] = (1.0 - w) * coarse[n - 1] + w * coarse[0]
+    out[n * steps] = coarse[0]
+
+
+@_compile
+def gather(fine: Any, steps: int, out: Any) -> None:
+    """The transposed of `spread` over the steps: a mean about every azimuth."""
+    n = len(out)
+    out[:] = 0.0
+    for m in range(steps):
+        after = m / (steps * steps)
+        here = 1.0 / steps - after
+        for c in range(n):
+            out[c] += here * fine[c * steps + m]
+        for c in range(n if m > 0 else 0):
+            out[c] += after * fine[(c - 1 if c > 0 else n - 1) * steps + m]
+
+
+@_compile
+def around(decay: Any, z: Any) -> None:
+    """z[k + 1] = decay[k] z[k] + given[k], in place: z holds what is given.
+
+    Periodic, so that its end is its beginning; a sum from zero where nothing decays.
+    """
+    n = len(decay)
+    value, rest, k = 0.0, 1.0, n
+    while k > 0 and rest > _NOTHING:  # First from zero: what is left of a start after one turn is known.
+        k -= 1
+        value += rest * z[k]
+        rest *= decay[k]
+    value = value / (1.0 - rest) if rest < 1.0 else 0.0
+    for k in range(n):
+        given = z[k]
+        z[k] = value
+        value = decay[k] * value + given
+    z[n] = z[0] if rest < 1.0 else value
+
+
+@_compile
+def _back_around(decay: Any, z: Any) -> None:
+    """The transposed of `around` for many columns, (steps + 1, columns), in place."""
+    n, columns = len(decay), z.shape[1]
+    value, rest, k = np.zeros(columns), 1.0, 0
+    while k < n and rest > _NOTHING:
+        for j in range(columns):
+            value[j] += rest * z[k, j]
+        rest *= decay[k]
+        k += 1
+    for j in range(columns):
+        value[j] = z[n, j] + (0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest))
+        z[n, j] = 0.0
+    for k in range(n - 1, -1, -1):
+        for j in range(columns):
+            own = z[k, j]
+            z[k, j] = value[j]
+            value[j] = decay[k] * value[j] + own
+
+
+@_compile
+def _along_links(lags: Any, e: int, z: Any) -> None:
+    """All variables of an element from its inputs, (variables, finer azimuths + 1)."""
+    n, count = z.shape[1] - 1, lags.linked[e]
+    for link in range(count):
+        to, of, row, terms = lags.links[link]
+        out, given, (p, q) = z[to], z[of], lags.factors[e, link]
+        if row < 0:
+            for k in range(n):
+                out[k] += p[k] * given[k]
+            for k in range(n if terms > 1 else 0):
+                out[k] += q[k] * given[k + 1]
+        else:
+            at = lags.places[e, row]
+            for k in range(n):
+                out[k] += p[k] * given[at[k]] + q[k] * given[at[k] + 1]
+        if link + 1 == count or lags.links[link + 1, 0] != to:
+            if lags.decaying[to] >= 0:
+                around(lags.decays[e, lags.decaying[to]], out)
+            else:
+                out[n] = out[0]
+
+
+@_compile
+def _back_along_links(lags: Any, e: int, z: Any) -> None:
+    """The transposed of `_along_links` for many columns, from weights on the outputs, (variables, …, columns)."""
+    n, columns, count = z.shape[1] - 1, z.shape[2], lags.linked[e]
+    for link in range(count - 1, -1, -1):
+        to, of, row, terms = lags.links[link]
+        weights, out, (p, q) = z[to], z[of], lags.factors[e, link]
+        if link + 1 == count or lags.links[link + 1, 0] != to:
+            if lags.decaying[to] >= 0:
+                _back_around(lags.decays[e, lags.decaying[to]], weights)
+            else:
+                weights[0] += weights[n]
+                weights[n] = 0.0
+        for k in range(n):
+            at = k if row < 0 else lags.places[e, row, k]
+            for j in range(columns):
+                out[at, j] += p[k] * weights[k, j]
+            for j in range(columns if terms > 1 else 0):
+                out[at + 1, j] += q[k] * weights[k, j]
+
+
+@_compile
+def _remembered(lags: Any, inputs: Any, out: Any) -> None:
+    """N times inputs, (inputs, elements, azimuths); the last output is the first input at the same azimuth."""
+    fine = lags.decays.shape[2]
+    z = np.empty((len(lags.decaying), fine + 1))
+    for e in range(inputs.shape[1]):
+        steps = fine // inputs.shape[2]
+        z[:] = 0.0
+        spread(lags.share[e] * inputs[0, e], steps, z[0])
+        spread(inputs[1, e], steps, z[1])
+        _along_links(lags, e, z)
+        for k in range(OUTPUTS):
+            gather(z[INPUTS + k], steps, out[k, e])
+        out[OUTPUTS, e] = inputs[0, e]
+
+
+@_compile
+def _back(lags: Any, left: Any, means: Any, out: Any) -> None:
+    """(L N)ᵀ times functions of azimuth on each force, (azimuths, functions), (elements, inputs, azimuths, …)."""
+    (azimuths, functions), fine = means.shape, lags.decays.shape[2]
+    steps, columns = fine // azimuths, len(left) * functions
+    z, weights = np.empty((len(lags.decaying), fine + 1, columns)), np.empty((OUTPUTS + 1, azimuths, columns))
+    for e in range(len(out)):
+        z[:], out[e] = 0.0, 0.0
+        for k in range(OUTPUTS + 1):
+            for c in range(azimuths):
                 for o in range(len(left)):
-                    weight += forces[o, e, i] * left[o, k, e, i]
-                for inp in range(inputs):
-                    for j in range(azimuths):
-                        given[inp, j] += weight * kernel[k, inp, e, i, j]
-        for inp in range(inputs):
-            for c in range(len(channels)):
-                for j in range(azimuths):
-                    channels[c, e, j] += given[inp, j] * right[inp, c, e, j]
+                    for j in range(functions):
+                        weights[k, c, o * functions + j] = left[o, k, e, c] * means[c, j]
+        for c in range(azimuths):
+            for m in range(1 - steps, steps):
+                at, share = (c * steps + m) % fine, 1.0 - abs(m) / steps
+                for k in range(OUTPUTS):
+                    for j in range(columns):
+                        z[INPUTS + k, at, j] += share * weights[k, c, j]
+        _back_along_links(lags, e, z)
+        z[:INPUTS, 0] += z[:INPUTS, fine]
+        for c in range(azimuths):
+            for m in range(1 - steps, steps):
+                at, share = (c * steps + m) % fine, (1.0 - abs(m) / steps) / steps
+                for k in range(INPUTS):
+                    for j in range(columns):
+                        out[e, k, c, j] += share * z[k, at, j]
+            for j in range(columns):
+                out[e, 0, c, j] = lags.share[e, c] * out[e, 0, c, j] + weights[OUTPUTS, c, j]
+
+
+@_compile
+def _add_pairs(product: Any, of_measures: Any, of_columns: Any, out: Any) -> None:
+    """Add to columns and measures what their pairs of functions along the blade and of waves have."""
+    (weight, first, other, measures), (row, begin, wave, columns) = of_measures, of_columns
+    for c in columns:
+        for m in measures:
+            out[c, 1 + m] += product[weight[m] - first, row[c] - begin, other[m], wave[c]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,40 +224,47 @@ class Memory:
     """The three factors at a point."""
 
     left: Array
-    """L, (forces, outputs, elements, azimuths)."""
-    kernel: Array
-    """N, (outputs, inputs, elements, azimuths, azimuths)."""
+    """L, (forces, outputs + 1, elements, azimuths); the last output is the first input at the same azimuth."""
+    lags: Lags
+    """N."""
     right: Array
     """R, (inputs, channels, elements, azimuths)."""
 
     def times(self, fields: Mapping[int, Array]) -> Array:
         """What fields added to channels do to the forces, (forces, elements, azimuths)."""
-        given = sum((self.right[:, channel] * field for channel, field in fields.items()), start=np.zeros(1))
-        if not fields:
-            return np.zeros((len(self.left), *self.left.shape[2:]))
-        out = (self.kernel @ given[..., None])[..., 0].sum(axis=1)  # N is not copied.
+        given, out = np.zeros((INPUTS, *self.left.shape[2:])), np.empty(self.left.shape[1:])
+        for channel, field in fields.items():
+            given += self.right[:, channel] * field
+        _remembered(self.lags, given, out)
         return np.einsum("okei,kei->oei", self.left, out)
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
-        channels = np.zeros((self.right.shape[1], *forces.shape[1:]))
-        _transposed(self.left, self.kernel, self.right, forces, channels)
-        return channels
+        weights, (elements, azimuths) = np.einsum("okej,oej->kej", self.left, forces), forces.shape[1:]
+        on_inputs = np.empty((elements, INPUTS, azimuths, 1))
+        _back(self.lags, weights[None], np.ones((azimuths, 1)), on_inputs)
+        return np.einsum("elj,lcej->cej", on_inputs[..., 0], self.right)
+
+    @cached_property
+    def used(self) -> Integers:
+        """The forces that remember."""
+        return np.flatnonzero(self.left.any(axis=(1, 2, 3)))
 
     def by_inputs(self, waves: WaveGrid) -> Array:
-        """∂ of the means of all forces with all waves by the inputs at all azimuths.
+        """∂ of the means of the forces used with all waves by the inputs at all azimuths.
 
-        (elements, forces, waves, inputs, azimuths)
+        (elements, inputs, azimuths, forces used, waves)
         """
-        forces, outputs, elements, azimuths = self.left.shape
-        weighted = np.einsum("okei,ip->keopi", self.left, waves.mean).reshape(outputs, 1, elements, -1, azimuths)
-        whole = sum(part @ kernel for part, kernel in zip(weighted, self.kernel, strict=True))  # N is not copied.
-        assert not isinstance(whole, int)
-        return np.moveaxis(whole, 0, 2).reshape(elements, forces, -1, self.kernel.shape[1], azimuths)
+        elements, azimuths = self.left.shape[2:]
+        out = np.empty((elements, INPUTS, azimuths, len(self.used) * waves.waves))
+        _back(self.lags, self.left[self.used], waves.mean, out)
+        return out.reshape(*out.shape[:-1], -1, waves.waves)
 
     def by_channel(self, by_inputs: Array, channel: int) -> Array:
-        """∂ of the same means by one channel at all azimuths, (forces, waves, elements, azimuths)."""
-        return np.einsum("eoplj,lej->opej", by_inputs, self.right[:, channel])
+        """∂ of the means of all forces by one channel at all azimuths, (forces, waves, elements, azimuths)."""
+        out = np.zeros((len(self.left), by_inputs.shape[-1], *self.left.shape[2:]))
+        out[self.used] = np.einsum("eljop,lej->opej", by_inputs, self.right[:, channel])
+        return out
 
     def add_between(
         self, by_inputs: Array, structure: Structure, phi: Array, psi: Array, waves: WaveGrid, out: Array
@@ -94,19 +277,17 @@ class Memory:
         row, wave = np.divmod(structure.coefficient_places, structure.waves)
         weight, other = np.divmod(structure.measure_places, structure.waves)
         elements, count = len(by_inputs), structure.waves
+        ends = structure.first_weight[self.used], structure.first_weight[self.used + 1]
+        measures = [np.flatnonzero((weight >= first) & (weight < last)) for first, last in zip(*ends, strict=True)]
+        from_inputs = by_inputs.reshape(elements, -1, len(self.used) * count).swapaxes(1, 2)
         for channel, right in enumerate(self.right.swapaxes(0, 1)):
-            begin, end = structure.first_row[channel : channel + 2].tolist()
+            begin, end = structure.first_row[channel : channel + 2]
             columns = np.flatnonzero((row >= begin) & (row < end))
             if not (len(columns) and right.any()):
                 continue
-            onto = (right[:, None] * waves.at[:, None]).transpose(2, 0, 3, 1).reshape(elements, -1, count)
-            for force, left in enumerate(self.left):
-                first, last = structure.first_weight[force : force + 2].tolist()
-                measures = np.flatnonzero((weight >= first) & (weight < last))
-                if not (len(measures) and left.any()):
-                    continue
-                between = by_inputs[:, force].reshape(elements, count, -1) @ onto
+            onto = np.einsum("lej,qj->eljq", right, waves.at).reshape(elements, -1, count)
+            between = (from_inputs @ onto).reshape(elements, len(self.used), -1)
+            for k, (first, last) in enumerate(zip(*ends, strict=True)):
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
-                product = (pairs @ between.reshape(elements, -1)).reshape(last - first, end - begin, count, count)
-                place, shape = weight[measures] - first, (row[columns] - begin)[:, None]
-                out[np.ix_(columns, 1 + measures)] += product[place, shape, other[measures], wave[columns][:, None]]
+                product = (pairs @ between[:, k]).reshape(last - first, end - begin, count, count)
+                _add_pairs(product, (weight, first, other, measures[k]), (row, begin, wave, columns), out)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow
+from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow, room_for
 from rotor.aero.lifting_line import theodorsen
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.airfoil.section_table import SectionTable, table_from_deck
@@ -101,8 +101,7 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     data = StallData(**own, section=section, weight=weight, tip_mach=mach)
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     x = seen - float(table.zero_lift_alpha(mach))
-    by = np.empty((3, _AZIMUTHS, 0))
-    follow(0, x, np.full(_AZIMUTHS, mach), data, False, added, by, shown)
+    follow(0, x, np.full(_AZIMUTHS, mach), data, False, added, room_for(0, _AZIMUTHS), shown)
     mass = math.pi * (q + 0.5 * turning)
     moment = -0.25 * (mass + math.pi * q + 0.25 * math.pi * turning)
     dynamic = _static(table, seen, mach) + np.stack([added[ADDED_N] + mass, added[ADDED_M] + moment])

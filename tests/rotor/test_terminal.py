@@ -119,7 +119,7 @@ class Finder:
         if name == {where!r}:
             os.kill(os.getpid(), {int(sent)})
 sys.meta_path.insert(0, Finder())
-sys.argv = ["-m", "--version"] if {module!r} == "rotor" else ["-m", "--no-browser", "--port", "0"]
+sys.argv = ["-m", "solve"] if {module!r} == "rotor" else ["-m", "--no-browser", "--port", "0"]
 runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
 """
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.dynamic_stall import SEPARATION, VORTEX, StallData, follow
+from rotor.aero.dynamic_stall import DECAYING, LINKS, SEPARATION, VORTEX, StallData, follow, room_for
 from rotor.airfoil.sections import load_section
 from rotor.airfoil.stall_onset import (
     LAG_PRESSURE,
@@ -20,6 +20,8 @@ from rotor.airfoil.stall_onset import (
     stall_onset,
 )
 from rotor.arrays import Array
+from rotor.engine.memory import Lags, Memory
+from rotor.engine.waves import wave_grid
 
 TABLE = load_section("naca0012")
 ONSET = stall_onset(TABLE)
@@ -32,12 +34,21 @@ def data(half_chord: float, tip_mach: float) -> StallData:
     )  # fmt: skip
 
 
-def followed(x: Any, mach: Any, own: StallData, *, slopes: bool = False) -> tuple[Array, Array, Array]:
-    """What is added, its slopes and the states."""
+def followed(x: Any, mach: Any, own: StallData) -> tuple[Array, Array]:
+    """What is added and the states."""
     n = len(x)
-    added, by, shown = np.empty((3, n)), np.empty((3, n, 2 * n if slopes else 0)), np.empty((4, n))
-    follow(0, np.array(x), np.array(mach), own, slopes, added, by, shown)
-    return added, by, shown
+    added, shown = np.empty((3, n)), np.empty((4, n))
+    follow(0, np.array(x), np.array(mach), own, False, added, room_for(0, n), shown)
+    return added, shown
+
+
+def remembered(x: Array, mach: Array, own: StallData) -> Memory:
+    """The derivatives: forces are what is added, channels x and M."""
+    n = len(x)
+    linked, decays, factors, places = room = room_for(1, n)
+    follow(0, x, mach, own, True, np.empty((3, n)), room, np.empty((4, n)))
+    left, right = (np.repeat(np.eye(rows, columns)[:, :, None, None], n, axis=3) for rows, columns in ((3, 4), (2, 2)))
+    return Memory(left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right)
 
 
 @pytest.mark.parametrize("name", ["naca0012", "sc1095", "sc1094r8"])
@@ -66,8 +77,10 @@ def test_separation_reaches_leishman_and_beddoes_0_7_near_static_stall():
     assert found.numbers[TRAVEL, 8] == 9.0
 
 
-PSI = 2.0 * np.pi * np.arange(24) / 24
-RETREATING = np.radians(10.5 - 8.0 * np.sin(PSI)), 0.463 + 0.203 * np.sin(PSI)
+def around(azimuths: int, degrees: float) -> tuple[Array, Array]:
+    """x and M of a blade that stalls where it retreats, by the mean of x."""
+    psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
+    return np.radians(degrees - 0.8 * degrees * np.sin(psi)), 0.463 + 0.203 * np.sin(psi)
 
 
 @pytest.mark.parametrize("degrees", [-12.0, 0.0, 8.0, 14.0, 20.0])
@@ -123,8 +136,8 @@ def _separation(angles: Array, mach: float) -> Array:
 
 
 def test_the_periodic_solution_is_that_of_marching_in_time():
-    x, mach = RETREATING
-    shown = followed(x, mach, data(0.04, 0.6))[2]
+    x, mach = around(24, 10.5)
+    shown = followed(x, mach, data(0.04, 0.6))[1]
     separation, vortex = _marched(x, mach, data(0.04, 0.6))
     assert shown[SEPARATION].min() < 0.5
     assert shown[VORTEX].max() > 0.05
@@ -132,10 +145,26 @@ def test_the_periodic_solution_is_that_of_marching_in_time():
     assert np.abs(shown[VORTEX] - vortex).max() < 0.01
 
 
-def test_derivatives_are_exact():
-    own, way = data(0.04, 0.6), np.random.default_rng(1).normal(size=(2, 24))
-    by = followed(*RETREATING, own, slopes=True)[1]
-    x, mach = RETREATING
-    ahead, behind = (followed(x + step * way[0], mach + step * way[1], own)[0] for step in (1e-6, -1e-6))
-    expected = by @ way.ravel()
-    assert np.abs((ahead - behind) / 2e-6 - expected).max() < 1e-5 * np.abs(expected).max()
+@pytest.mark.parametrize("azimuths", [24, 48, 120])  # On finer azimuths, and on those themselves.
+@pytest.mark.parametrize("degrees", [3.0, 10.0])  # Without and with a vortex.
+def test_derivatives_are_exact(azimuths: int, degrees: float):
+    own, (x, mach), random = data(0.04, 0.6), around(azimuths, degrees), np.random.default_rng(1)
+    memory, (dx, dm) = remembered(x, mach, own), random.normal(size=(2, azimuths))
+    ahead, behind = (followed(x + step * dx, mach + step * dm, own)[0] for step in (1e-6, -1e-6))
+    expected = memory.times({0: dx[None], 1: dm[None]})[:, 0]
+    assert (np.abs(followed(x, mach, own)[1][VORTEX]).max() > 0.0) == (degrees > 5.0)
+    assert np.abs((ahead - behind) / 2e-6 - expected).max() < 3e-5 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("azimuths", [24, 120])
+@pytest.mark.parametrize("degrees", [3.0, 10.0])
+def test_the_transposed_of_the_derivatives_is_exact(azimuths: int, degrees: float):
+    memory, random = remembered(*around(azimuths, degrees), data(0.04, 0.6)), np.random.default_rng(2)
+    fields, weights = random.normal(size=(2, 1, azimuths)), random.normal(size=(3, 1, azimuths))
+    forces = memory.times(dict(enumerate(fields)))
+    back = memory.transposed(weights)
+    assert np.sum(back * fields) == pytest.approx(np.sum(weights * forces), rel=1e-12)
+    waves = wave_grid(5, azimuths)
+    by_inputs, means = memory.by_inputs(waves), (forces[:, 0] @ waves.mean)
+    found = sum(memory.by_channel(by_inputs, c)[:, :, 0] @ field[0] for c, field in enumerate(fields))
+    assert_allclose(found, means, rtol=0, atol=1e-12 * np.abs(means).max())
