@@ -75,7 +75,8 @@ class OneLineParser(argparse.ArgumentParser):
         for flag in rest:
             if flag.startswith("--"):
                 name = flag.partition("=")[0]
-                self.error(f"{name} is not a flag of this command{did_you_mean(name, self._option_string_actions)}")
+                known = self._option_string_actions.keys() - {"--help"}
+                self.error(f"{name} is not a flag of this command{did_you_mean(name, sorted(known))}")
         return options, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:

@@ -12,6 +12,8 @@ from rotor.trim.doubt import Doubt, OtherModels, decimals
 _SQUARE_METRE = Unit("m²", 1.0)
 MOST_ROWS = 6
 """What comes after is too small to see."""
+_LEAST_PART = 1e-4
+"""A row that is a smaller part of the longest is left out."""
 
 
 def card_words(band: Doubt, units: Units) -> Sureness:
@@ -36,6 +38,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
             title=f"{row.words}, {f'{row.size:g} {row.unit}'.rstrip()}: {row.source}",
         )
         for row, size in sizes
+        if size >= _LEAST_PART * longest
     ]
     said = f"With another model: {'; '.join(_said(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):

@@ -76,7 +76,7 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
         for name, value in values.items()
     ]
     total = tag("b", report.units.watts(power.total), data_report="total-power")
-    small = tag("span.dim", report.units.power[1].text(power.total))
+    small = tag("span.dim", report.units.other_watts(power.total))
     return tag(
         "article.card",
         tag("h3", tag("a", entry.title, href=f"#design-{k}") if entry in report.shown else entry.title),

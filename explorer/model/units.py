@@ -94,6 +94,10 @@ class Units:
         """A power [W] in the main unit."""
         return self.power[0].text(value, digits, sign)
 
+    def other_watts(self, value: float) -> str:
+        """A power [W] in the other unit, with hundredths where the main one is the watt."""
+        return self.power[1].text(value, 2 if self.power[0] is WATT else 0)
+
     def said(self, row: Quantity, value: float) -> str:
         """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""
         if value == row.default:

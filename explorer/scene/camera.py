@@ -22,6 +22,12 @@ _RESHAPED = 0.01
 """A smaller change of width over height is none: the page draws fewer pixels while something is dragged."""
 
 
+def _near(radius: float) -> float:
+    """Distance of the near plane [m]: as far as a rotor of this radius [m] allows, which keeps the depth resolution
+    that words on the disk need."""
+    return min(2.0, 0.25 * radius)
+
+
 class FittedCamera:
     """Aims once the canvas is known, again whenever its size changes, and when a view is asked for."""
 
@@ -44,7 +50,7 @@ class FittedCamera:
         self._put: float | None = None
         """Width over height of the canvas that it was aimed for last."""
         client.camera.fov = FIELD_OF_VIEW
-        client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
+        client.camera.near = _near(radius)
         client.camera.on_update(self._moved)
 
     def aim(self, view: View) -> None:
@@ -68,6 +74,7 @@ class FittedCamera:
         if radius == self.radius:
             return
         self.radius = radius
+        self._client.camera.near = _near(radius)
         if self._view is not None:
             self.aim(self._view)
 

@@ -69,12 +69,11 @@ def open_drag_area(design: Design) -> tuple[float, float] | None:
 
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     """The total in both units of power, and its change."""
-    large, small = units.power
-    total = large.text(power.total, fineness(power, units))
+    total = units.power[0].text(power.total, fineness(power, units))
     return tag(
         "div.rx-line.rx-base",
         tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
-        tag("span.rx-dim", small.text(power.total)),
+        tag("span.rx-dim", units.other_watts(power.total)),
         tag("span.rx-push", change(power, reference), title=tip("change")),
     )
 

@@ -58,7 +58,7 @@ def add_design_arguments(
         "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
     )
     for name, row in (_FLAGS | STAND).items():
-        if name in SPEED and not speed and not (ranges and name in SWEPT):
+        if name in SPEED and not speed and not ranges:
             continue
         to = speeds if name in SPEED else stand if name in ("trim", *STAND) else parser
         how = _how(row)
@@ -156,7 +156,10 @@ def processes_from(args: argparse.Namespace) -> int:
 
 
 def finite(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
     return value

@@ -118,7 +118,13 @@ def _load(design: Design) -> str:
     condition = design.condition
     if condition.stand is None:
         return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *condition.beside))
-    return ", ".join((f"{design.models.trim}: {condition.stand}", *condition.beside))
+    height = [f"{condition.altitude:.0f} m"] if condition.altitude else []
+    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *condition.beside))
+
+
+def _decimals(value: float) -> int:
+    """Three digits at least, as for a model rotor."""
+    return 1 if abs(value) >= 10.0 else 2 if abs(value) >= 1.0 else 3
 
 
 def report(solution: Solution) -> str:
@@ -175,8 +181,10 @@ def report(solution: Solution) -> str:
         lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
         if design.condition.stand is not None:
             lift, drag = solution.lift_and_drag
-            lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {solution.torque:.1f} N m"]
-            lines += [f"lift {lift:z.1f} N, drag {drag:z.1f} N (wind axes)"]
+            twisting = f"{solution.torque:z.{_decimals(solution.torque)}f} N m"
+            fine = _decimals(math.hypot(lift, drag))
+            lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {twisting}"]
+            lines += [f"lift {lift:z.{fine}f} N, drag {drag:z.{fine}f} N (wind axes)"]
         lines += (
             [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
         )

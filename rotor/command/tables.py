@@ -44,11 +44,16 @@ def run_sweep(args: argparse.Namespace) -> int:
     for design in designs:
         for step in steps:  # Bad input is reported first.
             design.at(**cast(Any, {name: step}))
+    base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
+    if base and base not in (known := [design.twist.spec() for design in designs]):
+        raise ValueError(
+            f"--relative-to {base} is none of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
+        )
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
     solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
-    if args.relative_to:
-        solutions = solutions.relative_to(common.design_from(args, args.relative_to).twist.spec())
+    if base:
+        solutions = solutions.relative_to(base)
     found = sweep_table(solutions, args.over)
     if args.csv:
         found.write(args.csv)
@@ -81,7 +86,7 @@ def _sweep_column(name: str, level: bool, fine: int) -> str:
     if name == "change_percent":
         return f"{name}|change %|+.2f|.3f"
     if name.endswith("_kw"):
-        return f"{name}{head}|.{1 + fine}f|.{2 + fine}f"
+        return f"{name}{head}|z.{1 + fine}f|z.{2 + fine}f"
     shown = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
     return f"{name}{head}|{shown}|{shown}"
 
@@ -89,6 +94,10 @@ def _sweep_column(name: str, level: bool, fine: int) -> str:
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     """Name and values of what is swept; of the others `args` has the one value afterwards."""
     given: dict[str, list[float]] = {name: getattr(args, name) for name in SWEPT if getattr(args, name) is not None}
+    if args.hover:
+        if slower := [f"--{SWEPT[name].flag}" for name in ("mu", "speed_kt") if name in given]:
+            raise ValueError(f"--hover and {slower[0]} both give the speed: leave one of them out")
+        given["mu"], args.hover = [0.0], False
     speeds = [name for name in ("mu", "speed_kt") if name in given]
     several = [name for name in given if len(given[name]) > 1] or speeds
     if len(speeds) > 1 or len(several) != 1:

@@ -178,8 +178,12 @@ class Design:
             raise ValueError(f"trim {trim!r} needs the axial flow of the tilted disk: use the preset flight")
         if trim == "free-rotor" and self.hovering:
             raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
-        if trim == "controls" and (stand.collective is None or stand.flapping != "free"):
-            raise ValueError("trim 'controls' needs a collective and free flapping: give both, or trim 'wind-tunnel'")
+        if trim == "controls" and stand.collective is None:
+            raise ValueError(
+                "trim 'controls' needs a collective: give one, or trim 'wind-tunnel', which takes a thrust too"
+            )
+        if trim == "controls" and stand.flapping != "free":
+            raise ValueError("trim 'controls' needs free flapping: give that, or trim 'wind-tunnel'")
         if self.hovering and (stand.hub_roll or stand.hub_pitch):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
         if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
@@ -194,7 +198,8 @@ class Design:
         inflow = self.models.hover_inflow if self.hovering else self.models.inflow
         load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
         if condition.stand is not None:
-            load = f"{self.models.trim}: {condition.stand}"
+            height = f", {condition.altitude:.0f} m" if condition.altitude else ""
+            load = f"{self.models.trim}: {condition.stand}{height}"
         load = ", ".join((load, *condition.beside))
         return (
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "

@@ -265,9 +265,11 @@ def _held_reynolds(trim: Trimmed) -> str:
         number = blade.reynolds(section, r, design.reynolds_per_metre)
         for beyond, end in ((own & (number < low), low), (own & (number > high), high)):
             if beyond.any():
-                there = f"{number[beyond].min():,.0f} to {number[beyond].max():,.0f}"
+                first, last = (f"{r[beyond][k]:.2f}" for k in (0, -1))
+                least, most = (f"{value:,.0f}" for value in (number[beyond].min(), number[beyond].max()))
+                where = f"From {first} to {last} R" if first != last else f"At {first} R"
                 said.append(
-                    f"From {r[beyond][0]:.2f} to {r[beyond][-1]:.2f} R the Reynolds number is {there}; the data of "
+                    f"{where} the Reynolds number is {least if least == most else f'{least} to {most}'}; the data of "
                     f"{name} at {end:,.0f} are used there."
                 )
     return " ".join(said)

@@ -28,6 +28,11 @@ def test_rows_are_the_largest_and_name_their_source(against: float | None):
     assert html.count("width:100%") == 1
 
 
+def test_what_is_nothing_but_rounding_is_no_row():
+    rows = *ROWS[:2], DoubtRow("drag rise", "Mach number", 0.005, "a report", 1e-12, 1e-12)
+    assert doubt_rows(Doubt(900e3, rows)).count("<tr") == 2
+
+
 def test_other_models_stand_beside_the_rows():
     models = OtherModels("bending", 980e3, -20e3), OtherModels("inflow uniform", 900e3)
     html = doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models)

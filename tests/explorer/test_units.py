@@ -80,6 +80,7 @@ def test_a_model_rotor_has_watts_and_a_propeller_climbs():
     for title, units in UNITS.items():
         small = units_of(title, model)
         assert (units_of(title, uh60a), small.power[0].symbol) == (units, "W")
+        assert (small.other_watts(233.0), SI.other_watts(149e3)) == ("0.31 hp", "200 hp")
         assert (small.watts(100.2), small.mass) == ("100 W", units.mass)
         assert meant(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
     assert flight_name(Inputs(isa_offset_c=-10.0), AVIATION).startswith("µ 0.2, ISA − 10 °C, ")

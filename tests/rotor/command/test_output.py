@@ -32,6 +32,19 @@ def test_a_sweep_goes_over_any_quantity_of_flight(capsys: pytest.CaptureFixture[
     assert rows[0]["total_kw"] < rows[1]["total_kw"]
 
 
+def test_a_sweep_in_hover(capsys: pytest.CaptureFixture[str]):
+    rows = json.loads(run(capsys, "sweep", "--hover", "--isa-offset-c", "0:20:20", "--json", *QUICK))
+    assert [(row["mu"], row["isa_offset_c"]) for row in rows] == [(0.0, 0.0), (0.0, 20.0)]
+
+
+def test_a_stand_says_its_altitude_and_a_model_rotor_its_torque(capsys: pytest.CaptureFixture[str]):
+    out = run(
+        capsys, "solve", "--rotor", "knight-hefner-3", "--hover", "--ct-over-sigma", "0.01", "--altitude-m", "900"
+    )
+    assert "flapping trimmed, 900 m" in out
+    assert re.search(r"torque 0\.\d{3} N m", out)
+
+
 def test_a_sweep_over_two_quantities_is_refused(capsys: pytest.CaptureFixture[str]):
     for words in ([], ["--mu", "0.1:0.3:0.1", "--mass-kg", "7000:8000:500"], ["--mu", "0.1", "--speed-kt", "80"]):
         assert main(["sweep", *words]) == 2
