@@ -150,10 +150,10 @@ def test_the_periodic_solution_is_that_of_marching_in_time():
 def test_derivatives_are_exact(azimuths: int, degrees: float):
     own, (x, mach), random = data(0.04, 0.6), around(azimuths, degrees), np.random.default_rng(1)
     memory, (dx, dm) = remembered(x, mach, own), random.normal(size=(2, azimuths))
-    ahead, behind = (followed(x + step * dx, mach + step * dm, own)[0] for step in (1e-6, -1e-6))
+    ahead, behind = (followed(x + step * dx, mach + step * dm, own)[0] for step in (1e-7, -1e-7))
     expected = memory.times({0: dx[None], 1: dm[None]})[:, 0]
     assert (np.abs(followed(x, mach, own)[1][VORTEX]).max() > 0.0) == (degrees > 5.0)
-    assert np.abs((ahead - behind) / 2e-6 - expected).max() < 3e-5 * np.abs(expected).max()
+    assert np.abs((ahead - behind) / 2e-7 - expected).max() < 1e-5 * np.abs(expected).max()
 
 
 @pytest.mark.parametrize("azimuths", [24, 120])
