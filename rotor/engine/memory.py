@@ -101,22 +101,36 @@ def around(decay: Any, z: Any) -> None:
 
 @_compile
 def _back_around(decay: Any, z: Any) -> None:
-    """The transposed of `around` for many columns, (steps + 1, columns), in place."""
-    n, columns = len(decay), z.shape[1]
-    value, rest, k = np.zeros(columns), 1.0, 0
-    while k < n and rest > _NOTHING:
+    """The transposed of `around`, in place, (steps + 1,); or for many columns, (steps + 1, columns)."""
+    n, rest, k = len(decay), 1.0, 0
+    if z.ndim == 1:
+        total = 0.0
+        while k < n and rest > _NOTHING:
+            total += rest * z[k]
+            rest *= decay[k]
+            k += 1
+        total = z[n] + (0.0 if rest == 1.0 else (total + rest * z[n]) / (1.0 - rest))
+        z[n] = 0.0
+        for k in range(n - 1, -1, -1):
+            before = z[k]
+            z[k] = total
+            total = decay[k] * total + before
+    else:
+        columns = z.shape[1]
+        value = np.zeros(columns)
+        while k < n and rest > _NOTHING:
+            for j in range(columns):
+                value[j] += rest * z[k, j]
+            rest *= decay[k]
+            k += 1
         for j in range(columns):
-            value[j] += rest * z[k, j]
-        rest *= decay[k]
-        k += 1
-    for j in range(columns):
-        value[j] = z[n, j] + (0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest))
-        z[n, j] = 0.0
-    for k in range(n - 1, -1, -1):
-        for j in range(columns):
-            own = z[k, j]
-            z[k, j] = value[j]
-            value[j] = decay[k] * value[j] + own
+            value[j] = z[n, j] + (0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest))
+            z[n, j] = 0.0
+        for k in range(n - 1, -1, -1):
+            for j in range(columns):
+                own = z[k, j]
+                z[k, j] = value[j]
+                value[j] = decay[k] * value[j] + own
 
 
 @_compile
@@ -144,8 +158,8 @@ def _along_links(lags: Any, e: int, z: Any) -> None:
 
 @_compile
 def _back_along_links(lags: Any, e: int, z: Any) -> None:
-    """The transposed of `_along_links` for many columns, from weights on the outputs, (variables, …, columns)."""
-    n, columns, count = z.shape[1] - 1, z.shape[2], lags.linked[e]
+    """The transposed of `_along_links` from weights on the outputs, for one column or many, (variables, …, columns)."""
+    n, count = z.shape[1] - 1, lags.linked[e]
     for link in range(count - 1, -1, -1):
         to, of, row, terms = lags.links[link]
         weights, out, (p, q) = z[to], z[of], lags.factors[e, link]
@@ -155,12 +169,22 @@ def _back_along_links(lags: Any, e: int, z: Any) -> None:
             else:
                 weights[0] += weights[n]
                 weights[n] = 0.0
-        for k in range(n):
-            at = k if row < 0 else lags.places[e, row, k]
-            for j in range(columns):
-                out[at, j] += p[k] * weights[k, j]
-            for j in range(columns if terms > 1 else 0):
-                out[at + 1, j] += q[k] * weights[k, j]
+        at = lags.places[e, max(row, 0)]
+        if z.ndim == 2:
+            for k in range(n if row < 0 else 0):
+                out[k] += p[k] * weights[k]
+            for k in range(n if row < 0 and terms > 1 else 0):
+                out[k + 1] += q[k] * weights[k]
+            for k in range(n if row >= 0 else 0):
+                out[at[k]] += p[k] * weights[k]
+                out[at[k] + 1] += q[k] * weights[k]
+        else:
+            for k in range(n):
+                here = k if row < 0 else at[k]
+                for j in range(z.shape[2]):
+                    out[here, j] += p[k] * weights[k, j]
+                for j in range(z.shape[2] if terms > 1 else 0):
+                    out[here + 1, j] += q[k] * weights[k, j]
 
 
 @_compile
@@ -177,6 +201,24 @@ def _remembered(lags: Any, inputs: Any, out: Any) -> None:
         for k in range(OUTPUTS):
             gather(z[INPUTS + k], steps, out[k, e])
         out[OUTPUTS, e] = inputs[0, e]
+
+
+@_compile
+def _transposed(lags: Any, weights: Any, out: Any) -> None:
+    """Nᵀ times weights, (outputs + 1, elements, azimuths), (inputs, elements, azimuths)."""
+    fine = lags.decays.shape[2]
+    z = np.empty((len(lags.decaying), fine + 1))
+    for e in range(out.shape[1]):
+        steps = fine // out.shape[2]
+        z[:] = 0.0
+        for k in range(OUTPUTS):
+            spread(weights[k, e], steps, z[INPUTS + k])
+            z[INPUTS + k, fine] = 0.0
+        _back_along_links(lags, e, z)
+        for k in range(INPUTS):
+            z[k, 0] += z[k, fine]
+            gather(z[k], steps, out[k, e])
+        out[0, e] = lags.share[e] * out[0, e] + weights[OUTPUTS, e]
 
 
 @_compile
@@ -240,10 +282,9 @@ class Memory:
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
-        weights, (elements, azimuths) = np.einsum("okej,oej->kej", self.left, forces), forces.shape[1:]
-        on_inputs = np.empty((elements, INPUTS, azimuths, 1))
-        _back(self.lags, weights[None], np.ones((azimuths, 1)), on_inputs)
-        return np.einsum("elj,lcej->cej", on_inputs[..., 0], self.right)
+        weights, on_inputs = np.einsum("okej,oej->kej", self.left, forces), np.empty((INPUTS, *forces.shape[1:]))
+        _transposed(self.lags, weights, on_inputs)
+        return np.einsum("lej,lcej->cej", on_inputs, self.right)
 
     @cached_property
     def used(self) -> Integers:

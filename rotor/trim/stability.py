@@ -175,7 +175,9 @@ def stability(
     """Modes and margins of the blade of a design, of a solution, or of its `rotor.trim.Analysis`.
 
     offset: how far the centre of gravity is moved aft, all along the lifting blade [chords]. harmonics: of Hill's
-    matrix. RuntimeError when it does not trim, ValueError for an offset beyond half a chord, air of another name, and
+    matrix.
+
+    Raises RuntimeError when it does not trim, ValueError for an offset beyond half a chord, air of another name, and
     rigid blades.
     """
     if air not in AIRS:
