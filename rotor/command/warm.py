@@ -7,9 +7,10 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.common import add_command
 from rotor.compiled import tell_in_a_log
 from rotor.design.quantities import PRESETS
+from rotor.engine.linearise import jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import power_gradient
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 
 
 def add_parser(commands: Any) -> None:
@@ -35,4 +36,6 @@ def compile_all() -> None:
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
     for name in (name for name, model in INFLOW_MODELS.items() if not model.pointwise):
         power_gradient(solve(make_design(mu=0.2, inflow=name)))
-    power_gradient(solve(make_design(mu=0.2, bending=True)))
+    bent = analyse(make_design(mu=0.2, bending=True))
+    power_gradient(bent)
+    jacobian(bent.adjoint.point)  # As Newton's method needs it far from a solution.
