@@ -247,6 +247,9 @@ def _flight_heading(speed: float, units: Units, tested: bool = False) -> Markup:
 _ALWAYS = ("advance_ratio", "mass_t")
 """Sliders of flight that are never folded."""
 
+_NAMED = 3
+"""Names on the button that unfolds the others: more would not fit its line."""
+
 
 def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     """The button that shows the sliders of flight at their defaults, by name, or folds them; `chosen`: the menu of the
@@ -256,7 +259,10 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     if not names:
         return Markup()
     following = [name if name.startswith("ISA") else f"{name[:1].lower()}{name[1:]}" for name in names[1:]]
-    words = "Fewer" if more else ", ".join((names[0], *following))
+    few = len(names) if len(names) <= _NAMED + 1 else _NAMED
+    words = "Fewer" if more else ", ".join((names[0], *following)[:few])
+    if not more and few < len(names):
+        words += f" and {len(names) - few} more"
     pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
     return tag("button.rxp-fold", words, **pressed)
 

@@ -297,7 +297,9 @@
     const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
     const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxf-notice', '.rxs-figures'] : COVERING;
-    const wide = cards.map(box).filter(card => card?.width > 0.28 * stage.width);
+    // A narrow card leaves the subject in sight; the notice counts always, or the scene would move with its words.
+    const least = name => name === '.rxf-notice' ? 0 : 0.28 * stage.width;
+    const wide = cards.filter(name => box(name)?.width > least(name)).map(box);
     wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
     const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
     const low = wide.filter(card => !high.includes(card));
