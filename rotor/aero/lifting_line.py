@@ -208,11 +208,6 @@ def _groups(panels: int) -> Integers:
     return np.unique(np.r_[0, np.arange(panels, 0, -GROUP)])
 
 
-def _strip_of(line: LiftingLine, panel: int) -> int:
-    """The strip of the far wake that a panel belongs to."""
-    return int(np.searchsorted(_groups(line.panels), panel, side="right") - 1)
-
-
 def _strip_weights(line: LiftingLine) -> Array:
     """By which circulations of panels become those of strips: weighted with r Δr, for the same impulse."""
     edges = _groups(line.panels)
@@ -410,38 +405,37 @@ def theodorsen(k: Array) -> NDArray[np.complex128]:
     return np.asarray(h1 / (h1 + 1j * h0), dtype=np.complex128)
 
 
-def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
+def lattice_lag(line: LiftingLine, course: WakeCourse, harmonic: Array) -> NDArray[np.complex128]:
     """Downwash over ΩR of a panel's own shed lines by its circulation exp(inψ) over ΩR², in a straight wake: complex.
 
-    harmonic: n, (harmonics,). The lines are those of `build_wake`, as if they ran on along the blade.
+    harmonic: n, (harmonics,). (panels, harmonics). The lines are those of `build_wake`, as if they ran on along the
+    blade.
     """
-    wake = build_wake(
-        line, WakeCourse(0.0, 0.0, 1.0, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=course.core), np.zeros(1)
-    )
+    straight = WakeCourse(0.0, 0.0, 1.0, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=course.core)
+    wake, groups = build_wake(line, straight, np.zeros(1)), _groups(line.panels)
     row, rows = wake.places[:, 0], wake.rows
-    shed = np.flatnonzero((row == rows[1] + panel) | (row == rows[4] + _strip_of(line, panel)))
-    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
-    x, core = line.r[panel] * age, wake.core[shed].astype(np.float64)
-    core = np.where(core < 0.0, own_core(line, course)[panel], core)
-    gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(x**4 + core)))[:, None]
-    step = 2.0 * math.pi / line.azimuths
-    return (
-        np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed, 1:])).reshape(len(harmonic), -1)
-        @ gain.ravel()
+    young, old = (
+        np.flatnonzero((row >= rows[k]) & (row < rows[k + 1])).reshape(-1, rows[k + 1] - rows[k]) for k in (1, 4)
     )
+    strip = np.searchsorted(groups, np.arange(line.panels), side="right") - 1
+    shed = np.concatenate([young, old[:, strip]]).T  # (panels, lines): the lines of all panels are of the same ages.
+    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
+    x, core = line.r[:, None] * age, wake.core[shed].astype(np.float64)
+    core = np.where(core < 0.0, own_core(line, course)[:, None], core)
+    gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(np.square(x * x) + core)))[..., None]
+    step = 2.0 * math.pi / line.azimuths
+    turned = np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed[0], 1:]))
+    return gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
     """To be added to A/D between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
-    n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
+    n, r, b = np.arange((line.azimuths + 1) // 2, dtype=np.float64), line.r[:, None], half_chord[:, None]
+    missing = (1.0 / theodorsen(n * b / r) - 1.0) / (2.0 * math.pi * b)
+    beyond = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
+    missing[:, 1:] -= beyond  # Further back than the shed lines reach.
+    missing -= lattice_lag(line, course, n) / course.mass_flow
+    missing *= _outboard(line, course)[:, None]
+    missing[:, 0] = 0.0
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths
-    share = _outboard(line, course)
-    out = np.empty((line.panels, line.azimuths, line.azimuths))
-    for i, r in enumerate(line.r):
-        whole = (1.0 / theodorsen(n * half_chord[i] / r) - 1.0) / (2.0 * math.pi * half_chord[i])
-        beyond = np.zeros_like(whole)  # Further back than the shed lines reach.
-        beyond[1:] = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
-        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n) / course.mass_flow)
-        missing[0] = 0.0
-        out[i] = (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[back]
-    return out
+    return (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[:, back]
