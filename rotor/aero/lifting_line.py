@@ -161,7 +161,7 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
     """
     n, m = targets.shape[1], out.shape[1]
     x, y, z, u, v, w = targets[0], targets[1], targets[2], targets[3], targets[4], targets[5]
-    four = np.empty(n, np.float32)
+    four, induced = np.empty(n, np.float32), np.empty(n, np.float32)
     for s in range(len(ends)):
         ax, ay, az, bx, by, bz = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3], ends[s, 4], ends[s, 5]
         l2 = (ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz)
@@ -172,9 +172,6 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
         else:
             for t in range(n):
                 four[t] = core[s] * l4
-        row, newer, older = places[s, 0], (first - places[s, 1]) % m, (first - places[s, 2]) % m
-        share, other = shares[s, 0], shares[s, 1]
-        to, also = out[row, newer], out[row, older]
         for t in range(n):
             dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
             ex, ey, ez = x[t] - bx, y[t] - by, z[t] - bz
@@ -185,9 +182,11 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
             # (1 − a·b/|a||b|)(|a| + |b|) = ½(l² − (|a| − |b|)²)(|a| + |b|)/|a||b|, without the loss of digits.
             near = np.float32(0.5) * (l2 - (a - b) * (a - b)) * (a + b)
             down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
-            induced = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
-            to[t] += share * induced
-            also[t] += other * induced
+            induced[t] = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
+        for k in range(2):  # One after the other: as two sums in one loop they might be the same, so not in vectors.
+            to, share = out[places[s, 0], (first - places[s, 1 + k]) % m], shares[s, k]
+            for t in range(n):
+                to[t] += share * induced[t]
 
 
 @dataclass(frozen=True, eq=False)
@@ -369,14 +368,12 @@ def _seen(
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`. seen: the blade on which each target
     lies, panel by panel, or −1, (targets,); young: c⁴ of that blade's young trailers, (panels,).
     """
-    bound = slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
         core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
         core[on_it] = young[: on_it.sum()]
-        before = rows[bound][:, :, on_it]
         _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
-        rows[bound][:, :, on_it] = before  # A blade's own bound line has no downwash on it.
+        rows[wake.rows[2] : wake.rows[3], first, on_it] = 0.0  # A blade's own bound line has no downwash on it.
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
