@@ -34,7 +34,6 @@ adds to a panel's own block. Inboard it fades out as the core of the young trail
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -318,17 +317,11 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
     n, m, blades = line.panels, line.azimuths, line.blades
     wake, young = build_wake(line, course, line.psi), own_core(line, course)
     out = np.empty((n, m, n, m))
-
-    def fill(position: int) -> None:
+    for position in range(m // blades):
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])
         downwash = _seen(line, wake, targets, at, at, np.repeat(np.arange(blades), n), young)
         out[:, at] = downwash.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
-
-    # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
-    # other pages. They end here, as a kept pool would hang in a forked process.
-    with ThreadPoolExecutor(2) as pool:
-        list(pool.map(fill, range(m // blades)))
     return out.reshape(n * m, n * m)
 
 
