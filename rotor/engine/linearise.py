@@ -65,6 +65,8 @@ class Nodes:
     """Tolerance of y − f."""
     limit: float
     """Largest step of y."""
+    expected: float
+    """A y that a solution without a guess of y begins with."""
 
     def field(self, y: Array) -> Array:
         """A y, (points,)."""
@@ -202,6 +204,21 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     if system.nodes is not None:
         channels[system.nodes.channel] += system.nodes.field(y).reshape(channels.shape[1:])
     return _with_forces(system, grid, (x, z, by_roots, phi), channels, slopes, flow)
+
+
+def begin(system: System, grid: Grid, x: Array) -> Point:
+    """The equations at y = 0, but linearised where A y is the `expected` of the nodes.
+
+    A guess of y would not do: between dense nodes A y of it is far off, and sections that stall there have slopes that
+    tell nothing. A step from here is to the solution of a linear section.
+    """
+    nodes = system.nodes
+    assert nodes is not None
+    expected = np.full((*grid.steady.shape[1:], grid.waves.azimuths), nodes.expected)
+    varying = {**grid.varying, nodes.channel: grid.varying.get(nodes.channel, 0.0) + expected}
+    point = replace(evaluate(system, replace(grid, varying=varying), x, slopes=True), grid=grid)
+    less = response(point.forgetful, {nodes.channel: -expected}, np.zeros(len(system.structure.equations)))[0]
+    return replace(point, residual=point.residual + less)
 
 
 def with_data(point: Point, data: Any) -> Point:

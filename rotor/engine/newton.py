@@ -23,7 +23,7 @@ from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from rotor.arrays import Array
-from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, transposed
+from rotor.engine.linearise import Grid, Point, System, begin, evaluate, jacobian, transposed
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
@@ -195,7 +195,10 @@ class _Steps:
         system, limits, slow_steps, rises, expected = self._system, self._limits, 0, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
-        point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+        if system.nodes is None or x[system.structure.given :].any():
+            point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+        else:
+            point, self.passes = begin(system, grid, x), self.passes + 1
         while point.size > goal and self.passes < limits.most_passes:
             if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
                 break

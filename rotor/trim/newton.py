@@ -159,7 +159,7 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
         elastic[:, :both] = start.elastic[:, :both]
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
-        inflow = terms.start()
+        inflow = np.zeros(0 if system.nodes is None else len(system.nodes.matrix))
     given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
     if start.bending is not None and len(start.bending) == len(others):
