@@ -138,8 +138,8 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         basis[k + 1] = new / length
         g[k + 1] = -(g[: k + 1] @ column[: k + 1]) / length
         if float(np.linalg.norm(g[: k + 2])) * _LEFT >= 1.0:
-            least = np.linalg.lstsq(hessenberg[: k + 2, : k + 1], size * np.eye(k + 2)[0])
-            return np.asarray(least[0], dtype=np.float64) @ steps[: k + 1]
+            q, r = np.linalg.qr(hessenberg[: k + 2, : k + 1])
+            return np.linalg.solve(r, size * q[0]) @ steps[: k + 1]
     return None
 
 
