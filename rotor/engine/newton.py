@@ -139,7 +139,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         g[k + 1] = -(g[: k + 1] @ column[: k + 1]) / length
         if float(np.linalg.norm(g[: k + 2])) * _LEFT >= 1.0:
             q, r = np.linalg.qr(hessenberg[: k + 2, : k + 1])
-            return np.linalg.solve(r, size * q[0]) @ steps[: k + 1]
+            return np.asarray(np.linalg.solve(r, size * q[0]), dtype=np.float64) @ steps[: k + 1]
     return None
 
 
