@@ -199,6 +199,8 @@ class WakeLines:
     shares: Singles
     rows: tuple[int, ...]
     """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
+    strips: Singles
+    """By which circulations of strips become those of panels, (panels, strips)."""
 
 
 def _groups(panels: int) -> Integers:
@@ -258,7 +260,7 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     zero = np.zeros(len(oldest) - 1, dtype=np.int64)
     first_only = np.broadcast_to([1.0, 0.0], (len(zero), 2))
     parts.trailers(last, rows[5], core[-1:], (zero, zero), first_only)
-    return parts.wake(rows)
+    return parts.wake(rows, _strip_weights(line).T.astype(np.float32))
 
 
 class _Parts:
@@ -287,7 +289,7 @@ class _Parts:
         self._places.append(places.reshape(-1, 3))
         self._shares.append(np.repeat(shares, wide, axis=0))
 
-    def wake(self, rows: tuple[int, ...]) -> WakeLines:
+    def wake(self, rows: tuple[int, ...], strips: Singles) -> WakeLines:
         """All of them."""
         single = np.float32
         return WakeLines(
@@ -296,6 +298,7 @@ class _Parts:
             np.concatenate(self._places),
             np.concatenate(self._shares).astype(single),
             rows,
+            strips,
         )
 
 
@@ -305,8 +308,7 @@ def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
     panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
     grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
     grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
-    weights = _strip_weights(line).T.astype(np.float32)
-    return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
+    return panels + (wake.strips @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
 def influence(line: LiftingLine, course: WakeCourse) -> Array:
