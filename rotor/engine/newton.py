@@ -206,7 +206,8 @@ class _Steps:
         system, limits, slow_steps, rises, expected = self._system, self._limits, 0, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
-        if system.nodes is None or x[system.structure.given :].any():
+        judged = system.nodes is None or x[system.structure.given :].any()
+        if judged:
             point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
         else:
             point, self.passes = begin(system, grid, x), self.passes + 1
@@ -233,8 +234,10 @@ class _Steps:
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
             self.serving = trial.size <= limits.kept_ratio * point.size
-            if _steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
+            most = most_steps if self._made else limits.most_kept_steps
+            if judged and _steps_left(trial.size, point.size, goal) > most:
                 self._corrected = None
+            judged = True  # Not the first step from `begin`, which shows how far the nodes were off.
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
