@@ -122,6 +122,28 @@ def examples(page: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", page, flags=re.DOTALL | re.MULTILINE)
 
 
+def test_numbers_of_the_student_theory_are_results():
+    """Its lines run in order, and each number behind a # is the value of its line, to the last printed digit."""
+    names: dict = {}
+    checked = 0
+    for code in examples(text(DOCS / "aerodynamics.md")):
+        lines = code.splitlines()
+        for node in ast.parse(code).body:
+            exec(compile(ast.Module([node], []), "aerodynamics.md", "exec"), names)
+            stated = re.search(r"  # (-?\d+(?:\.(\d+))?)\b", lines[node.end_lineno - 1])
+            if stated:
+                shown = node.targets[0] if isinstance(node, ast.Assign) else node.value
+                value = float(eval(compile(ast.Expression(as_value(shown)), "aerodynamics.md", "eval"), names))
+                assert value == pytest.approx(float(stated[1]), abs=0.6 * 10.0 ** -len(stated[2] or "")), code
+                checked += 1
+    assert checked >= 30
+
+
+def as_value(node: ast.expr) -> ast.expr:
+    """The same expression to be read, where it is the target of an assignment."""
+    return ast.copy_location(ast.Name(node.id, ast.Load()), node) if isinstance(node, ast.Name) else node
+
+
 TASKS = examples(text(DOCS / "guide" / "sweep.md").partition("\n## Three tasks\n")[2])
 
 
