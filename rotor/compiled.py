@@ -4,7 +4,7 @@ numba itself ends the program where it has no folder to write to (a read-only in
 disk is full, and where a kept file was cut short; LLVM ends it where a bit of one is another. The kernels then compile
 anew, in some seconds.
 
-The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr counts the kernels.
+The first run compiles for about half a minute. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
 import hashlib
@@ -156,7 +156,7 @@ class _Watch(event.Listener):
                 self._width = len(words)
             elif not self.told:
                 self.told = True
-                print("Compiling kernels, once: some 20 s of processor time", file=stream, flush=True)
+                print("Compiling kernels, once: about half a minute of processor time", file=stream, flush=True)
 
 
 _watch = _Watch()

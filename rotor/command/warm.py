@@ -18,7 +18,7 @@ def add_parser(commands: Any) -> None:
         commands,
         "warm",
         run,
-        "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
+        "Compiles and keeps all kernels, half a minute of processor time; else each command compiles what it needs.",
     )
 
 
