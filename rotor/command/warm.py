@@ -5,7 +5,7 @@ from typing import Any
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.common import add_command
-from rotor.compiled import tell_in_a_log
+from rotor.compiled import tell_in_a_log, why_not_kept
 from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import jacobian
 from rotor.files.make_design import make_design
@@ -25,8 +25,9 @@ def add_parser(commands: Any) -> None:
 def run(_: argparse.Namespace) -> int:
     tell_in_a_log()
     compile_all()
-    print("All kernels are compiled.")
-    return 0
+    unkept = why_not_kept()
+    print(unkept or "All kernels are compiled.")
+    return 1 if unkept else 0
 
 
 def compile_all() -> None:
