@@ -141,8 +141,8 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     limits = NewtonLimits(options.max_passes)
     if not problem.inflow.load_dependent:
         limits = replace(limits, most_steps_on_few=0.0)
-    if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as ten steps.
-        limits = replace(limits, most_steps=7.0, most_kept_steps=10.0, kept_ratio=0.5)
+    if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as fifteen steps or more.
+        limits = replace(limits, most_steps=20.0, most_kept_steps=40.0, kept_ratio=0.5)
     solved = solve(system, first_point(problem, system, start), factors, limits)
     residual, twisting, difference = _errors(solved.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
