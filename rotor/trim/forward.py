@@ -47,9 +47,7 @@ def found_course(design: Design) -> WakeCourse | None:
     if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
-    return _course(
-        replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
-    )
+    return _course(replace(_as_built(design), models=models))
 
 
 @lru_cache(maxsize=64)
@@ -159,14 +157,37 @@ def _linear_guess(problem: Problem) -> Guess | None:
 
 def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
-    guess = first_guess(problem)
+    design = problem.design
+    free = design.models.trim == "free-rotor"
+    alone = problem.inflow.wake_along is None or free or problem.freedoms or problem.joined
+    built = None if alone else _trim_as_built(_as_built(design))
+    if built is not None:
+        yield built
+    yield from _simple_guesses(problem)
+    if free:
+        guess = first_guess(problem)
+        for share in (0.5, 1.7, 3.0):
+            yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
+
+
+def _as_built(design: Design) -> Design:
+    """The design with the twist of the blade as built, which does not move."""
+    return replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=())
+
+
+@lru_cache(maxsize=16)
+def _trim_as_built(design: Design) -> Guess | None:
+    """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
+    problem = with_course(build_problem(design))
+    results = (newton(problem, guess) for guess in _simple_guesses(problem))
+    return next((result.guess for result in results if result.converged), None)
+
+
+def _simple_guesses(problem: Problem) -> Iterator[Guess]:
     slow = problem.design.condition.advance_ratio < FAST
     if problem.inflow.wake_along is not None and slow and (near := _linear_guess(problem)) is not None:
         yield near
-    yield guess
-    if problem.design.models.trim == "free-rotor":
-        for share in (0.5, 1.7, 3.0):
-            yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
+    yield first_guess(problem)
 
 
 def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:
