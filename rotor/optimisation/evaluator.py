@@ -185,6 +185,10 @@ class Evaluator:
         measured = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
         return self.trimmed.add(design.rotor, pitch, measured)
 
+    def starts_for(self, design: Design) -> tuple[Solution, ...]:
+        """The trims of the nearest blade trimmed before."""
+        return self.trimmed.starts(design.twist(self.r), self.r)
+
     def _check(self) -> None:
         if self._stop is not None and self._stop():
             raise SearchStopped

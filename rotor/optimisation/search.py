@@ -174,9 +174,10 @@ class _Run:
     def ask_how_sure(self, objective: Objective) -> None:
         """What is uncertain of the saving and of the best twist."""
         assert self.best is not None
-        search, values = self.search, self.evaluate.values(self.best.x)
-        self.doubt = saving_doubt(objective, search.concept.apply(search.design, values), search.design)
-        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values)
+        search, values, starts = self.search, self.evaluate.values(self.best.x), self.evaluate.starts_for
+        best = search.concept.apply(search.design, values)
+        self.doubt = saving_doubt(objective, best, search.design, starts)
+        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values, starts)
 
     def _leads_to(self, lead: Evaluation, x: Array) -> bool:
         """Whether a point is so near a minimum that a descent from there ends in it."""
