@@ -27,9 +27,9 @@ from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, tran
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
-_NEARLY = 3.0
+NEARLY = 3.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
-_MOST_SLOW_STEPS = 4
+MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
 
@@ -197,7 +197,7 @@ class _Steps:
             self._corrected.begin()
         point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
         while point.size > goal and self.passes < limits.most_passes:
-            if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
+            if slow_steps >= MOST_SLOW_STEPS or rises >= _MOST_RISES:
                 break
             fresh = self._corrected is None
             corrected = self._corrected or self._differentiate(point)
@@ -208,7 +208,7 @@ class _Steps:
                 break
             length = self._length(step)
             step /= max(1.0, length)
-            part, last, nearer = 1.0, expected <= _NEARLY, False
+            part, last, nearer = 1.0, expected <= NEARLY, False
             trial = self._moved(point, step, last)
             while fresh and trial.size >= point.size:
                 after = self._length(corrected.factors.solve(trial.residual))
@@ -219,7 +219,7 @@ class _Steps:
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
             self.serving = trial.size <= limits.kept_ratio * point.size
-            if _steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
+            if steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
                 self._corrected = None
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:
@@ -228,7 +228,7 @@ class _Steps:
             hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
             rises += nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
-            if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
+            if trial.size < point.size or nearer or slow_steps < MOST_SLOW_STEPS:
                 point = trial
         return point
 
@@ -258,7 +258,7 @@ class _Steps:
         return self._corrected
 
 
-def _steps_left(size: float, before: float, goal: float) -> float:
+def steps_left(size: float, before: float, goal: float) -> float:
     """How many more steps reach the goal, if each leaves the same part of the residual as the last one did."""
     if size <= goal:
         return 0.0

@@ -47,7 +47,7 @@ def found_course(design: Design) -> WakeCourse | None:
     if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
-    return _course(replace(_as_built(design), models=models))
+    return _course(replace(as_built(design), models=models))
 
 
 @lru_cache(maxsize=64)
@@ -157,22 +157,26 @@ def _linear_guess(problem: Problem) -> Guess | None:
 
 def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
-    design = problem.design
-    free = design.models.trim == "free-rotor"
-    alone = problem.inflow.wake_along is None or free or problem.freedoms or problem.joined
-    built = None if alone else _trim_as_built(_as_built(design))
-    if built is not None:
+    if (built := start_as_built(problem)) is not None:
         yield built
     yield from _simple_guesses(problem)
-    if free:
+    if problem.design.models.trim == "free-rotor":
         guess = first_guess(problem)
         for share in (0.5, 1.7, 3.0):
             yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
 
 
-def _as_built(design: Design) -> Design:
+def as_built(design: Design) -> Design:
     """The design with the twist of the blade as built, which does not move."""
     return replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=())
+
+
+def start_as_built(problem: Problem) -> Guess | None:
+    """The trim of the blade as built at the condition of a problem, where a lifting line starts; None elsewhere."""
+    design, free = problem.design, problem.design.models.trim == "free-rotor"
+    if problem.inflow.wake_along is None or free or problem.freedoms or problem.joined:
+        return None
+    return _trim_as_built(as_built(design))
 
 
 @lru_cache(maxsize=16)

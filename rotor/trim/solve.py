@@ -83,11 +83,14 @@ def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequen
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
     found = assemble(result, begin)
-    # With so much stall, or so implausible, it may not be the trim of least power.
-    doubtful = found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
-    if design.condition.stand is not None or not (result.converged and doubtful):
+    if design.condition.stand is not None or not (result.converged and doubtful(found)):
         return found
     return least_of_branches(found, stall_limit(problem), options)
+
+
+def doubtful(found: Analysis) -> bool:
+    """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
+    return found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
 
 
 def _guess(design: Design, earlier: Solution) -> Guess | None:
