@@ -145,24 +145,22 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
 
 
 def newton_together(
-    problems: Sequence[Problem], start: Guess, options: SolverOptions = DEFAULT_OPTIONS
+    problems: Sequence[Problem], starts: Sequence[Guess], options: SolverOptions = DEFAULT_OPTIONS
 ) -> list[TrimResult | None]:
     """`newton` of designs that differ in their twist alone, in step; None for those that take other steps than these.
 
-    See `rotor.engine.lockstep`.
+    All take the factors of the first start. See `rotor.engine.lockstep`.
     """
-    systems, out = [flight_system(problem, options) for problem in problems], list[TrimResult | None]()
-    one, factors = systems[0], start.factors
-    if factors is None or start.structure != one.structure.name or not factors.usable:
+    systems = [flight_system(problem, options) for problem in problems]
+    one, factors = systems[0], starts[0].factors
+    if factors is None or starts[0].structure != one.structure.name or not factors.usable:
         return [None] * len(problems)
     places = [k for k, system in enumerate(systems) if alike(system, one)]
-    x = np.array([first_point(problems[k], systems[k], start) for k in places])
+    x = np.array([first_point(problems[k], systems[k], starts[k]) for k in places])
     limits, data = _limits(problems[0], one, options), partial(side_by_side, one.grid.data)
-    solved = dict(zip(places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True))
-    for k, problem in enumerate(problems):
-        ended = solved.get(k)
-        out.append(None if ended is None else _ended(problem, ended, options))
-    return out
+    found = zip(places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True)
+    ended = {k: _ended(problems[k], solved, options) for k, solved in found if solved is not None}
+    return [ended.get(k) for k in range(len(problems))]
 
 
 def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonLimits:
