@@ -14,7 +14,7 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, measure
+from rotor.optimisation.objective import Objective, measure, measure_many
 from rotor.optimisation.results import ParameterBand
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.doubt import Doubt, DoubtRow
@@ -92,28 +92,25 @@ def best_twist_doubt(
     if objective.quantity != "total" or np.any(x - steps < low) or np.any(x + steps > high):
         return ()
 
-    def at(values: Array) -> tuple[Array, dict[str, float]] | None:
-        near = concept.apply(design, tuple(values.tolist()))
-        measured = measure(objective, near, starts(near))
+    places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
+    designs = [concept.apply(design, place) for place in places]
+    near, legs = [starts(each) for each in designs], range(len(objective.conditions))
+    found = measure_many(objective, designs, [[trims[k] if trims else None for trims in near] for k in legs])
+    gradients, changes = list[Array](), list[dict[str, float]]()
+    for place, measured in zip(places, found, strict=True):
         if measured.by_pitch is None:
-            return None
-        slopes = concept.slopes(tuple(values.tolist()), measured.solutions[0].disk.r)
-        return slopes @ measured.by_pitch, _changes(objective.shares, measured.trims)
-
-    curvature, slopes, names = list[Array](), list[list[float]](), list[str]()
-    for step in np.diag(steps):
-        more, less = at(x + step), at(x - step)
-        if more is None or less is None:
             return ()
-        width = 2.0 * float(step.sum())
-        curvature.append((more[0] - less[0]) / width)
-        names = [*more[1]]
-        slopes.append([(more[1][name] - less[1][name]) / width for name in names])
-    hessian = np.array(curvature)
+        gradients.append(concept.slopes(place, measured.solutions[0].disk.r) @ measured.by_pitch)
+        changes.append(_changes(objective.shares, measured.trims))
+    width = 2.0 * steps[:, None]
+    hessian = (np.array(gradients[::2]) - np.array(gradients[1::2])) / width
+    names = list(changes[0])
+    by_input = np.array([[each[name] for name in names] for each in changes])
+    slopes = (by_input[::2] - by_input[1::2]) / width
     values, axes = np.linalg.eigh(0.5 * (hessian + hessian.T))
     if values.min() <= 0.0:
         return ()
-    shifts = -(axes @ ((axes.T @ np.array(slopes)) / values[:, None]))
+    shifts = -(axes @ ((axes.T @ slopes) / values[:, None]))
     words = {row.name: row.words for row in uncertain_inputs(design)}
     return tuple(
         ParameterBand(
