@@ -126,9 +126,10 @@ class MapTask:
                     return False
                 cells = [(row, column) for column in range(0, finest + 1, stride) if (row, column) not in known]
                 places = [{"x": column / finest, "y": row / finest} for row, column in cells]
+                legs = list(zip(near, self.objective.conditions, strict=True))
                 starts = [
-                    [warm.guess(place, hovering=leg.flight.advance_ratio == 0.0) for place in places]
-                    for warm, leg in zip(near, self.objective.conditions, strict=True)
+                    [warm.guess(place, hovering=leg.flight.advance_ratio == 0.0) for warm, leg in legs]
+                    for place in places
                 ]
                 points = measure_many(self.objective, [self.at(**place) for place in places], starts, gradient=False)
                 for cell, place, point in zip(cells, places, points, strict=True):

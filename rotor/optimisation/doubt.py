@@ -94,8 +94,7 @@ def best_twist_doubt(
 
     places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
     designs = [concept.apply(design, place) for place in places]
-    near, legs = [starts(each) for each in designs], range(len(objective.conditions))
-    found = measure_many(objective, designs, [[trims[k] if trims else None for trims in near] for k in legs])
+    found = measure_many(objective, designs, [starts(each) for each in designs])
     gradients, changes = list[Array](), list[dict[str, float]]()
     for place, measured in zip(places, found, strict=True):
         if measured.by_pitch is None:

@@ -212,15 +212,25 @@ def measure(
 
 
 def measure_many(
-    objective: Objective, designs: Sequence[Design], starts: Sequence[Sequence[Start]] = (), *, gradient: bool = True
+    objective: Objective,
+    designs: Sequence[Design],
+    starts: Sequence[Sequence[Start]] = (),
+    *,
+    gradient: bool = True,
+    limits: Limits | None = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
 ) -> list[Measured]:
-    """`measure` of many designs at once; starts: by condition, for each design."""
+    """`measure` of many designs at once; starts: for each design, by condition."""
     by_condition = [
-        analyse_many([replace(design, condition=condition.flight) for design in designs], starts[k] if starts else ())
+        analyse_many(
+            [replace(design, condition=condition.flight) for design in designs],
+            [each[k] if k < len(each) else None for each in starts],
+            options,
+        )
         for k, condition in enumerate(objective.conditions)
     ]
     return [
-        measure(objective, design, gradient=gradient, solved=trims)
+        measure(objective, design, gradient=gradient, limits=limits, solved=trims)
         for design, trims in zip(designs, zip(*by_condition, strict=True), strict=True)
     ]
 
