@@ -16,9 +16,11 @@ Near stall the residual has to rise on the way to a trim.
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
+from scipy.sparse.linalg import LinearOperator, gmres
 
 from rotor.arrays import Array
 from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, transposed
@@ -39,10 +41,6 @@ _LEAST_PART = 1.0 / 64.0
 _FORGETFUL = 2
 """How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
 all the rest, and they spare steps near deep stall only. Our choice."""
-_ADJOINT = 2e-11
-"""What is left of an adjoint's equations, as a part of their right-hand side."""
-_MOST_PRODUCTS = 40
-"""Products with the Jacobian transposed after which factors are too far for an adjoint. Our choice."""
 _MANY = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
@@ -116,32 +114,22 @@ class Solved:
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
     """J⁻ᵀ b at a point with slopes, from the factors of a Jacobian nearby; None where these are too far.
 
-    By the method of generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986), with the
-    factors on the right, so that what is made small is Jᵀ x − b itself.
+    By the method of generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986).
     """
-    size = float(np.linalg.norm(right))
-    basis, solved = np.zeros((_MOST_PRODUCTS + 1, len(right))), np.zeros((_MOST_PRODUCTS, len(right)))
-    hessenberg, wanted = np.zeros((_MOST_PRODUCTS + 1, _MOST_PRODUCTS)), np.zeros(_MOST_PRODUCTS + 1)
-    if not size:
-        return solved[0]
-    basis[0], wanted[0] = right / size, size
-    for k in range(_MOST_PRODUCTS):
-        solved[k] = near.solve(basis[k], transposed=True)
-        image = transposed(point, solved[k])[0]
-        for _ in range(2):  # Twice, so that the basis stays orthogonal to rounding.
-            shares = basis[: k + 1] @ image
-            image -= shares @ basis[: k + 1]
-            hessenberg[: k + 1, k] += shares
-        hessenberg[k + 1, k] = length = float(np.linalg.norm(image))
-        if not math.isfinite(length):
-            return None
-        part, given = hessenberg[: k + 2, : k + 1], wanted[: k + 2]
-        weights = np.linalg.lstsq(part, given, rcond=None)[0]
-        missing = float(np.linalg.norm(part @ weights - given))
-        if missing <= _ADJOINT * size or not length:
-            return weights @ solved[: k + 1]
-        basis[k + 1] = image / length
-    return None
+
+    def times(v: Array) -> Array:
+        return transposed(point, v)[0]
+
+    shape = len(right), len(right)
+    solution, unfinished = gmres(
+        LinearOperator(shape, matvec=times, dtype=np.float64),
+        right,
+        rtol=1e-9,
+        restart=20,
+        maxiter=2,
+        M=LinearOperator(shape, matvec=partial(near.solve, transposed=True), dtype=np.float64),
+    )
+    return None if unfinished else solution
 
 
 class _Corrected:
