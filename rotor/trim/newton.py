@@ -155,8 +155,13 @@ def newton_together(
     one, factors = systems[0], starts[0].factors
     if factors is None or starts[0].structure != one.structure.name or not factors.usable:
         return [None] * len(problems)
-    places = [k for k, system in enumerate(systems) if alike(system, one)]
-    x = np.array([first_point(problems[k], systems[k], starts[k]) for k in places])
+    begun = list(map(first_point, problems, systems, starts))
+    places = [
+        k
+        for k, x in enumerate(begun)
+        if alike(systems[k], one) and (one.nodes is None or x[one.structure.given :].any())
+    ]
+    x = np.array([begun[k] for k in places])
     limits, data = _limits(problems[0], one, options), partial(side_by_side, one.grid.data)
     found = zip(places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True)
     ended = {k: _ended(problems[k], solved, options) for k, solved in found if solved is not None}
@@ -164,8 +169,10 @@ def newton_together(
 
 
 def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonLimits:
-    if system.nodes is not None:  # Derivatives with unknowns at every point cost as much as fifteen steps or more.
-        return NewtonLimits(options.max_passes, most_steps=20.0, most_kept_steps=40.0, kept_ratio=0.5)
+    if system.nodes is not None:  # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
+        finer = len(system.nodes.matrix) / 576.0
+        most, kept = max(20.0, 7.0 * finer), max(40.0, 10.0 * finer)
+        return NewtonLimits(options.max_passes, most_steps=most, most_kept_steps=kept, kept_ratio=0.5)
     limits = NewtonLimits(options.max_passes)
     return limits if problem.inflow.load_dependent else replace(limits, most_steps_on_few=0.0)
 
@@ -187,7 +194,7 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
         elastic[:, :both] = start.elastic[:, :both]
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
-        inflow = terms.start()
+        inflow = np.zeros(0 if system.nodes is None else len(system.nodes.matrix))
     given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
     if start.bending is not None and len(start.bending) == len(others):

@@ -75,8 +75,8 @@ def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequen
     if freedoms:
         check_freedoms(problem)
     if vortex_ring(design):  # There is no steady wake: a state near it.
-        once = replace(DEFAULT_OPTIONS, max_passes=1)
-        near = hover(problem) if design.hovering else newton(problem, first_guess(problem), once)
+        few = replace(DEFAULT_OPTIONS, max_passes=2)
+        near = hover(problem) if design.hovering else newton(problem, first_guess(problem), few)
         return assemble(replace(near, converged=False), begin)
     guess = guess_of(design, start)
     if design.hovering:
