@@ -39,6 +39,7 @@ def csv_rows(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
+@cache
 def package_version() -> str:
     """Version of the installed package; "unknown" for a copy of the source."""
     try:

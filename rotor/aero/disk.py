@@ -118,13 +118,13 @@ def build_disk(
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
     `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count. `reynolds`:
-    `Design.reynolds_per_metre`, needed where a section has data of several Reynolds numbers.
+    `Design.reynolds_per_metre` where a section has data of several Reynolds numbers; else 0, so that all altitudes
+    share a disk and what is kept by it.
     """
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
     rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "fine_tip": fine_tip}
-    reynolds = reynolds if blade.follows_reynolds else 0.0
     return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown))
 
 

@@ -34,7 +34,6 @@ adds to a panel's own block. Inboard it fades out as the core of the young trail
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -161,7 +160,7 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
     """
     n, m = targets.shape[1], out.shape[1]
     x, y, z, u, v, w = targets[0], targets[1], targets[2], targets[3], targets[4], targets[5]
-    four = np.empty(n, np.float32)
+    four, induced = np.empty(n, np.float32), np.empty(n, np.float32)
     for s in range(len(ends)):
         ax, ay, az, bx, by, bz = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3], ends[s, 4], ends[s, 5]
         l2 = (ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz)
@@ -172,9 +171,6 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
         else:
             for t in range(n):
                 four[t] = core[s] * l4
-        row, newer, older = places[s, 0], (first - places[s, 1]) % m, (first - places[s, 2]) % m
-        share, other = shares[s, 0], shares[s, 1]
-        to, also = out[row, newer], out[row, older]
         for t in range(n):
             dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
             ex, ey, ez = x[t] - bx, y[t] - by, z[t] - bz
@@ -185,9 +181,11 @@ def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shar
             # (1 − a·b/|a||b|)(|a| + |b|) = ½(l² − (|a| − |b|)²)(|a| + |b|)/|a||b|, without the loss of digits.
             near = np.float32(0.5) * (l2 - (a - b) * (a - b)) * (a + b)
             down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
-            induced = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
-            to[t] += share * induced
-            also[t] += other * induced
+            induced[t] = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
+        for k in range(2):  # One after the other: as two sums in one loop they might be the same, so not in vectors.
+            to, share = out[places[s, 0], (first - places[s, 1 + k]) % m], shares[s, k]
+            for t in range(n):
+                to[t] += share * induced[t]
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,16 +199,13 @@ class WakeLines:
     shares: Singles
     rows: tuple[int, ...]
     """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
+    strips: Singles
+    """By which circulations of strips become those of panels, (panels, strips)."""
 
 
 def _groups(panels: int) -> Integers:
     """Edges of the strips of the far wake."""
     return np.unique(np.r_[0, np.arange(panels, 0, -GROUP)])
-
-
-def _strip_of(line: LiftingLine, panel: int) -> int:
-    """The strip of the far wake that a panel belongs to."""
-    return int(np.searchsorted(_groups(line.panels), panel, side="right") - 1)
 
 
 def _strip_weights(line: LiftingLine) -> Array:
@@ -265,7 +260,7 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     zero = np.zeros(len(oldest) - 1, dtype=np.int64)
     first_only = np.broadcast_to([1.0, 0.0], (len(zero), 2))
     parts.trailers(last, rows[5], core[-1:], (zero, zero), first_only)
-    return parts.wake(rows)
+    return parts.wake(rows, _strip_weights(line).T.astype(np.float32))
 
 
 class _Parts:
@@ -294,7 +289,7 @@ class _Parts:
         self._places.append(places.reshape(-1, 3))
         self._shares.append(np.repeat(shares, wide, axis=0))
 
-    def wake(self, rows: tuple[int, ...]) -> WakeLines:
+    def wake(self, rows: tuple[int, ...], strips: Singles) -> WakeLines:
         """All of them."""
         single = np.float32
         return WakeLines(
@@ -303,6 +298,7 @@ class _Parts:
             np.concatenate(self._places),
             np.concatenate(self._shares).astype(single),
             rows,
+            strips,
         )
 
 
@@ -312,8 +308,7 @@ def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
     panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
     grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
     grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
-    weights = _strip_weights(line).T.astype(np.float32)
-    return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
+    return panels + (wake.strips @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
 def influence(line: LiftingLine, course: WakeCourse) -> Array:
@@ -324,17 +319,11 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
     n, m, blades = line.panels, line.azimuths, line.blades
     wake, young = build_wake(line, course, line.psi), own_core(line, course)
     out = np.empty((n, m, n, m))
-
-    def fill(position: int) -> None:
+    for position in range(m // blades):
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])
         downwash = _seen(line, wake, targets, at, at, np.repeat(np.arange(blades), n), young)
         out[:, at] = downwash.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
-
-    # Without the interpreter lock, in two threads, which halve the wait for a new speed; more would take those of
-    # other pages. They end here, as a kept pool would hang in a forked process.
-    with ThreadPoolExecutor(2) as pool:
-        list(pool.map(fill, range(m // blades)))
     return out.reshape(n * m, n * m)
 
 
@@ -374,14 +363,12 @@ def _seen(
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`. seen: the blade on which each target
     lies, panel by panel, or −1, (targets,); young: c⁴ of that blade's young trailers, (panels,).
     """
-    bound = slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
         core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
         core[on_it] = young[: on_it.sum()]
-        before = rows[bound][:, :, on_it]
         _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
-        rows[bound][:, :, on_it] = before  # A blade's own bound line has no downwash on it.
+        rows[wake.rows[2] : wake.rows[3], first, on_it] = 0.0  # A blade's own bound line has no downwash on it.
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
@@ -410,38 +397,37 @@ def theodorsen(k: Array) -> NDArray[np.complex128]:
     return np.asarray(h1 / (h1 + 1j * h0), dtype=np.complex128)
 
 
-def lattice_lag(line: LiftingLine, course: WakeCourse, panel: int, harmonic: Array) -> NDArray[np.complex128]:
+def lattice_lag(line: LiftingLine, course: WakeCourse, harmonic: Array) -> NDArray[np.complex128]:
     """Downwash over ΩR of a panel's own shed lines by its circulation exp(inψ) over ΩR², in a straight wake: complex.
 
-    harmonic: n, (harmonics,). The lines are those of `build_wake`, as if they ran on along the blade.
+    harmonic: n, (harmonics,). (panels, harmonics). The lines are those of `build_wake`, as if they ran on along the
+    blade.
     """
-    wake = build_wake(
-        line, WakeCourse(0.0, 0.0, 1.0, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=course.core), np.zeros(1)
-    )
+    straight = WakeCourse(0.0, 0.0, 1.0, coning=0.0, flap_1c=0.0, flap_1s=0.0, core=course.core)
+    wake, groups = build_wake(line, straight, np.zeros(1)), _groups(line.panels)
     row, rows = wake.places[:, 0], wake.rows
-    shed = np.flatnonzero((row == rows[1] + panel) | (row == rows[4] + _strip_of(line, panel)))
-    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
-    x, core = line.r[panel] * age, wake.core[shed].astype(np.float64)
-    core = np.where(core < 0.0, own_core(line, course)[panel], core)
-    gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(x**4 + core)))[:, None]
-    step = 2.0 * math.pi / line.azimuths
-    return (
-        np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed, 1:])).reshape(len(harmonic), -1)
-        @ gain.ravel()
+    young, old = (
+        np.flatnonzero((row >= rows[k]) & (row < rows[k + 1])).reshape(-1, rows[k + 1] - rows[k]) for k in (1, 4)
     )
+    strip = np.searchsorted(groups, np.arange(line.panels), side="right") - 1
+    shed = np.concatenate([young, old[:, strip]]).T  # (panels, lines): the lines of all panels are of the same ages.
+    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
+    x, core = line.r[:, None] * age, wake.core[shed].astype(np.float64)
+    core = np.where(core < 0.0, own_core(line, course)[:, None], core)
+    gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(np.square(x * x) + core)))[..., None]
+    step = 2.0 * math.pi / line.azimuths
+    turned = np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed[0], 1:]))
+    return gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
     """To be added to A/D between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
-    n = np.arange((line.azimuths + 1) // 2, dtype=np.float64)
+    n, r, b = np.arange((line.azimuths + 1) // 2, dtype=np.float64), line.r[:, None], half_chord[:, None]
+    missing = (1.0 / theodorsen(n * b / r) - 1.0) / (2.0 * math.pi * b)
+    beyond = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
+    missing[:, 1:] -= beyond  # Further back than the shed lines reach.
+    missing -= lattice_lag(line, course, n) / course.mass_flow
+    missing *= _outboard(line, course)[:, None]
+    missing[:, 0] = 0.0
     back = (np.arange(line.azimuths)[:, None] - np.arange(line.azimuths)) % line.azimuths
-    share = _outboard(line, course)
-    out = np.empty((line.panels, line.azimuths, line.azimuths))
-    for i, r in enumerate(line.r):
-        whole = (1.0 / theodorsen(n * half_chord[i] / r) - 1.0) / (2.0 * math.pi * half_chord[i])
-        beyond = np.zeros_like(whole)  # Further back than the shed lines reach.
-        beyond[1:] = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
-        missing = share[i] * (whole - beyond - lattice_lag(line, course, i, n) / course.mass_flow)
-        missing[0] = 0.0
-        out[i] = (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[back]
-    return out
+    return (2.0 / line.azimuths * (missing @ np.exp(1j * np.outer(n, line.psi))).real)[:, back]

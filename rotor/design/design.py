@@ -236,10 +236,14 @@ class Design:
         """
         if isinstance(twist, TwistLaw):
             return replace(self, twist=twist)
-        rotor = self.rotor
-        slope = float(rotor.blade.installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
-        tip_pitch = ideal_tip_pitch(self.weight_coefficient, rotor.solidity, slope)
-        return replace(self, twist=parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch))
+        builtin = self.rotor.builtin_twist
+        return replace(self, twist=parse_twist(twist, builtin=builtin, ideal_tip_pitch=self._ideal_tip_pitch))
+
+    def _ideal_tip_pitch(self) -> float:
+        """θ_tip [rad] of the ideal twist for this weight in hover."""
+        blade = self.rotor.blade
+        slope = float(blade.installed(blade.spans[0].section).table.lift_slope(0.3))
+        return ideal_tip_pitch(self.weight_coefficient, self.rotor.solidity, slope)
 
     def to_dict(self) -> dict[str, Any]:
         """The record of a design file: texts, numbers and lists only."""

@@ -8,6 +8,7 @@ pitch at 0.75 R whatever the law. Rates are radians per radius. As text, a law i
 import math
 import re
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import pairwise
@@ -229,14 +230,17 @@ _MOST_LAWS, _MOST_ROWS = 20, 1000
 """Laws of a sum, which is evaluated law by law within each other, and numbers of one law."""
 
 
-def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: float | None = None) -> TwistLaw:
+def parse_twist(
+    spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: Callable[[], float] | None = None
+) -> TwistLaw:
     """The twist law of a SPEC. Angles in the SPEC are degrees, stations are r/R; the law returns radians.
 
     `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
     `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between the points) · `ideal:6.4` · `uh60a`, `r22` or `s61`, the
     built-in twist of a shipped rotor · `table:FILE`. A plus sign adds laws: `uh60a+linear:-2`.
-    `builtin` is the law that the SPEC `builtin` stands for, `ideal_tip_pitch` [rad] the angle of `ideal` without a
-    number; `make_design` and `Design.with_twist` supply both.
+    `builtin` is the law that the SPEC `builtin` stands for; `ideal_tip_pitch` gives the angle [rad] of `ideal` without
+    a number. `make_design` and `Design.with_twist` supply both.
+
     Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     if not isinstance(spec, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass numbers
@@ -262,9 +266,11 @@ def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: 
             f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
         )
     if kind == "ideal":
-        if not rest and ideal_tip_pitch is None:
+        if rest:
+            return IdealTwist(math.radians(_number(rest, spec)))
+        if ideal_tip_pitch is None:
             raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
-        return IdealTwist(math.radians(_number(rest, spec)) if rest or ideal_tip_pitch is None else ideal_tip_pitch)
+        return IdealTwist(ideal_tip_pitch())
     before, _, after = rest.partition("@")
     if kind == "linear":
         return LinearTwist(math.radians(_number(rest, spec)))

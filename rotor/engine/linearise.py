@@ -65,6 +65,8 @@ class Nodes:
     """Tolerance of y − f."""
     limit: float
     """Largest step of y."""
+    expected: float
+    """A y that a solution without a guess of y begins with."""
 
     def field(self, y: Array) -> Array:
         """A y, (points,)."""
@@ -172,6 +174,16 @@ class Point:
         assert self.memory is not None
         return self.memory.by_inputs(self.grid.waves)
 
+    @cached_property
+    def coefficient_slopes(self) -> csr_matrix:
+        """∂ of the wave coefficients that columns have, (states and derived atoms, coefficients)."""
+        structure, z = self.system.structure, self.z
+        _, i, j, factor = structure.column_arrays
+        order, pattern = structure.by_atom
+        slopes = copy(pattern)  # Making a sparse matrix checks its indices, which takes longer than the product.
+        slopes.data = np.concatenate([factor * z[j], factor * z[i]])[order]
+        return slopes
+
     @property
     def forgetful(self) -> "Point":
         """The point without its memory, for derivatives that need not be exact."""
@@ -202,6 +214,21 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     if system.nodes is not None:
         channels[system.nodes.channel] += system.nodes.field(y).reshape(channels.shape[1:])
     return _with_forces(system, grid, (x, z, by_roots, phi), channels, slopes, flow)
+
+
+def begin(system: System, grid: Grid, x: Array) -> Point:
+    """The equations at y = 0, but linearised where A y is the `expected` of the nodes.
+
+    A guess of y would not do: between dense nodes A y of it is far off, and sections that stall there have slopes that
+    tell nothing. A step from here is to the solution of a linear section.
+    """
+    nodes = system.nodes
+    assert nodes is not None
+    expected = np.full((*grid.steady.shape[1:], grid.waves.azimuths), nodes.expected)
+    varying = {**grid.varying, nodes.channel: grid.varying.get(nodes.channel, 0.0) + expected}
+    point = replace(evaluate(system, replace(grid, varying=varying), x, slopes=True), grid=grid)
+    less = response(point.forgetful, {nodes.channel: -expected}, np.zeros(len(system.structure.equations)))[0]
+    return replace(point, residual=point.residual + less)
 
 
 def with_data(point: Point, data: Any) -> Point:
@@ -365,7 +392,7 @@ def _measures_by_channel(point: Point, channel: int) -> Array:
 def _field_slopes(point: Point, force: int) -> Array:
     """∂ of a force at every point by the states solved for, (points, states)."""
     structure, waves = point.system.structure, point.grid.waves
-    by_atom, shapes = _coefficient_slopes(point), len(point.phi)
+    by_atom, shapes = point.coefficient_slopes, len(point.phi)
     spread = np.zeros((shapes * structure.waves, by_atom.shape[0]))
     spread[structure.coefficient_places] = by_atom.toarray().T
     by_free = _by_free(structure, spread, point.by_roots).T
@@ -379,16 +406,6 @@ def _field_slopes(point: Point, force: int) -> Array:
     return out.reshape(len(out), -1).T
 
 
-def _coefficient_slopes(point: Point) -> csr_matrix:
-    """∂ of the wave coefficients that columns have, (states and derived atoms, coefficients)."""
-    structure, z = point.system.structure, point.z
-    _, i, j, factor = structure.column_arrays
-    order, pattern = structure.by_atom
-    slopes = copy(pattern)  # Making a sparse matrix checks its indices each time, which takes longer than the product.
-    slopes.data = np.concatenate([factor * z[j], factor * z[i]])[order]
-    return slopes
-
-
 def _measure_slopes(point: Point) -> Array:
     """∂ of the measures by states and derived atoms, (measures, atoms)."""
     structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
@@ -398,7 +415,7 @@ def _measure_slopes(point: Point) -> Array:
     )
     if point.memory is not None:
         point.memory.add_between(point.remembered, structure, point.phi, psi, waves, between)
-    return np.ascontiguousarray((_coefficient_slopes(point) @ between).T)
+    return np.ascontiguousarray((point.coefficient_slopes @ between).T)
 
 
 def _by_free(structure: Structure, total: Array, by_roots: Array) -> Array:
@@ -436,9 +453,9 @@ def _add_by_channels(slopes: Any, rows: Any, forces: Any, out: Any) -> None:
 
 
 def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[Array, Array]:
-    """Slopes of v·R plus a measure: by the states solved for, and by every channel at every element around the azimuth.
+    """Slopes of v·R plus a measure: by the states solved for, and by every channel at every element and azimuth.
 
-    (equations,), and (channels, elements): summed over the azimuths. `point` has slopes.
+    (equations,), and (channels, elements, azimuths). `point` has slopes.
     """
     structure, waves, z, q, psi = point.system.structure, point.grid.waves, point.z, point.q, point.system.shapes.psi
     measure, nodes, first = measure or Measure(), point.system.nodes, structure.first_state
@@ -467,9 +484,9 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     for channel, names, weights in measure.parts:
         rows = structure.rows_of(channel, names)
         around[rows] += point.phi[rows] @ weights
-    on_z[first:] += _coefficient_slopes(point) @ (around @ waves.at.T).ravel()[structure.coefficient_places]
+    on_z[first:] += point.coefficient_slopes @ (around @ waves.at.T).ravel()[structure.coefficient_places]
     by_free = _by_free(structure, on_z[None, first:], point.by_roots)[0]
     if nodes is not None:
         on_field = channels[nodes.channel] + (0.0 if measure.nodes is None else measure.nodes)
         by_free = np.concatenate([by_free, on_nodes + nodes.transposed(on_field.ravel())])
-    return by_free, channels.sum(axis=2)
+    return by_free, channels

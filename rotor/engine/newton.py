@@ -16,20 +16,18 @@ Near stall the residual has to rise on the way to a trim.
 
 import math
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from rotor.arrays import Array
-from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, transposed
+from rotor.engine.linearise import Grid, Point, System, begin, evaluate, jacobian, transposed
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
-_NEARLY = 3.0
+NEARLY = 3.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
-_MOST_SLOW_STEPS = 4
+MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
 
@@ -41,6 +39,10 @@ _LEAST_PART = 1.0 / 64.0
 _FORGETFUL = 2
 """How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
 all the rest, and they spare steps near deep stall only. Our choice."""
+_MOST_PRODUCTS = 40
+"""Products with a Jacobian after which factors nearby do not serve for its transposed."""
+_LEFT = 1e-10
+"""Residual over the right side at which such a solution ends. Our choice."""
 _MANY = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
@@ -114,22 +116,31 @@ class Solved:
 def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
     """J⁻ᵀ b at a point with slopes, from the factors of a Jacobian nearby; None where these are too far.
 
-    By the method of generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986).
+    By flexible generalised minimal residuals (Saad, SIAM J. Sci. Comput. 14, 1993): with factors in single precision
+    the preconditioner is not quite linear, so every step that it makes is kept. g is normal to the columns of the
+    Hessenberg matrix: the residual is |b|/|g|.
     """
-
-    def times(v: Array) -> Array:
-        return transposed(point, v)[0]
-
-    shape = len(right), len(right)
-    solution, unfinished = gmres(
-        LinearOperator(shape, matvec=times, dtype=np.float64),
-        right,
-        rtol=1e-9,
-        restart=20,
-        maxiter=2,
-        M=LinearOperator(shape, matvec=partial(near.solve, transposed=True), dtype=np.float64),
-    )
-    return None if unfinished else solution
+    size = float(np.linalg.norm(right))
+    basis, steps = np.empty((_MOST_PRODUCTS + 1, len(right))), np.empty((_MOST_PRODUCTS, len(right)))
+    hessenberg, g = np.zeros((_MOST_PRODUCTS + 1, _MOST_PRODUCTS)), np.ones(_MOST_PRODUCTS + 1)
+    if not size:
+        return np.zeros_like(right)
+    basis[0] = right / size
+    for k in range(_MOST_PRODUCTS):
+        known, column = basis[: k + 1], hessenberg[:, k]
+        steps[k] = near.solve(basis[k], transposed=True)
+        new = transposed(point, steps[k])[0]
+        for _ in range(2):  # Once leaves them orthogonal to few digits.
+            shares = known @ new
+            new -= shares @ known
+            column[: k + 1] += shares
+        column[k + 1] = length = max(float(np.linalg.norm(new)), 1e-300)
+        basis[k + 1] = new / length
+        g[k + 1] = -(g[: k + 1] @ column[: k + 1]) / length
+        if float(np.linalg.norm(g[: k + 2])) * _LEFT >= 1.0:
+            q, r = np.linalg.qr(hessenberg[: k + 2, : k + 1])
+            return np.asarray(np.linalg.solve(r, size * q[0]), dtype=np.float64) @ steps[: k + 1]
+    return None
 
 
 class _Corrected:
@@ -195,9 +206,12 @@ class _Steps:
         system, limits, slow_steps, rises, expected = self._system, self._limits, 0, 0, math.inf
         if self._corrected is not None:
             self._corrected.begin()
-        point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+        if system.nodes is None or x[system.structure.given :].any():
+            point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+        else:
+            point, self.passes = begin(system, grid, x), self.passes + 1
         while point.size > goal and self.passes < limits.most_passes:
-            if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
+            if slow_steps >= MOST_SLOW_STEPS or rises >= _MOST_RISES:
                 break
             fresh = self._corrected is None
             corrected = self._corrected or self._differentiate(point)
@@ -208,7 +222,7 @@ class _Steps:
                 break
             length = self._length(step)
             step /= max(1.0, length)
-            part, last, nearer = 1.0, expected <= _NEARLY, False
+            part, last, nearer = 1.0, expected <= NEARLY, False
             trial = self._moved(point, step, last)
             while fresh and trial.size >= point.size:
                 after = self._length(corrected.factors.solve(trial.residual))
@@ -219,7 +233,7 @@ class _Steps:
                 trial = self._moved(point, part * step, last)
             corrected.taken = part * step
             self.serving = trial.size <= limits.kept_ratio * point.size
-            if _steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
+            if steps_left(trial.size, point.size, goal) > (most_steps if self._made else limits.most_kept_steps):
                 self._corrected = None
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:
@@ -228,7 +242,7 @@ class _Steps:
             hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
             rises += nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
-            if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
+            if trial.size < point.size or nearer or slow_steps < MOST_SLOW_STEPS:
                 point = trial
         return point
 
@@ -258,7 +272,7 @@ class _Steps:
         return self._corrected
 
 
-def _steps_left(size: float, before: float, goal: float) -> float:
+def steps_left(size: float, before: float, goal: float) -> float:
     """How many more steps reach the goal, if each leaves the same part of the residual as the last one did."""
     if size <= goal:
         return 0.0

@@ -156,6 +156,7 @@ class Structure:
         self.free = np.zeros(0, dtype=np.int64)
         """The atoms solved for, (equations,)."""
         self.waves, self.finished = 1, False
+        self._slope_rows = dict[tuple[frozenset[int], frozenset[int]], Integers]()
 
     def number(self, name: Hashable) -> int:
         """The atom of a number that the design gives."""
@@ -310,9 +311,13 @@ class Structure:
 
         Only those by channels that have columns, and further ones: the section may leave the others undefined.
         """
-        used = [bool(weights) or o in others for o, weights in enumerate(self.weights)]
-        rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and (self.shapes[c] or c in further)]
-        return np.array(rows, dtype=np.int64).reshape(-1, 3)
+        key = frozenset(others), frozenset(further)
+        if key not in self._slope_rows:
+            used = [bool(weights) or o in others for o, weights in enumerate(self.weights)]
+            rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and (self.shapes[c] or c in further)]
+            self._slope_rows[key] = np.array(rows, dtype=np.int64).reshape(-1, 3)
+            fix(self._slope_rows[key])
+        return self._slope_rows[key]
 
     @fixed_property
     def blocks(self) -> Blocks:

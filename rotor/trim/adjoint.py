@@ -135,7 +135,7 @@ class _Linear:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
         multipliers = self.of_total if measure.terms is self.total_terms else self.multipliers(measure)
-        by_channel = transposed(point, -multipliers, measure)[1]
+        by_channel = transposed(point, -multipliers, measure)[1].sum(axis=2)
         by_pitch, torsion = by_channel[TH], self.problem.torsion
         if torsion is None:
             return by_pitch, by_channel

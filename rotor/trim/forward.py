@@ -25,8 +25,7 @@ from rotor.design.quantities import CONDITION, STAND
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 FAST = 0.25
-"""µ from which simple estimates are a better start than the trim of `wake_along`: with linear inflow more of the disk
-stalls there. Our choice."""
+"""µ from which simple estimates are a better start than the trim along which the wake lies. Our choice."""
 SLOWEST = 1e-4
 """Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
 FOLLOWING_PASSES = 25
@@ -44,23 +43,27 @@ def with_course(problem: Problem) -> Problem:
 
 def found_course(design: Design) -> WakeCourse | None:
     """The course of the wake of a design; None where the inflow has none or it is not found, and in hover."""
+    found = _trim_of_wake(design)
+    return None if found is None else found[0]
+
+
+def _trim_of_wake(design: Design) -> tuple[WakeCourse, TrimState] | None:
+    """The course of the wake, and the trim along which it lies; None as for `found_course`."""
     if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
-    return _course(
-        replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
-    )
+    return _linear_trim(replace(as_built(design), models=models))
 
 
 @lru_cache(maxsize=64)
-def _course(design: Design) -> WakeCourse | None:
-    """Along the trim of a design with linear inflow and lift held beyond its peak; None where it has none.
+def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
+    """The trim of a design with linear inflow and lift held beyond its peak, and its course; None where it has none.
 
     Sections that stall have several trims or none, among which the wake would jump. Reverse flow carries no load here.
     """
     problem = linear_problem(replace(design, models=replace(design.models, reverse_flow=False)))
     result = trim(replace(problem, disk=replace(problem.disk, tables=problem.disk.held)))
-    return along(result, problem.course) if result.converged else None
+    return (along(result, problem.course), result.state) if result.converged else None
 
 
 def course_of(problem: Problem) -> WakeCourse | None:
@@ -151,22 +154,43 @@ def linear_problem(design: Design) -> Problem:
     return build_problem(replace(design, models=models))
 
 
-def _linear_guess(problem: Problem) -> Guess | None:
-    """The trim with linear inflow; None where it has none."""
-    result = newton(linear_problem(problem.design), first_guess(problem))
-    return Guess(result.state, result.guess.elastic, result.guess.bending) if result.converged else None
-
-
 def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
-    guess = first_guess(problem)
-    slow = problem.design.condition.advance_ratio < FAST
-    if problem.inflow.wake_along is not None and slow and (near := _linear_guess(problem)) is not None:
-        yield near
-    yield guess
+    if (built := start_as_built(problem)) is not None:
+        yield built
+    yield from _simple_guesses(problem)
     if problem.design.models.trim == "free-rotor":
+        guess = first_guess(problem)
         for share in (0.5, 1.7, 3.0):
             yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
+
+
+def as_built(design: Design) -> Design:
+    """The design with the twist of the blade as built, which does not move."""
+    return replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=())
+
+
+def start_as_built(problem: Problem) -> Guess | None:
+    """The trim of the blade as built at the condition of a problem, where a lifting line starts; None elsewhere."""
+    design, free = problem.design, problem.design.models.trim == "free-rotor"
+    if problem.inflow.wake_along is None or free or problem.freedoms or problem.joined:
+        return None
+    return _trim_as_built(as_built(design))
+
+
+@lru_cache(maxsize=16)
+def _trim_as_built(design: Design) -> Guess | None:
+    """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
+    problem = with_course(build_problem(design))
+    results = (newton(problem, guess) for guess in _simple_guesses(problem))
+    return next((result.guess for result in results if result.converged), None)
+
+
+def _simple_guesses(problem: Problem) -> Iterator[Guess]:
+    slow = problem.design.condition.advance_ratio < FAST
+    if slow and (near := _trim_of_wake(problem.design)) is not None:
+        yield Guess(near[1])
+    yield first_guess(problem)
 
 
 def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:

@@ -85,7 +85,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
-EXPLAINED = ("make_design", "solve", "sweep", "optimise", "schedule", "run_study", "doubt")
+EXPLAINED = ("make_design", "solve", "solve_many", "sweep", "optimise", "schedule", "run_study", "doubt")
 
 
 @pytest.mark.parametrize("name", EXPLAINED)

@@ -1,6 +1,6 @@
 """Processor times of evaluations, trims, searches and studies, beside their targets.
 
-`python -m tests.tools.bench [--long] [--json] [--against DIR]`
+`python -m tests.tools.bench [--long] [--json] [--against DIR | --release]`
 """
 
 import argparse
@@ -9,12 +9,15 @@ import os
 import statistics
 import subprocess
 import sys
+import tarfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import starmap
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 import numpy as np
@@ -56,6 +59,9 @@ TARGETS_MS = {
 TARGETS_UNSTEADY = {"cold": 1.3, "warm": 1.3, "gradient": 1.4}
 """Targets of the project: time with unsteady flow and dynamic stall over that with steady sections."""
 
+LOST = 1.1
+"""Time over that of the last release from which a figure is named."""
+_ROOT = Path(__file__).parents[2]
 _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 _SEARCH_ADVANCE_RATIOS = (0.1, 0.2, 0.3)
 TARGET_PER_SECOND = 28.0
@@ -108,22 +114,36 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
+    other = parser.add_mutually_exclusive_group()
+    other.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
+    other.add_argument("--release", action="store_true", help="time the last release too")
     args = parser.parse_args(argv)
+    with TemporaryDirectory(prefix="release-") as room:
+        answer = _timed(unpacked_release(Path(room)) if args.release else args.against, long=args.long)
+    print(json.dumps(answer, indent=2, allow_nan=False) if args.json else report(answer))
+    return 0
+
+
+def _timed(checkout: Path | None, *, long: bool) -> dict[str, Any]:
+    """All figures, beside those of another checkout if there is one."""
+    theirs = None if checkout is None else started(checkout, long=long)
     answer: dict[str, Any] = {
         "ms": measure(),
         "targets_ms": TARGETS_MS,
         "unsteady_over_steady": measure_unsteady(),
         "targets_unsteady": TARGETS_UNSTEADY,
-        "seconds": measure_searches(long=args.long),
+        "seconds": measure_searches(long=long),
         "targets_s": TARGETS_S,
         "trims_per_second_and_core": measure_batch(),
         "target_per_second": TARGET_PER_SECOND,
     }
-    if args.against is not None:
-        answer["time_over_theirs"] = time_ratios(answer, measured_in(args.against, long=args.long))
-    print(json.dumps(answer, indent=2, allow_nan=False) if args.json else report(answer))
-    return 0
+    if theirs is not None:
+        out, err = theirs.communicate()
+        if theirs.returncode == 0:
+            answer["time_over_theirs"] = time_ratios(answer, json.loads(out))
+        else:
+            print(f"{str(checkout)!r} could not be timed: {err.strip()[-200:]}", file=sys.stderr)
+    return answer
 
 
 def report(answer: dict[str, Any]) -> str:
@@ -145,18 +165,45 @@ def report(answer: dict[str, Any]) -> str:
     if ratios := answer.get("time_over_theirs"):
         lines += ["\ntime here over time in the other checkout\n"]
         lines += [f"{name:<44}{ratio:10.2f}" for name, ratio in ratios.items()]
+        lost = [f"{name} {ratio:.2f}" for name, ratio in ratios.items() if ratio > LOST]
+        lines += [f"\nlost more than {100 * (LOST - 1):.0f} %: {'; '.join(lost) or 'nothing'}"]
     return "\n".join(lines)
 
 
-def measured_in(checkout: Path, *, long: bool) -> dict[str, Any]:
-    """The figures of another checkout, by its own bench and this Python."""
+def started(checkout: Path, *, long: bool) -> subprocess.Popen[str]:
+    """The own bench of another checkout, by this Python, at the same time: what slows one slows both.
+
+    Its kernels are compiled before.
+    """
     own = (checkout / "tests/tools/bench.py").exists()
     words = ["tests.tools.bench"] if own else ["rotor", "bench"]  # A command of rotor until version 0.3.
+    subprocess.run([sys.executable, "-m", "rotor", "warm"], cwd=checkout, capture_output=True, check=False)
     call = [sys.executable, "-m", *words, "--json", *(["--long"] if long else [])]
-    done = subprocess.run(call, cwd=checkout, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise SystemExit(f"{str(checkout)!r} could not be timed: {done.stderr.strip()}")
-    return json.loads(done.stdout)
+    return subprocess.Popen(call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def unpacked_release(folder: Path) -> Path | None:
+    """A folder with the files of the last release before this commit, by tag or change of version; None without one."""
+    release = _git("describe", "--tags", "--abbrev=0", "HEAD^")
+    if not release and _git("rev-parse", "--is-shallow-repository") == "false":
+        release = _git("log", "-1", "--format=%h", "-G^version = ", "HEAD^", "--", "pyproject.toml")
+    packed = folder / "release.tar"
+    if not release or _git("archive", f"--output={packed}", release, done="yes") != "yes":
+        print("No earlier release in this clone: its times are not compared.", file=sys.stderr)
+        return None
+    with tarfile.open(packed) as files:
+        files.extractall(folder, filter="data")
+    print(f"Beside the release {release}.", file=sys.stderr)
+    return folder
+
+
+def _git(*words: str, done: str = "") -> str:
+    """What git answers, or `done` where that is nothing; empty where it fails or is missing."""
+    with suppress(OSError):
+        answer = subprocess.run(["git", *words], cwd=_ROOT, capture_output=True, text=True, check=False)
+        if answer.returncode == 0:
+            return answer.stdout.strip() or done
+    return ""
 
 
 def time_ratios(ours: dict[str, Any], theirs: dict[str, Any]) -> dict[str, float]:

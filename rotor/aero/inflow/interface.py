@@ -114,10 +114,6 @@ class InflowTerms:
         del flow, mu_z, sees_tilt
         return Followed({}, {})
 
-    def start(self) -> Array:
-        """A first guess of its nodes, (points,)."""
-        return np.zeros(0)
-
     def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
         """Unknowns at every point of the grid, or None; tolerance: of these, thrust: C_T, for the size of steps."""
         del tolerance, thrust

@@ -148,13 +148,8 @@ class LiftingLineTerms(InflowTerms):
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course, self._half_chord), tolerance, 2.4 * thrust)
-
-    def start(self) -> Array:
-        """An elliptical circulation that carries the thrust to which the course belongs."""
-        thrust = 2.0 * self.course.lambda0 * self.course.speed
-        shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
-        return np.repeat(2.2 * thrust * shape, self.line.azimuths)
+        matrix, uniform = _matrix(self.line, self.course, self._half_chord), self.course.lambda0 / self.course.mass_flow
+        return Nodes(UP, CIRCULATION, matrix, tolerance, 3.0 * thrust, uniform)
 
     def off_disk(self, points: Array, nodes: Array | None) -> Array:
         """From the wakes of all blades."""

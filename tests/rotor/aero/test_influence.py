@@ -272,7 +272,7 @@ def test_theodorsens_function(k: float, published: complex):
 @pytest.mark.parametrize(("k", "short"), list(zip(FREQUENCIES, (0.011, 0.035, 0.073), strict=True)))
 def test_the_lattice_alone_has_too_little_lift(k: float, short: float):
     harmonic = np.array([k * FINE.r[PANEL] / HALF_CHORD])
-    own, whole = of_downwash(lattice_lag(FINE, FAST, PANEL, harmonic)[0]), deficiency(k)
+    own, whole = of_downwash(lattice_lag(FINE, FAST, harmonic)[PANEL, 0]), deficiency(k)
     assert abs(own) / abs(whole) - 1.0 == pytest.approx(-short, abs=2e-3)
 
 
@@ -282,7 +282,7 @@ def test_with_what_is_added_it_has_theodorsens_within_a_hundredth(n: int, course
     """k from 0.036 to 0.18 at 0.9 R: what the issue asks for is 3 %. Also at µ 0.05, where D is 1.5."""
     g = np.exp(1j * n * FINE.psi)
     added = (shed_correction(FINE, course, np.full(24, HALF_CHORD))[PANEL] @ g / g).mean()
-    own = lattice_lag(FINE, course, PANEL, np.array([n]))[0] / course.mass_flow
+    own = lattice_lag(FINE, course, np.array([n]))[PANEL, 0] / course.mass_flow
     whole = deficiency(n * HALF_CHORD / FINE.r[PANEL])
     assert abs(of_downwash(own + added) / whole - 1.0) < 0.01
 

@@ -26,7 +26,7 @@ BUILTIN = shipped_twist("uh60a")
 
 
 def parse(spec: str) -> TwistLaw:
-    return parse_twist(spec, builtin=BUILTIN, ideal_tip_pitch=math.radians(6.4))
+    return parse_twist(spec, builtin=BUILTIN, ideal_tip_pitch=lambda: math.radians(6.4))
 
 
 SPECS = ["linear:-8", "quadratic:6,-14", "segments:-12,-4@0.5", "segments:-4,-12,-20@0.4,0.75", "ideal:6.4", "uh60a"]

@@ -228,7 +228,7 @@ def test_slopes_by_what_is_added_to_a_channel(name: str):
     channels = sorted({channel for _, channel in structure.pairs if structure.shapes[channel]})
     v = random.standard_normal(len(point.residual))
     for measure in (Measure(), *any_measures(point)[:2]):
-        slopes = transposed(point, v, measure)[1]
+        slopes = transposed(point, v, measure)[1].sum(axis=2)
         least = float(np.abs(slopes[channels]).sum(axis=1).max())
         for channel in channels:
             along = random.uniform(0.5, 1.5, slopes.shape[1])

@@ -19,5 +19,5 @@ def same_course(patch: Patch) -> WakeCourse:
         del design
         return course
 
-    patch("rotor.trim.forward._course", given)
+    patch("rotor.trim.forward.found_course", given)
     return course
