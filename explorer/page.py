@@ -310,8 +310,8 @@ class Page:
             tab.show(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """Nothing moves: a finer disk, slopes of power and how sure it is."""
-        self.scene.draw_finely()
+        """Nothing moves: vortices, slopes of power and how sure it is."""
+        self.scene.draw_at_rest()
         self._views.show_plan(state.solution, state.view, at_rest=True)
         self.follower.work(stop, soon=True)
         if self._curve.held is not None:

@@ -256,7 +256,7 @@ _SLOPE_LIMIT = 0.5
 """Steeper slopes belong to stall and are cut off before smoothing."""
 _SMOOTHING = (0.7, 1.2)
 """Smoothing of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
-_CLEAR_OF_REVERSE = 0.055
+CLEAR_OF_REVERSE = 0.055
 """U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
 _DASHES = 96
 _DASH_SHARE = 0.58
@@ -291,7 +291,7 @@ def region_codes(drawn: Drawn, grid: PolarGrid, marks: Marks, half_width: float)
     if marks == NO_MARKS:
         return None
     flow = drawn.flow(grid)
-    clear = flow.u_t > _CLEAR_OF_REVERSE
+    clear = flow.u_t > CLEAR_OF_REVERSE
     codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
 
     def line(region: MarkedRegion, values: Single, where: Booleans, part: float) -> None:
@@ -392,5 +392,5 @@ def region_masks(drawn: Drawn, grid: PolarGrid) -> dict[str, Booleans]:
     return {
         "stall": (flow.attached < 0.0) & (flow.u_t > 0.0),
         "reverse_flow": flow.u_t < 0.0,
-        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
+        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > CLEAR_OF_REVERSE),
     }
