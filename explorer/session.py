@@ -98,6 +98,9 @@ class Session:
         if solution is None:
             return iter(())
         self._draw(reading, solution, everything)
+        if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
+            self.page.solved(reading.inputs, solution)
+            return iter(())
         baseline = self._baseline.solve(baseline_of(solution.design))
         pinned = self.page.solve_pinned(solution.design, self._overtaken())
         state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self.page.pin)

@@ -18,8 +18,10 @@ from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
+from rotor.airfoil.sections import Section
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
+from rotor.design.blade import Blade
 from rotor.trim import DiskFields
 
 Single = NDArray[np.float32]
@@ -176,12 +178,24 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     disk, design = solution.disk, solution.design
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
     mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
-    for i, r in enumerate(disk.r.tolist()):
-        for section, share in design.rotor.blade.mixture(r, design.reynolds_per_metre):
-            negative, positive = section.table.stall_alpha(mach[i])
-            lower[i] += share * (negative + section.incidence_offset)
-            upper[i] += share * (positive + section.incidence_offset)
+    for section, rows, shares in _sections(design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre):
+        negative, positive = section.table.stall_alpha(mach[rows])
+        lower[rows] += shares * (negative + section.incidence_offset)
+        upper[rows] += shares * (positive + section.incidence_offset)
     return lower, upper
+
+
+@lru_cache(maxsize=8)
+def _sections(blade: Blade, r: tuple[float, ...], per_metre: float) -> tuple[tuple[Section, Places, Array], ...]:
+    """Each section with the elements at r = y/R that have it, and its share of each, (elements, 1)."""
+    found: dict[Section, list[tuple[int, float]]] = {}
+    for i, at in enumerate(r):
+        for section, share in blade.mixture(at, per_metre):
+            found.setdefault(section, []).append((i, share))
+    return tuple(
+        (section, np.array([i for i, _ in of], np.int32), np.array([[share] for _, share in of]))
+        for section, of in found.items()
+    )
 
 
 @dataclass(frozen=True, eq=False)
