@@ -1,4 +1,4 @@
-"""The figure of each section of `theory.md`, computed while the site is built; each function returns HTML with SVG."""
+"""The figures of `aerodynamics.md` and `theory.md`, drawn while the site is built; each function returns HTML."""
 
 import csv
 import math

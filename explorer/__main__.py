@@ -25,6 +25,7 @@ from explorer.hosting.request_filter import host_name, is_loopback, warning
 from rotor import __version__
 from rotor.compiled import compiling
 from rotor.terminal import OneLineParser, StopSignal, called, run_command
+from rotor.user_input import did_you_mean, shorten
 
 _COMMANDS = {"report": "explorer.export.report", "blade": "explorer.export.blade", "story": "explorer.story.story_file"}
 """Modules with commands of their own, loaded when one is asked for."""
@@ -40,8 +41,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return import_module(_COMMANDS[given[0]]).main(given[1:])
 
     def run() -> int:
+        parser = _parser()
+        if given and not given[0].startswith("-"):
+            remedy = did_you_mean(given[0], _COMMANDS) or f": use {', '.join(_COMMANDS)}, or flags alone"
+            parser.error(f"{shorten(given[0])} is not a command{remedy}")
         try:
-            return _run(_parser().parse_args(given))
+            return _run(parser.parse_args(given))
         except KeyboardInterrupt:
             print(flush=True)
             if compiling():  # LLVM aborts where a process ends in the usual way under a thread of it.

@@ -31,6 +31,7 @@ from explorer.workers import solver
 from rotor import solve
 from rotor.compiled import compiling
 from rotor.processes import Processes
+from rotor.trim.newton import SolverOptions
 
 FIRST = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
@@ -38,6 +39,8 @@ _TELL_EVERY = 10.0
 """[s] between two sentences about values that no page of ours sends."""
 MakeSession = Callable[[viser.ClientHandle, PageFacts], Session]
 _log = logging.getLogger(__name__)
+_FIRST_PATIENCE = 20.0
+"""[s] after which the solve of a first answer is given up."""
 _FIRST_ANSWERS = 32
 """Addresses whose first answer is kept."""
 _WORKERS = 2
@@ -151,7 +154,8 @@ def _first_words(query: str, start: Inputs) -> str:
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
     design = (start if code is None else inputs_from(code)).design()
     units = units_of(view_from(view).units if view is not None else SI.title, design.aircraft)
-    solution = solve(design)
+    limit = time.monotonic() + _FIRST_PATIENCE
+    solution = solve(design, options=SolverOptions(stop=lambda: time.monotonic() > limit))
     if not solution.converged:
         return ""
     power = units.watts(solution.power.total, fineness(solution.power, units))

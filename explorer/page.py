@@ -255,10 +255,13 @@ class Page:
         sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
         return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
 
+    def solved(self, inputs: Inputs, solution: Solution) -> None:
+        """A point of how power changes with the sliders."""
+        self.context.tracker.solved(inputs, solution.power.total, self._pause)
+
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
-        tracker = self.context.tracker
-        tracker.solved(state.inputs, state.solution.power.total, self._pause)
+        self.solved(state.inputs, state.solution)
         self.follower.memory = self.follower.memory.then(state, self._now.state)
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
@@ -310,8 +313,8 @@ class Page:
             tab.show(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """Nothing moves: a finer disk, slopes of power and how sure it is."""
-        self.scene.draw_finely()
+        """Nothing moves: vortices, slopes of power and how sure it is."""
+        self.scene.draw_at_rest()
         self._views.show_plan(state.solution, state.view, at_rest=True)
         self.follower.work(stop, soon=True)
         if self._curve.held is not None:

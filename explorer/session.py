@@ -8,14 +8,14 @@ A slider step takes these steps; `_update` is the path:
 4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
 5. solve: `rotor.trim.analyse` trims the design, starting from the last converged solution.
 6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
-7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
-8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
+7. draw: `picture.make_picture` and `disk_numbers` make poses, the twist of the blades and the field on the disk.
+8. draw: `scene` sends them and flushes. The frame is on its way.
 9. draw: the baseline and A are solved and complete the `SessionState`; where other pages wait for their frames,
    `page.show_power_number` keeps the number up to date.
 10. follow, step by step, given up when a newer update comes: `page.show_results` updates the panels that are functions
    and those of long work.
 11. follow: `page.follow` updates all other tabs.
-12. follow: once nothing moves, `page.rest` draws the disk finely and has slopes and doubt of power computed, the power
+12. follow: once nothing moves, `page.rest` draws vortices and has slopes and doubt of power computed, the power
    curve is swept, and `page.solve_deferred` does what can wait.
 """
 
@@ -98,6 +98,9 @@ class Session:
         if solution is None:
             return iter(())
         self._draw(reading, solution, everything)
+        if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
+            self.page.solved(reading.inputs, solution)
+            return iter(())
         baseline = self._baseline.solve(baseline_of(solution.design))
         pinned = self.page.solve_pinned(solution.design, self._overtaken())
         state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self.page.pin)

@@ -4,7 +4,7 @@ numba itself ends the program where it has no folder to write to (a read-only in
 disk is full, and where a kept file was cut short; LLVM ends it where a bit of one is another. The kernels then compile
 anew, in some seconds.
 
-The first run compiles for some twenty seconds. On a terminal and in a notebook a line on stderr counts the kernels.
+The first run compiles for about half a minute. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
 import hashlib
@@ -85,6 +85,7 @@ class _ForgivingCache(FunctionCache):
             super().save_overload(sig, data)  # pyright: ignore[reportUnknownMemberType]
         except Exception as error:
             _log.debug("%r cannot be kept (%s)", self, error)
+            _watch.unkept = True
 
 
 _stamps: dict[str, tuple[float, int]] = {}
@@ -118,6 +119,8 @@ class _Watch(event.Listener):
         """Under way: each was begun by the one before it."""
         self.told = True
         """Whether a stderr that is no terminal has its line, or is to have none."""
+        self.unkept = False
+        """Whether something that was compiled could not be kept."""
         self._kept: dict[int, bool] = {}
         self._width = 0
 
@@ -126,8 +129,9 @@ class _Watch(event.Listener):
         """Empty where nothing is compiled."""
         if not self.open:
             return ""
-        ready = sum(bool(kernel.overloads) or self._is_kept(kernel) for kernel in self.kernels)
-        return f"Compiling, once: {min(ready + 1, len(self.kernels))} of {len(self.kernels)}"
+        ready, all_of_them = sum(bool(one.overloads) or self._is_kept(one) for one in self.kernels), len(self.kernels)
+        often = "in each run" if self.unkept else "once"
+        return f"Compiling, {often}: {min(ready + 1, all_of_them)} of {all_of_them}"
 
     def _is_kept(self, kernel: Any) -> bool:
         """Whether a run before has compiled it: the count goes on where that one ended. Looked up once."""
@@ -156,7 +160,7 @@ class _Watch(event.Listener):
                 self._width = len(words)
             elif not self.told:
                 self.told = True
-                print("Compiling kernels, once: some 20 s of processor time", file=stream, flush=True)
+                print("Compiling kernels, once: about half a minute of processor time", file=stream, flush=True)
 
 
 _watch = _Watch()
@@ -166,6 +170,12 @@ event.register("numba:compile", _watch)  # pyright: ignore[reportUnknownMemberTy
 def compiling() -> str:
     """What is compiled at this moment, "Compiling, once: 7 of 40"; empty where nothing is."""
     return _watch.words
+
+
+def why_not_kept() -> str:
+    """One sentence where compiled kernels could not be kept on disk; else empty."""
+    sentence = "Compiled kernels cannot be kept, so each run compiles anew: set NUMBA_CACHE_DIR to another folder"
+    return sentence if _watch.unkept else ""
 
 
 def tell_in_a_log() -> None:
@@ -188,6 +198,7 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
             compiled._cache = _ForgivingCache(function)  # What `cache=True` does, with numba's own class.
         except Exception as error:  # No folder to write to, or a source without a file.
             _log.debug("no place to keep %s (%s)", function.__name__, error)
+            _watch.unkept = True
         if options.get("inline") != "always":  # Such a one is part of those that call it.
             _watch.kernels.append(compiled)
         return compiled

@@ -21,6 +21,7 @@ from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.doubt import doubt
 from rotor.trim.hub_loads import hub_loads
+from rotor.trim.many import solve_many
 from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
@@ -58,6 +59,7 @@ __all__ = (
     "run_study",
     "schedule",
     "solve",
+    "solve_many",
     "stability",
     "sweep",
     "t_matrix",

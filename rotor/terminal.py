@@ -62,7 +62,7 @@ class OneLineParser(argparse.ArgumentParser):
     """Reports errors in one line and suggests the nearest name for one that is not known."""
 
     def __init__(self, *args: Any, **options: Any) -> None:
-        super().__init__(*args, **{"formatter_class": help_formatter, **options})
+        super().__init__(*args, **{"formatter_class": help_formatter, "allow_abbrev": False, **options})
         self._negative_number_matcher = re.compile(r"^-\.?\d")  # Also lists and ranges: --rate-deg -20,0.
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:  # pyright: ignore[reportIncompatibleMethodOverride]

@@ -3,6 +3,7 @@
 The site itself is built by `make docs`; here a page with a chart is, and its pixels are looked at.
 """
 
+import argparse
 import ast
 import inspect
 import re
@@ -15,8 +16,12 @@ import numpy as np
 import pytest
 
 import explorer
+import explorer.__main__
 import rotor
 import rotor.validation
+from explorer.export import blade, report
+from explorer.story import story_file
+from rotor.__main__ import build_parser
 from rotor.design.quantities import BY_INPUT
 
 matplotlib.use("Agg")
@@ -118,8 +123,53 @@ def test_what_the_page_on_attacks_names_exists():
     assert not {*re.findall(r"test_\w+\.py", text(DOCS / "developers" / "made.md"))} - tests
 
 
+OTHERS = {"--find-links", "--no-index", "--tls-ca-file", "--tls-cert", "--tls-key", "--tmpfs"}
+"""Flags of pip, Dask and podman that a sentence names."""
+
+
+def flags() -> set[str]:
+    """Of all commands."""
+    (commands,) = (one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
+    page = (explorer.__main__._parser(), report._parser(), story_file._parser(), blade._parser())
+    return {flag for parser in (*commands.choices.values(), *page) for flag in parser._option_string_actions}
+
+
+def test_flags_that_pages_name_exist():
+    """In commands of ours, and in sentences where code begins with a flag."""
+    known, unknown = flags() | OTHERS | {"--help"}, {}
+    for path in sorted({*SITE, TOP[0]}):
+        code = [line for line in text(path).splitlines() if re.search(r"python -m (rotor|explorer) ", line)]
+        code += re.findall(r"`--[^`]*`", text(path))
+        unknown[path.name] = {*re.findall(r"(?<=[ `(])--[a-z][\w-]*", "\n".join(code))} - known
+    assert not {name: given for name, given in unknown.items() if given}
+
+
+def test_methods_that_the_page_on_formats_names_exist():
+    named = set(re.findall(r"`(?:\w+\.)?(to_\w+|save)\(?", text(DOCS / "formats.md")))
+    types_ = (rotor.Solution, rotor.SweepTable, rotor.Distribution)
+    assert named
+    assert not {name for name in named if not any(hasattr(one, name) for one in types_)}
+
+
 def examples(page: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", page, flags=re.DOTALL | re.MULTILINE)
+
+
+def test_numbers_of_the_student_theory_are_results():
+    """Its lines run in order, and each number behind a # is the value of its line, to the last printed digit."""
+    names: dict = {}
+    checked = 0
+    for code in examples(text(DOCS / "aerodynamics.md")):
+        for part in re.split(r"(?<=\n)(?=\S)(?!\))", code):
+            exec(part, names)
+            stated = re.search(r"  # (-?\d+(?:\.(\d+))?)\b", part)
+            if stated:
+                expression = part.partition("  # ")[0]
+                target = re.match(r"\w+(?= = )", expression)
+                value = float(eval(target[0] if target else expression, names))
+                assert value == pytest.approx(float(stated[1]), abs=0.6 * 10.0 ** -len(stated[2] or "")), part
+                checked += 1
+    assert checked >= 30
 
 
 TASKS = examples(text(DOCS / "guide" / "sweep.md").partition("\n## Three tasks\n")[2])

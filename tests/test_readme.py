@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import rotor
-from rotor.__main__ import build_parser
+from explorer.__main__ import main as explorer_main
+from rotor.__main__ import main as rotor_main
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.reproduce.actuation import table_5_2
 from rotor.reproduce.optimum_twist import table_4_1
 from tests.tools import readme
@@ -20,16 +22,23 @@ PLAIN = " ".join(README.split())
 
 
 def test_the_table_of_trust_is_that_of_the_trust_page():
-    assert readme.with_table(README) == README, "python -m tests.tools.readme writes it anew"
+    assert readme.with_section(README) == README, "python -m tests.tools.readme writes it anew"
+    assert len(README.split()) <= 600
 
 
 def test_what_was_missed_stands_beside_what_was_met():
-    """The set is missed if one row of it is; none with a target is left out."""
+    """A set is missed if one row of it is; none with a target is left out."""
     missed = {row.set for row in readme.trust_rows() if row.verdict == "missed"}
-    met = {row.set for row in readme.trust_rows() if row.verdict == "met"} - missed
-    for words, sets in (("met", met), ("missed", missed)):
-        (line,) = re.findall(rf"^\| \*\*{words}: .*$", README, re.MULTILINE)
-        assert set(re.findall(r"validation/([\w-]+)\.md", line)) == sets
+    judged = missed | {row.set for row in readme.trust_rows() if row.verdict == "met"}
+    lines = re.findall(r"^\| \[.*\]\(.*\| (.*) \|$", README, re.MULTILINE)
+    assert len(lines) == len(readme.ROTORS)
+    for names, verdict in zip(readme.ROTORS, lines, strict=True):
+        assert {*verdict.split("; ")} == {"missed" if name in missed else "met" for name in names}
+    others = dict(
+        re.findall(r"validation/([\w-]+)\.md\)[^;]*\b(met|missed)\)", README.partition("Sections, theory")[2])
+    )
+    assert others == {name: "missed" if name in missed else "met" for name in readme.OTHERS}
+    assert sorted(judged) == sorted([*others, *(name for names in readme.ROTORS for name in names)])
 
 
 def blocks(language: str = "") -> list[str]:
@@ -47,12 +56,21 @@ def test_the_lines_of_python_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert len((tmp_path / "power.csv").read_text(encoding="utf-8").splitlines()) == 4
 
 
-def test_the_commands_are_understood():
+def test_the_commands_run_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """In an empty folder, one after another: none needs a file that an earlier one did not write."""
+    monkeypatch.chdir(tmp_path)
     lines = [shlex.split(line) for block in blocks() for line in block.splitlines() if line.startswith("python -m")]
     assert len(lines) == 5
     for words in lines:
-        if words[2] == "rotor":
-            build_parser().parse_args(words[3:])
+        assert {"rotor": rotor_main, "explorer": explorer_main}[words[2]](words[3:]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"mine.json", "power.csv", "report.html"}
+
+
+def test_the_rotor_file_of_the_tutorial_is_as_short_as_stated():
+    lines = [line for line in (ROOT / "docs/tutorials/mine.toml").read_text(encoding="utf-8").splitlines() if line]
+    said(f"One TOML file of {len(lines)} lines")
+    assert len({*SHIPPED_ROTORS, *MEASURED_ROTORS}) == 14
+    said("Fourteen rotors are included")
 
 
 def said(words: str) -> None:
@@ -80,7 +98,7 @@ def test_what_a_twist_that_moves_saves():
         assert sure.change is not None
         assert sure.sureness == "sure" or slowest
         saved.append(-sure.change / 1e3)
-    low, high = map(float, re.findall(r"saves (\d+) to (\d+) kW beyond the best fixed one, mostly in hover", PLAIN)[0])
+    low, high = map(float, re.findall(r"saves (\d+) to (\d+) kW over the best fixed twist, mostly in hover", PLAIN)[0])
     assert low < saved[0] < high
     assert 0.0 < saved[1] < 0.5 * saved[0]
 
@@ -92,4 +110,4 @@ def test_concepts_and_actuators():
     said(
         f"more segments or a curve save {100 * max(concepts[key] for key in ('two', 'three', 'quadratic')):.1f} % more"
     )
-    said(f"the best of {actuators['rows']:.0f} pairs costs {-actuators['best_kw']:.0f} kW on balance")
+    said(f"the best of {actuators['rows']:.0f} pairs of actuator and twist loses {-actuators['best_kw']:.0f} kW")

@@ -2,8 +2,8 @@
 What twist for this mission?
 ============================
 
-A mission is a list of flight conditions with hours. The twist that costs the least fuel is the one with the least
-mean power over these hours, not the one that is best in any of them.
+A mission is a list of flight conditions with hours. The twist that needs least fuel has the least mean power over
+these hours. It need not be the best twist of any single condition.
 """
 
 import matplotlib.pyplot as plt
@@ -22,7 +22,7 @@ mission = rotor.optimise(design, "linear", conditions=list(hours.items()), start
 print(mission)
 
 # %%
-# The best linear twist of each condition alone, to compare with.
+# For comparison, the best linear twist of each condition alone.
 
 alone = {mu: rotor.optimise(design.at(mu=mu), "linear", starts=2) for mu in hours}
 for mu, best in alone.items():
@@ -49,6 +49,6 @@ plt.ylabel("Power above the least [%]")
 plt.legend()
 
 # %%
-# See it on the page.
+# Show it on the page.
 
 explorer.show(mission.design, browser=False)

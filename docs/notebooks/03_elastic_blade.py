@@ -2,8 +2,8 @@
 What does the blade's own elasticity do to the optimum?
 =======================================================
 
-A blade in flight twists under the moments of its sections, of its mass and of the centrifugal force. The twist that the
-air sees is the jig twist and this elastic twist together, so the best jig twist moves.
+In flight a blade twists under aerodynamic, inertial and centrifugal moments. The flown twist is the jig twist, which is
+the twist as built, plus this elastic twist. So the best jig twist changes.
 """
 
 from dataclasses import replace
@@ -28,12 +28,12 @@ tip = np.degrees(twist[-1])
 print(f"elastic twist at the tip: mean {tip.mean():.2f}°, from {tip.min():.2f}° to {tip.max():.2f}° in one revolution")
 
 # %%
-# Around the disk: the advancing blade twists down, or up, by its own moments.
+# Elastic twist over the azimuth: the advancing blade twists up or down by its own moments.
 
 solutions["elastic"].plot("elastic_twist")
 
 # %%
-# Power over jig twist, and the best of each.
+# Power over jig twist, with the best twist of each blade.
 
 rates = np.arange(-20.0, -3.9, 2.0)
 best = {}
@@ -49,7 +49,7 @@ plt.ylabel("Total power [kW]")
 plt.legend()
 
 # %%
-# What it costs to leave elasticity out: fly the rigid optimum as an elastic blade.
+# The cost of neglecting elasticity: solve the elastic blade with the optimum of the rigid one.
 
 flown = {name: elastic.with_twist(f"linear:{rate:.3f}") for name, rate in best.items()}
 powers = {name: rotor.solve(design).require().power.total for name, design in flown.items()}

@@ -2,8 +2,8 @@
 Would 2/rev pay?
 ================
 
-An actuator in the blade can twist it twice per revolution. At fast flight that can move load away from where it is
-expensive. What does it save, and what is left once the actuator's mass is carried?
+An actuator can twist the blade twice per revolution. In fast flight that can move load away from where it is expensive.
+How much does it save, and what remains after carrying the actuator's mass?
 """
 
 import math
@@ -20,7 +20,7 @@ phases = range(0, 360, 30)
 # %%
 # A macro fibre composite outside the skins of the blade as built, and in the skin of a new blade with half its
 # stiffness. Each is driven with half of its voltage range at twelve phases. Power is compared with that of the same
-# blade at rest in the same flow; in the end with that of the blade without an actuator.
+# blade with the actuator at rest, and finally with that of the blade without an actuator.
 
 hosts = {"retrofit": Host(), "new blade, half the stiffness": Host("new", 0.5)}
 changes, best = {}, {}
@@ -37,7 +37,7 @@ for title, host in hosts.items():
     print(f"  with its {installed.masses.aircraft:.0f} kg and its stiffness, without its drive: {net:+.1f} kW")
 
 # %%
-# What matters is the phase: the same amplitude costs or saves power.
+# The phase decides: the same amplitude can cost or save power.
 
 for title, powers in changes.items():
     plt.plot(phases, powers, "o-", label=title)
@@ -47,7 +47,7 @@ plt.ylabel("Change of power at full amplitude [kW]")
 plt.legend()
 
 # %%
-# Power is half of the question: 2/rev is also tried for vibration and stall, which this model of steady power cannot
+# Power is half of the question. 2/rev is also used against vibration and stall, which this model of steady power cannot
 # judge.
 
 chosen = best["retrofit"]

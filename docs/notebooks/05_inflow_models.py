@@ -2,8 +2,8 @@
 Which inflow model would mislead me?
 ====================================
 
-All inflow models agree on the thrust. They differ in where over the disk the inflow is, and so in the best twist, by
-some degrees. Which of them would send a designer the wrong way?
+All inflow models agree on the thrust. They distribute the inflow differently over the disk, so their best twists differ
+by some degrees. Which of them would mislead a designer?
 """
 
 import matplotlib.pyplot as plt
@@ -26,14 +26,14 @@ names = [
 ]
 
 # %%
-# First the induced power of one blade.
+# First the induced power of one design.
 
 solutions = {name: rotor.solve(rotor.make_design(twist="linear:-10", mu=0.2, inflow=name)) for name in names}
 for name, solution in solutions.items():
     print(f"{name:28s} κ {solution.induced_power_factor:.3f}   total {solution.power.total / 1e3:7.1f} kW")
 
 # %%
-# Power over twist by each model. Most of the simple ones hold the shape of the inflow whatever the blade does.
+# Power over twist with each model. Most simple models keep the shape of the inflow whatever the blade does.
 
 rates = np.arange(-20.0, -1.9, 3.0)
 curves = {
@@ -47,7 +47,7 @@ plt.ylabel("Power above its least [%]")
 plt.legend()
 
 # %%
-# Take each model's best twist and fly it with the lifting line, the reference here. What it costs is how far it misled.
+# Solve each model's best twist with the lifting line, the reference here. The extra power measures how far it misled.
 
 fine = np.linspace(rates[0], rates[-1], 200)
 wrong = {}
@@ -64,7 +64,7 @@ lowest = min(off, key=lambda name: off[name])
 print(f"misleads most about power itself: {lowest}, by {off[lowest]:+.1f} %")
 
 # %%
-# The inflow itself: what the models disagree about.
+# The inflow itself, on which the models disagree.
 
 _, axes = plt.subplots(1, 2, subplot_kw={"projection": "polar"}, figsize=(10, 4.5))
 for ax, name in zip(axes, (names[0], reference), strict=True):

@@ -45,7 +45,7 @@ for mu, total in zip(columns["mu"], columns["total_kw"], strict=True):
     print(f"µ {mu:.2f}: " + ("no trim" if total is None else f"{total:.1f} kW"))
 
 # %%
-# The best twist of two segments at µ = 0.25, and what it saves.
+# The best two-segment twist at µ = 0.25, and its saving.
 
 best = rotor.optimise(design, "two-segment", starts=2)
 print(best)
@@ -60,7 +60,7 @@ for caveat in solution.caveats:
     print("-", caveat.sentence)
 
 # %%
-# A saved design holds the rotor file with it, so it can be sent to others.
+# A saved design contains the rotor file, so you can send it to others.
 
 solution.save(folder / "best.json")
 again = rotor.solve(rotor.load_design(folder / "best.json"))

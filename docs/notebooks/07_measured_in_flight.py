@@ -2,8 +2,9 @@
 What did the blade itself measure?
 ==================================
 
-Power is one number. Pressure taps and cameras see every azimuth: do we follow them? A model rotor in the tunnel with
-and without 3/rev pitch at its roots (HART II), and a helicopter in flight (SA349/2 Gazelle). Nothing is fitted.
+Power is one number; pressure taps and cameras measure every azimuth. Does the program follow them? The data are from a
+model rotor in a wind tunnel with and without 3/rev root pitch (HART II), and from a helicopter in flight (SA349/2
+Gazelle). Nothing is fitted.
 """
 
 import matplotlib.pyplot as plt
@@ -30,8 +31,8 @@ def show(axes, name, quantity, r, mean=True):
 
 
 # %%
-# HART II: normal force over the azimuth, without (BL) and with (MN) 0.8° of 3/rev pitch. What the 3/rev does is
-# followed well. The baseline is harder: there the blades meet the vortices of a wake that stays near the disk.
+# HART II: normal force over the azimuth, without (BL) and with (MN) 0.8° of 3/rev pitch. The effect of the 3/rev agrees
+# well. The baseline is harder: there the blades meet the vortices of a wake that stays near the disk.
 
 figure, axes = plt.subplots(1, 2, figsize=(10.0, 3.5), sharey=True, layout="constrained")
 for ax, name in zip(axes, ("BL", "MN"), strict=True):
@@ -40,7 +41,7 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
 axes[0].set_ylabel("$C_n M^2$ without its mean")
 
 # %%
-# The tip twists by degrees under these loads: the actuator moves the root by 0.8°, the tip follows with more.
+# The tip twists by degrees under these loads: the actuator moves the root by 0.8°, and the tip moves more.
 
 figure, axes = plt.subplots(1, 2, figsize=(10.0, 3.5), sharey=True, layout="constrained")
 for ax, name in zip(axes, ("BL", "MN"), strict=True):
@@ -51,8 +52,8 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
 axes[0].set_ylabel("Elastic twist of the tip [°]")
 
 # %%
-# The Gazelle at µ 0.36: section lift coefficient at three radii. It is large where the blade is slow; lift itself, with
-# the dynamic pressure, correlates less.
+# The Gazelle at µ 0.36: section lift coefficient at three radii. It is large where the blade is slow. Lift itself,
+# which includes the dynamic pressure, correlates less.
 
 figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.5), sharey=True, layout="constrained")
 for ax, r in zip(axes, (0.75, 0.88, 0.97), strict=True):
@@ -63,6 +64,6 @@ for ax, r in zip(axes, (0.75, 0.88, 0.97), strict=True):
 axes[0].set_ylabel("$c_l$")
 
 # %%
-# Harmonics, power, controls and what was tried on the misses stand in *How far to trust the numbers*.
+# *How far to trust the numbers* has harmonics, power, controls and the causes that were tried.
 
 explorer.show(solutions["FC2"].design, browser=False)

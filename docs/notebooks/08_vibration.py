@@ -2,12 +2,12 @@
 What twist does to vibration
 ============================
 
-Twist is chosen for power. The same twist shakes the helicopter: the loads of the four blades add up at the hub to
-forces and moments at four per revolution. Here is what static twist and twist that moves do to both.
+Twist is chosen for power, but it also changes vibration: the loads of the four blades add up at the hub to forces and
+moments at four per revolution. This notebook shows what static and active twist do to both.
 
 The index weighs the amplitudes of the forces aft, to the side and up by 0.5, 0.67 and 1, adds the moments over the
-radius, and is given in per cent of the weight. It is for comparing designs of one rotor. Its level is not to be
-trusted: the model of the wake alone moves it by half and more.
+radius, and is given in per cent of the weight. Use it to compare designs of one rotor. Do not trust its level: another
+wake model changes it by half or more.
 """
 
 import math
@@ -17,12 +17,12 @@ import matplotlib.pyplot as plt
 import rotor
 
 # %%
-# Static twist, at three speeds. At speed strong twist costs: it saves power in hover and pays at the other end.
+# Static twist at three speeds. Strong twist saves power in hover and costs power at speed.
 #
-# The shaded band is what the same design has with other inflow models, from uniform inflow to the lifting line; it
-# belongs to every index. From µ 0.3 on all of them say that more twist shakes more, though not by how much; but for the
-# lifting line at µ 0.3, which has its least near −4°. At µ 0.2 it has it near −12°, as power has, and linear inflow has
-# none. Below that the wake decides, and a sentence stands in place of the index.
+# The shaded band covers the same design with other inflow models, from uniform inflow to the lifting line; every index
+# has one. From µ 0.3 on all models agree that more twist means more vibration, though not by how much. The exception
+# is the lifting line at µ 0.3, with its minimum near −4°. At µ 0.2 its minimum is near −12°, like that of power, and
+# linear inflow has none. At lower speed the wake model decides, and no index is given.
 
 rates = [0, -4, -8, -12, -16, -20]
 for mu in (0.2, 0.3, 0.35):
@@ -36,7 +36,7 @@ plt.ylabel("Index [% of the weight]")
 plt.legend()
 
 # %%
-# What the hub feels of the blade as built.
+# Hub loads of the blade as built.
 
 design = rotor.make_design(mu=0.3, bending=True)
 loads = rotor.hub_loads(rotor.solve(design))
@@ -45,8 +45,8 @@ for name, size in loads.amplitudes.items():
     print(f"  {name} {size:.0f} {'N' if name[0] == 'f' else 'N m'}")
 
 # %%
-# Now a blade that twists by a degree at 2, 3, 4 or 5 per revolution. The response is nearly linear, so one matrix
-# answers for every amplitude and phase at once.
+# Now the blade twists by a degree at 2, 3, 4 or 5 per revolution. The response is nearly linear, so one matrix gives
+# every amplitude and phase.
 
 matrix = rotor.t_matrix(design)
 still = matrix.response("")
@@ -69,9 +69,9 @@ for ax in (power, index):
 index.legend()
 
 # %%
-# The phase that saves power is not the phase that calms the hub. With 2/rev and 3/rev together, at most a degree each,
-# one buys the other: every point is trimmed again, and none has both less power and less vibration than another. The
-# last columns are the change of the index with the other wakes: where they do not agree, neither should you.
+# The phase that saves power is not the phase that reduces vibration. This is their trade-off curve with 2/rev and 3/rev
+# together, at most a degree each. Every point is trimmed again, and none has both less power and less vibration than
+# another. The last columns are the change of the index with other wakes; where they disagree, do not trust it.
 
 front = rotor.vibration_front(design)
 for point, (more, less) in zip(front.points, front.changes, strict=True):
@@ -84,8 +84,8 @@ for point, (more, less) in zip(front.points, front.changes, strict=True):
 print("largest error of the matrix: power {:.2f} %, index {:.1f} %".format(*front.preview_error))
 
 # %%
-# A static twist of two segments has a front too. At this speed the blade as built is behind on both counts: its strong
-# twist is for hover.
+# A static twist of two segments has a trade-off curve too. At this speed the blade as built is worse in both: its
+# strong twist is for hover.
 
 fixed = rotor.vibration_front(design, "two-segment", points=4)
 figure, ax = plt.subplots()

@@ -4,24 +4,24 @@ The three questions, answered
 
 The program began with a thesis, M. Lonoce, *Helicopter Blade Twist Optimization in Forward Flight*, 2016, and its
 three questions. There are two presets. ``flight``, the default, uses the best models available: section data over
-angle of attack and Mach number, hinge offset, a blade elastic in torsion, propulsive trim with cyclic, a lifting
-line. ``thesis`` uses the models of that document, so that its figures can be checked: ``python -m rotor reproduce
+angle of attack and Mach number, hinge offset, blades elastic in torsion, propulsive trim with cyclic, and a lifting
+line. ``thesis`` uses the models of the thesis, so that its figures can be checked with ``python -m rotor reproduce
 OUT``.
 
-**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −11.3° at µ 0.2 and
-−11.7° at 0.35 (−9.8 to −12.5° over the inflow models, −6.8° without fuselage drag). A twist that follows saves 0.1 %
-beyond the best fixed one, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly in hover (``schedule``, eight speeds
-from hover to µ 0.35; from µ 0.1 up 0.6 kW). That it saves something is sure: the sign held for every input and model
-that was varied; the size did not.
+**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −11.3° at µ 0.2 and −11.7°
+at 0.35 (−9.8 to −12.5° over the inflow models, −6.8° without fuselage drag). Twist that follows speed saves 0.1 % over
+the best fixed twist, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly in hover (``schedule``, eight speeds from
+hover to µ 0.35; from µ 0.1 up 0.6 kW). It surely saves something: the sign held for every input and model that was
+varied. The size did not.
 
-**Which concept has advantages?** None that can be told: two or three segments, or a quadratic twist, save 0.2 to 0.3 %
-more than one linear twist that moves. One good fixed twist saves 0.6 % against −16°.
+**Which twist law is best?** No clear winner: two or three segments, or a quadratic twist, save 0.2 to 0.3 % more than
+one linear twist that follows speed. One good fixed twist saves 0.6 % against −16°.
 
-**Which actuator?** None on the blade as it is: of 24 pairs of actuator and concept the best costs 24 kW on balance,
-for its mass. What unlimited twist would gain, 3 kW, is an eighth of that cost.
+**Which actuator pays?** None on the blade as it is: of 24 pairs of actuator and twist law the best loses 24 kW, because
+of its mass. Unlimited twist would gain 3 kW, an eighth of that.
 
-How sure each number is: :doc:`doubt </guide/doubt>`. A difference between two twists is known ten times better than
-power itself.
+How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known ten times
+better than power itself.
 """
 
 import matplotlib.pyplot as plt
@@ -34,10 +34,10 @@ from rotor.reproduce import ladder, readings
 # From the thesis to today
 # ------------------------
 #
-# The document's assumptions, read as most of its statements hold, give −16.6, −8.5 and −3.8° in hover, at µ 0.2 and
-# at 0.35. From there one assumption after another is changed to that of the preset ``flight``. Trim by cyclic with µ
-# sin α moves that most: −7.0 to −8.1° at µ 0.35, −2.1 to −2.9° at 0.2, where drag rise, torsion and section data move
-# it as far.
+# The assumptions of the thesis, in the reading with which most of its statements hold, give −16.6, −8.5 and −3.8° in
+# hover, at µ 0.2 and at 0.35. From there one assumption after another changes to that of the preset ``flight``. Trim
+# by cyclic with µ sin α has the largest effect: −7.0 to −8.1° at µ 0.35, −2.1 to −2.9° at 0.2, where drag rise,
+# torsion and section data have as much.
 
 names = tuple(ladder.RUNGS)
 speeds = (0.0, 0.2, 0.35)
@@ -60,8 +60,8 @@ plt.gcf().set_size_inches(9.0, 4.5)
 plt.tight_layout()
 
 # %%
-# The move of an assumption depends on those changed before it. So the trim also alone on ``thesis``, and taken back
-# alone from ``flight``.
+# The effect of an assumption depends on those changed before it. So the trim is also changed alone in ``thesis``, and
+# changed back alone in ``flight``.
 
 without = tuple(name for name in names if name not in ladder.TRIM)
 for mu in speeds[1:]:
@@ -74,7 +74,8 @@ for mu in speeds[1:]:
     print(f"trim at µ {mu:g}: " + ", ".join(f"{way:+.1f}°" for way in ways))
 
 # %%
-# The inflow models at µ 0.35, and what a twist that moves saves beyond the best fixed one, equal time at each speed.
+# The inflow models at µ 0.35, and the saving of a twist that follows speed over the best fixed one, with equal time at
+# each speed.
 
 for model in ("uniform", "local-momentum", "lifting-line"):
     print(f"{model:16s}{ladder.least(names, 0.35, model).rate_deg:8.1f}°")
@@ -82,9 +83,9 @@ moving = ladder.moving_twist(names, speeds, None)
 print(f"best fixed {moving.fixed_deg:.1f}°; moving saves {100 * moving.gain:.2f} %")
 
 # %%
-# Measured, on another rotor: −17.3° needs 5 % more power than −11.5° at 330 km/h and 2.4 % less in hover. Ours gives
-# −0.2 % with the drag of the UH-60A and +3.2 % (3.1 to 5.6 over models) at the usual propulsive force of a tunnel
-# test; −0.5 % in hover.
+# Measured on another rotor: −17.3° needs 5 % more power than −11.5° at 330 km/h and 2.4 % less in hover. Computed:
+# −0.2 % with the drag of the UH-60A, +3.2 % (3.1 to 5.6 over models) at the usual propulsive force of a tunnel test,
+# and −0.5 % in hover.
 
 for kmh in (0.0, ladder.FAST_KMH):
     print(f"{kmh:3.0f} km/h: {100 * ladder.strong_over_weak(names, kmh):+.1f} %")
@@ -93,11 +94,10 @@ for kmh in (0.0, ladder.FAST_KMH):
 # How the thesis can be read
 # --------------------------
 #
-# It does not say which transition, Mach number and range of angle its fit of the section data has, nor the unit of
+# It does not state transition, Mach number and range of angle of its section data, nor the unit of
 # twist. It has Prandtl's factor F on the inflow in hover (3.3), power from torque (3.10), but also "the code
-# calculates the main rotor induced power, main rotor profile power and fuselage parasitic power" (p. 25). Each
-# reading is judged by five statements of its section 3.3: a twist that it calls the best may need 0.1 % more than the
-# least.
+# calculates the main rotor induced power, main rotor profile power and fuselage parasitic power" (p. 25). Five
+# statements of its section 3.3 judge each reading: a twist that it calls the best may need 0.1 % more than the minimum.
 
 found = readings.judged_readings()
 print(f"{len(found)} readings; statements that hold, whatever F is on, the unit of twist and the count of power")
@@ -106,8 +106,8 @@ for section in readings.SECTIONS:
     print(f"{readings.described(section):34s}{min(counts)} to {max(counts)} of {len(readings.STATEMENTS)}")
 
 # %%
-# The one that holds most, with the power by which each statement is missed; for −16° in hover the power above the
-# least.
+# The reading with which most statements hold, with the power by which it misses each; for −16° in hover the power above
+# the minimum.
 
 first = found[0]
 chosen = first.reading
@@ -116,8 +116,8 @@ for words, excess, holds in zip(readings.STATEMENTS, first.excess, first.holds, 
     print(f"  {'yes' if holds else 'no ':3s} {words:40s}{100 * excess:6.2f} %")
 
 # %%
-# The preset ``thesis`` takes section data, F and power of this reading; twist stays per radius. F on the inflow is
-# what (3.3) says, the sum of parts what p. 25 says. The section data are chosen among ten for their answers, which is
-# no evidence: the ripple of a polynomial of order 12, of the size of the differences between the twists, decides.
+# The preset ``thesis`` uses section data, F and power of this reading; twist stays per radius. (3.3) has F on the
+# inflow, and p. 25 the sum of parts. The section data were chosen among ten for their results, which proves nothing:
+# the ripple of a polynomial of order 12 is as large as the differences between the twists.
 
 explorer.show(rotor.make_design(preset="thesis", mu=0.2), browser=False)

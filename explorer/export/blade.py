@@ -17,7 +17,7 @@ from explorer.picture.blade_mesh import Detail, blade_shape, blade_vertices
 from explorer.text.design_words import title_words
 from rotor import Design, load_design, make_design
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
-from rotor.terminal import called, help_formatter, run_command
+from rotor.terminal import OneLineParser, called, run_command
 from rotor.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
@@ -77,10 +77,8 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        formatter_class=help_formatter,
-        prog=called("explorer", "rotor-explorer") + " blade",
-        description="One blade as STL, in metres, in jig shape.",
+    parser = OneLineParser(
+        prog=called("explorer", "rotor-explorer") + " blade", description="One blade as STL, in metres, in jig shape."
     )
     parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")
     parser.add_argument("--out", default=".", metavar="DIR", help="folder (default: this one)")

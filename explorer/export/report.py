@@ -25,7 +25,7 @@ from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
 from rotor.markup import Markup, group, tag
-from rotor.terminal import called, help_formatter, run_command
+from rotor.terminal import OneLineParser, called, run_command
 from rotor.user_input import write_whole
 
 
@@ -172,8 +172,7 @@ def _write(path: str, html: str) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        formatter_class=help_formatter,
+    parser = OneLineParser(
         prog=called("explorer", "rotor-explorer") + " report",
         description="Designs side by side as one HTML file that opens without a server.",
     )

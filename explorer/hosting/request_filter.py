@@ -213,12 +213,13 @@ class RequestFilter:
         return {**_HEADERS, "Content-Security-Policy": ancestors}
 
     def _process(self, inner: Answer) -> Answer:
-        def process_request(connection: ServerConnection, request: Request) -> Response | None:
-            upgrade = (request.headers.get("Upgrade") or "").lower() == "websocket"
+        def answer(connection: ServerConnection, request: Request) -> Response | None:
+            names = ("Upgrade", "Host", "Origin", "Sec-Fetch-Site")
             try:
-                host, origin = request.headers.get("Host"), request.headers.get("Origin")
-            except MultipleValuesError:
-                host, origin = None, None
+                upgrades, host, origin, site = (request.headers.get(name) for name in names)
+            except MultipleValuesError as error:
+                return _plain(http.HTTPStatus.BAD_REQUEST, f"The request has two headers {error}: send one.")
+            upgrade = (upgrades or "").lower() == "websocket"
             sentence = self.hosts.refusal(host, origin if upgrade else None)
             if sentence is not None:
                 return _plain(http.HTTPStatus.FORBIDDEN, sentence)
@@ -230,22 +231,37 @@ class RequestFilter:
             if not upgrade and path == "/compiling":  # The loading screen asks.
                 return _plain(http.HTTPStatus.OK, compiling())
             if not upgrade and path == "/first-answer":
+                if site not in (
+                    None,
+                    "same-origin",
+                    "none",
+                ):  # An image of another site could ask for solve after solve.
+                    return _plain(http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers.")
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
             if not upgrade and path == "/place":  # A page that was turned away asks.
                 return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
-                answer = inner(connection, request)
+                served = inner(connection, request)
             except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
-                answer = _plain(http.HTTPStatus.NOT_FOUND, "There is no such page.")
-            if answer is not None:
+                served = _plain(http.HTTPStatus.NOT_FOUND, "There is no such page.")
+            if served is not None:
                 for name, value in self._headers.items():
-                    answer.headers[name] = value
-            return answer
+                    served.headers[name] = value
+            return served
+
+        def process_request(connection: ServerConnection, request: Request) -> Response | None:
+            response = answer(connection, request)
+            if isinstance(connection, GuardedConnection) and connection.head_only:
+                response = response or _plain(http.HTTPStatus.BAD_REQUEST, "A WebSocket opens with GET.")
+                response.body = b""
+            return response
 
         return process_request
 
 
 _TOO_LONG = "This address is too long: ask for a shorter link, or for the design as a file."
+_METHODS = "This server answers GET and HEAD alone."
+_VERSION = "This server answers HTTP/1.1 alone: a proxy in front of it may have to be told so."
 
 
 class GuardedConnection(ServerConnection):
@@ -254,6 +270,10 @@ class GuardedConnection(ServerConnection):
     def __init__(self, *positional: Any, **named: Any) -> None:
         super().__init__(*positional, **named)
         self._head = 0
+        self._line: bytes | None = b""
+        """What has come of the request's first line; None once it is whole."""
+        self.head_only = False
+        """Whether the headers of a page are asked for without its body."""
         self._limiter = RateLimiter(time.monotonic())
         self._frames = RateLimiter(time.monotonic(), FRAMES)
 
@@ -262,11 +282,26 @@ class GuardedConnection(ServerConnection):
         if self.request is None:
             self._head += len(data)
             if self._head > LONGEST_HEAD:
-                if not self.transport.is_closing():
-                    self.transport.write(_plain(http.HTTPStatus.REQUEST_URI_TOO_LONG, _TOO_LONG).serialize())
-                    self.transport.close()
-                return
+                return self._refuse(_plain(http.HTTPStatus.REQUEST_URI_TOO_LONG, _TOO_LONG))
+        if self._line is not None:
+            self._line += data
+            if b"\n" not in self._line:
+                return None
+            data, self._line = self._line, None
+            method, _, rest = data.partition(b" ")
+            # The server below leaves all but GET of HTTP/1.1 without an answer.
+            if method.isalpha() and method not in (b"GET", b"HEAD"):
+                return self._refuse(_plain(http.HTTPStatus.METHOD_NOT_ALLOWED, _METHODS, Allow="GET, HEAD"))
+            if rest.partition(b"\n")[0].rstrip().endswith(b"HTTP/1.0"):
+                return self._refuse(_plain(http.HTTPStatus.HTTP_VERSION_NOT_SUPPORTED, _VERSION))
+            self.head_only = method == b"HEAD"
+            data = b"GET " + rest if self.head_only else data
         super().data_received(data)
+
+    def _refuse(self, response: Response) -> None:
+        if not self.transport.is_closing():
+            self.transport.write(response.serialize())
+            self.transport.close()
 
     def process_event(self, event: Event) -> None:
         """A frame, counted: parts of a message that never ends fill the memory before any limit of messages."""
@@ -327,7 +362,8 @@ def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Respon
     return Response(http.HTTPStatus.OK, http.HTTPStatus.OK.phrase, headers, body)
 
 
-def _plain(status: http.HTTPStatus, sentence: str) -> Response:
-    body = (sentence + "\n").encode()
-    headers = Headers({"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body)), **_HEADERS})
+def _plain(status: http.HTTPStatus, sentence: str, **others: str) -> Response:
+    body = (sentence + "\n").encode(errors="replace")  # It may repeat bytes of the request that are no text.
+    kind = {"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body))}
+    headers = Headers({**kind, **_HEADERS, **others})
     return Response(status, status.phrase, headers, body)

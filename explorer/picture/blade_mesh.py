@@ -132,7 +132,7 @@ class Detail:
 
 
 PAGE = Detail()
-"""Coarse enough to be sent at every step of a slider: about 1,300 vertices."""
+"""Coarse enough to be shaped anew at every step of a slider: about 1,300 vertices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,31 +199,50 @@ def section_ring(rotor: Rotor, r: float, points: int) -> Array:
     return float(rotor.blade.chord(r)) * ((1.0 - weight) * at_inner + weight * at_outer)
 
 
-def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0, bent: Array | None = None) -> Array:
-    """The twisted blade's vertices, shape (n, 3); only these change when the twist does.
+@dataclass(frozen=True, eq=False)
+class BladeForm:
+    """What changes of a blade's shape from frame to frame: how its rings lie."""
 
-    `exaggeration` multiplies the twist relative to that at 0.75 R; `bent`: how far each ring is moved, (rings, 3).
-    """
-    rings = _turned(shape, shape.pitch(twist, exaggeration))
-    return _with_ends(rings if bent is None else rings + bent[:, None])
+    pitch: Array
+    """Drawn pitch of each ring, nose up [rad], (rings,)."""
+    bent: Array | None = None
+    """How far each ring is moved [m], (rings, 3)."""
+    size: Array | None = None
+    """Of each ring about the axis, 1 for whole, (rings,)."""
+
+    def vertices(self, shape: BladeShape) -> Array:
+        """Shape (n, 3). The page works them out by itself: `formed` in `scene.js`."""
+        rings = _turned(shape, self.pitch)
+        if self.size is not None:
+            rings[:, :, 1:] *= self.size[:, None, None]
+        return _with_ends(rings if self.bent is None else rings + self.bent[:, None])
 
 
-def ghost_vertices(
+def straight(rotor: Rotor) -> Mesh:
+    """The blade without twist."""
+    shape = blade_shape(rotor)
+    return Mesh(BladeForm(np.zeros_like(shape.r)).vertices(shape), shape.faces)
+
+
+def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
+    """The twisted blade's vertices, shape (n, 3); `exaggeration` multiplies the twist relative to that at 0.75 R."""
+    return BladeForm(shape.pitch(twist, exaggeration)).vertices(shape)
+
+
+def ghost_form(
     shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float, bent: Array | None = None
-) -> Array:
+) -> BladeForm:
     """The straight blade with twist `ghost`, shown only where it differs from one with `twist`, and `bent` where given.
 
-    Shape (n, 3). Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one
-    and a half: two surfaces in one place would flicker.
+    Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one and a half:
+    two surfaces in one place would flicker.
     """
-    rings = _turned(shape, shape.pitch(ghost, exaggeration))
     apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0))
-    whole = np.clip(apart / least - 0.5, 0.0, 1.0)[:, None, None]
+    size = np.clip(apart / least - 0.5, 0.0, 1.0)
     if bent is not None:  # Whole where the blade is bent away by half of its thickness.
         thick = np.ptp(shape.rings[:, :, 1], axis=1)
-        whole = np.maximum(whole, np.clip(2.0 * np.linalg.norm(bent, axis=1) / thick - 0.5, 0.0, 1.0)[:, None, None])
-    axis = np.stack((shape.outward, np.zeros_like(shape.r), np.zeros_like(shape.r)), axis=1)[:, None]
-    return _with_ends(axis + whole * (rings - axis))
+        size = np.maximum(size, np.clip(2.0 * np.linalg.norm(bent, axis=1) / thick - 0.5, 0.0, 1.0))
+    return BladeForm(shape.pitch(ghost, exaggeration), size=size)
 
 
 def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:

@@ -10,15 +10,7 @@ from numpy.typing import ArrayLike
 from explorer.model.inputs import ViewState
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.picture import (
-    compose,
-    disk_drop,
-    flown_vertices,
-    rotate,
-    rotor_pose,
-    tip_path_pose,
-    turned_blades,
-)
+from explorer.picture.picture import compose, disk_drop, flown_form, rotate, rotor_pose, tip_path_pose, turned_blades
 from rotor import Solution
 from rotor.arrays import Array
 
@@ -206,14 +198,15 @@ def pick_blade(
     bent. None where it misses all blades."""
     rotor = solution.design.rotor
     cutout, hinge = rotor.blade.root_cutout, rotor.blade.flap_hinge * rotor.radius
-    shaft, faces = rotor_pose(solution.controls).wxyz, blade_shape(rotor).faces
+    shaft, shape = rotor_pose(solution.controls).wxyz, blade_shape(rotor)
     nearest, found = math.inf, None
     for k, pose in enumerate(turned_blades(solution, view, each=False).poses):
         psi_deg = (view.azimuth_deg + 360.0 * k / rotor.blades) % 360.0
         back = compose(shaft, pose.wxyz) * _CONJUGATE
         start = rotate(back, np.asarray(origin, dtype=np.float64) - rotate(shaft, pose.position))
         along = rotate(back, np.asarray(direction, dtype=np.float64))
-        distance = _first_hit(flown_vertices(solution, view, math.radians(psi_deg))[faces], start, along)
+        vertices = flown_form(solution, view, math.radians(psi_deg)).vertices(shape)
+        distance = _first_hit(vertices[shape.faces], start, along)
         if distance < nearest:
             r = (float((start + distance * along)[0]) + hinge) / rotor.radius  # Sections stand across the blade's x.
             nearest, found = distance, (min(max(r, cutout), 1.0), psi_deg)

@@ -21,8 +21,8 @@ from rotor.compiled import compiled
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
-MOVING, AT_REST = 368, 960
-"""Pixels along each edge of the page's picture while something is dragged, and afterwards."""
+MOVING = 368
+"""Pixels along each edge of the small picture beside the blade in the hand, while it moves."""
 SIZE = 512
 """Pixels along each edge of a picture for export, where nothing else is asked for."""
 LARGEST = 2400
@@ -76,9 +76,9 @@ def grid_size(size: int) -> tuple[int, int]:
     return (104, 352) if size <= MOVING else (round(0.34 * size), round(1.5 * size))
 
 
-@lru_cache(maxsize=4)
-def _page_raster(inner: float, size: int) -> Raster:
-    return _raster(inner, size, *grid_size(size))
+@lru_cache(maxsize=2)
+def _moving_raster(inner: float) -> Raster:
+    return _raster(inner, MOVING, *grid_size(MOVING))
 
 
 def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
@@ -123,9 +123,9 @@ def indices(
 
     `regions`: a `MarkedRegion` for each polar point, drawn over the colours.
     """
-    inner, usual = float(grid.r[0]), size in (MOVING, AT_REST) and values.shape == grid_size(size)
-    # The page's own are kept for the next frame; a large one weighs more than it costs to make again.
-    raster = _page_raster(inner, size) if usual else _raster(inner, size, *values.shape)
+    inner, kept = float(grid.r[0]), size == MOVING and values.shape == grid_size(size)
+    # The small one is kept for the next frame; a large one weighs more than it costs to make again.
+    raster = _moving_raster(inner) if kept else _raster(inner, size, *values.shape)
     codes = levels_of(np.ascontiguousarray(values), low, high, _LEVELS)
     if void is not None:
         np.copyto(codes, _VOID, where=void)

@@ -1,4 +1,4 @@
-"""Solution and view → one picture as arrays: everything the scene assigns in a frame.
+"""Solution and view → where blades, disk and airframe stand, and the disk as a PNG for files.
 
 Where things stand are poses from the trim, quaternions (w, x, y, z) and positions; each blade has its own twist.
 """
@@ -7,16 +7,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from explorer.colours import DiskInk, scene_theme
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.airframe import SHAFT_FORWARD, size
-from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.blade_mesh import BladeForm, blade_shape
 from explorer.picture.disk_image import encode_png
+from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import NO_MARKS, Drawn, Marks, polar_grid, region_codes
+from explorer.picture.polar import ALL_MARKS, NO_MARKS, Drawn, Marks, polar_grid, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw
@@ -208,8 +209,8 @@ class Blades:
     """ψ of the reference blade [rad]."""
     poses: tuple[Pose, ...]
     """The reference blade first."""
-    shapes: tuple[Array, ...]
-    """Vertices blade by blade where twist follows the azimuth; empty when all are drawn alike."""
+    forms: tuple[BladeForm, ...]
+    """Blade by blade where twist follows the azimuth; else one for all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,20 +219,14 @@ class Picture:
     airframe: Pose
     disk: Pose
     blades: Blades
-    blade_vertices: Array
-    """Vertices of the reference blade as flown, shape (n, 3); for every blade, unless `blades` says otherwise."""
-    blade_faces: NDArray[np.uint32]
-    """Shape (m, 3); changes only with the rotor."""
-    png: bytes
-    png_size: int
-    """Pixels along each edge of `png`."""
 
 
 def warm() -> None:
     """Compile and load everything that the first picture would wait for: fields are sampled in either precision."""
     solution = solve(make_design(mu=0.2))
     for field in (FIELDS["Angle of attack"], FIELDS["Mach number"]):
-        page_disk_png(solution, field, (field.low, field.high), ViewState(), disk_image.MOVING)
+        disk_numbers(solution, field, (field.low, field.high), ALL_MARKS)
+        page_disk_png(solution, field, (field.low, field.high), ViewState(), disk_image.SIZE)
 
 
 def disk_drop(rotor: Rotor) -> float:
@@ -240,7 +235,7 @@ def disk_drop(rotor: Rotor) -> float:
 
 
 def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Blades:
-    """The blades with the reference blade at the view's azimuth; `each`: with a shape for each, where they differ.
+    """The blades with the reference blade at the view's azimuth; `each`: with a form for each, where they differ.
 
     `bent`: whether bending is drawn."""
     rotor = solution.design.rotor
@@ -251,51 +246,39 @@ def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: 
     return Blades(
         azimuth=first,
         poses=tuple(blade_pose(solution.controls, psi, hinge, solution.design) for psi in azimuths),
-        shapes=tuple(flown_vertices(solution, view, psi, bent) for psi in azimuths if differ),
+        forms=tuple(flown_form(solution, view, psi, bent) for psi in (azimuths if differ else azimuths[:1])),
     )
 
 
-def flown_vertices(solution: Solution, view: ViewState, psi: float, bent: bool = True) -> Array:
-    """Vertices of a blade in flight at ψ [rad], shape (n, 3); its twist, and where `bent` its bending, enlarged."""
+def flown_form(solution: Solution, view: ViewState, psi: float, bent: bool = True) -> BladeForm:
+    """A blade in flight at ψ [rad]: its twist, and where `bent` its bending, enlarged."""
     shape = blade_shape(solution.design.rotor)
     bending = drawn_bending(solution, shape.r, psi) if bent else None
-    return blade_vertices(shape, flown_twist(solution, psi), view.exaggeration, bending)
+    return BladeForm(shape.pitch(flown_twist(solution, psi), view.exaggeration), bending)
 
 
-def make_picture(
-    solution: Solution,
-    view: ViewState,
-    colour_range: tuple[float, float],
-    field: Field | None = None,
-    pixels: int = disk_image.AT_REST,
-    bent: bool = True,
-) -> Picture:
-    """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
-
-    `pixels`: along each edge of the disk's picture; the small one of a moving page bends the reference blade alone.
-    `bent`: whether bending is drawn.
-    """
-    rotor, controls = solution.design.rotor, solution.controls
-    shape = blade_shape(rotor)
+def make_picture(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Picture:
+    """The frame for a converged solution; `each` and `bent` as for `turned_blades`."""
+    controls = solution.controls
     return Picture(
         rotor=rotor_pose(controls),
         # In level flight: nose down by what the shaft tilt is more than its lean in the airframe.
         airframe=Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3)),
-        disk=tip_path_pose(controls, disk_drop(rotor)),
-        blades=turned_blades(solution, view, pixels != disk_image.MOVING, bent),
-        blade_vertices=flown_vertices(solution, view, math.radians(view.azimuth_deg), bent),
-        blade_faces=shape.faces,
-        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels),
-        png_size=pixels,
+        disk=tip_path_pose(controls, disk_drop(solution.design.rotor)),
+        blades=turned_blades(solution, view, each, bent),
     )
+
+
+def marks_of(view: ViewState) -> Marks:
+    return Marks(view.stall, view.reverse_flow, view.drag_divergence)
 
 
 def page_disk_png(
     solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
-    marks, ink = Marks(view.stall, view.reverse_flow, view.drag_divergence), scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks, ink=ink)
+    ink = scene_theme(view.dark).ink
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
 
 
 def disk_png(

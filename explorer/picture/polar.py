@@ -18,8 +18,10 @@ from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
+from rotor.airfoil.sections import Section
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
+from rotor.design.blade import Blade
 from rotor.trim import DiskFields
 
 Single = NDArray[np.float32]
@@ -176,12 +178,24 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     disk, design = solution.disk, solution.design
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
     mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
-    for i, r in enumerate(disk.r.tolist()):
-        for section, share in design.rotor.blade.mixture(r, design.reynolds_per_metre):
-            negative, positive = section.table.stall_alpha(mach[i])
-            lower[i] += share * (negative + section.incidence_offset)
-            upper[i] += share * (positive + section.incidence_offset)
+    for section, rows, shares in _sections(design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre):
+        negative, positive = section.table.stall_alpha(mach[rows])
+        lower[rows] += shares * (negative + section.incidence_offset)
+        upper[rows] += shares * (positive + section.incidence_offset)
     return lower, upper
+
+
+@lru_cache(maxsize=8)
+def _sections(blade: Blade, r: tuple[float, ...], per_metre: float) -> tuple[tuple[Section, Places, Array], ...]:
+    """Each section with the elements at r = y/R that have it, and its share of each, (elements, 1)."""
+    found: dict[Section, list[tuple[int, float]]] = {}
+    for i, at in enumerate(r):
+        for section, share in blade.mixture(at, per_metre):
+            found.setdefault(section, []).append((i, share))
+    return tuple(
+        (section, np.array([i for i, _ in of], np.int32), np.array([[share] for _, share in of]))
+        for section, of in found.items()
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,7 +270,7 @@ _SLOPE_LIMIT = 0.5
 """Steeper slopes belong to stall and are cut off before smoothing."""
 _SMOOTHING = (0.7, 1.2)
 """Smoothing of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
-_CLEAR_OF_REVERSE = 0.055
+CLEAR_OF_REVERSE = 0.055
 """U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
 _DASHES = 96
 _DASH_SHARE = 0.58
@@ -291,7 +305,7 @@ def region_codes(drawn: Drawn, grid: PolarGrid, marks: Marks, half_width: float)
     if marks == NO_MARKS:
         return None
     flow = drawn.flow(grid)
-    clear = flow.u_t > _CLEAR_OF_REVERSE
+    clear = flow.u_t > CLEAR_OF_REVERSE
     codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
 
     def line(region: MarkedRegion, values: Single, where: Booleans, part: float) -> None:
@@ -392,5 +406,5 @@ def region_masks(drawn: Drawn, grid: PolarGrid) -> dict[str, Booleans]:
     return {
         "stall": (flow.attached < 0.0) & (flow.u_t > 0.0),
         "reverse_flow": flow.u_t < 0.0,
-        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > _CLEAR_OF_REVERSE),
+        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > CLEAR_OF_REVERSE),
     }

@@ -1,6 +1,7 @@
 """The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
 
 import math
+import threading
 import time
 from collections.abc import Callable
 from functools import partial
@@ -33,6 +34,9 @@ class FittedCamera:
 
     def __init__(self, client: viser.ClientHandle, radius: float) -> None:
         self._client = client
+        self._lock = threading.Lock()
+        """Presses, and the browser's messages of its canvas, come on several threads: what is sent last must be fitted
+        to what is known last."""
         self.radius = radius
         """Radius of the rotor that is shown [m]."""
         self.subject: Callable[[float], Camera] | None = None
@@ -64,7 +68,7 @@ class FittedCamera:
 
     def come_back(self) -> None:
         """The user has turned it: show the subject again."""
-        self._aim(self._fit, eased=True)
+        self._aim(eased=True)
 
     def _fitted(self, view: View, aspect: float) -> Camera:
         return fit(view, self.radius, aspect, self._azimuth, self._tilt, self._cover)
@@ -76,7 +80,7 @@ class FittedCamera:
         self.radius = radius
         self._client.camera.near = _near(radius)
         if self._view is not None:
-            self.aim(self._view)
+            self._aim()
 
     def ride(self, azimuth: float) -> None:
         """The reference blade is at ψ [rad]: a camera that looks along it goes with it, until the user takes over."""
@@ -84,7 +88,7 @@ class FittedCamera:
             return
         self._azimuth = azimuth
         if self._view == "blade" and self._following:
-            self.aim("blade")
+            self._aim()
 
     def follow(self, tilt: float) -> None:
         """Go with the shaft tilt [rad], until the user takes over."""
@@ -92,7 +96,7 @@ class FittedCamera:
             return
         self._tilt = tilt
         if self._view not in (None, "blade") and self._following and not self._held:
-            self.aim(self._view)
+            self._aim()
 
     @property
     def covered(self) -> tuple[float, float]:
@@ -108,13 +112,13 @@ class FittedCamera:
             return
         self._cover = cover
         if self._following and self._put is not None and not self._held:
-            self._aim(self._fit, eased=time.monotonic() < self._arrives)
+            self._aim(eased=time.monotonic() < self._arrives)
 
     def hold(self, held: bool) -> None:
         """Stand still while the blade is in the user's hand; then fit what tilt, canvas and cards are by now."""
         self._held = held
         if not held and self._following:
-            self._aim(self._fit)
+            self._aim()
 
     def hold_shot(self, shot: Shot) -> None:
         """Show a part of the rotor from one side; the camera flies there."""
@@ -125,16 +129,18 @@ class FittedCamera:
         self._view, self.subject = None, fitted
         self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased)
 
-    def _aim(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
+    def _aim(self, fitted: Callable[[float], Camera] | None = None, eased: bool = False) -> None:
+        """Look as `fitted` says, from now on; None: as before."""
         camera = self._client.camera
-        self._fit, self._following = fitted, True
-        if self._reshaped:
-            self._put = camera.aspect
-        target = fitted(self._put or camera.aspect)
-        self._arrives = time.monotonic() + _FLIGHT if eased else 0.0
-        if eased:
-            call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
-        else:
+        with self._lock:
+            self._fit, self._following = fitted or self._fit, True
+            if self._reshaped:
+                self._put = camera.aspect
+            target = self._fit(self._put or camera.aspect)
+            self._arrives = time.monotonic() + _FLIGHT if eased else 0.0
+            if eased:
+                call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
+                return
             with self._client.atomic():
                 camera.position = target.position
                 camera.look_at = target.look_at
@@ -146,4 +152,4 @@ class FittedCamera:
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if self._following and not self._held and self._reshaped:
-            self._aim(self._fit)
+            self._aim()

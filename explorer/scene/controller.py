@@ -1,32 +1,34 @@
 """The picture of one session: rotor, disk, ghost and colour range; draws only what has changed.
 
-While something moves, the disk is small and only the reference blade is bent. `draw_finely` draws the rest.
-
-The page itself gives surfaces their gloss and turns the rotor smoothly, at the rate of the screen: by `scene.js`, which
-moves blades and tip vortices by the formula of `explorer.picture.wake`. It leans on private names of viser's client
+The page gets numbers: it twists the blades and colours the disk by `disk.js`. `draw_at_rest` adds what is seen at rest
+alone. The page also gives surfaces their gloss and turns the rotor smoothly, at the rate of the screen: `scene.js`
+moves blades and tip vortices by the formula of `explorer.picture.wake`. Both lean on private names of viser's client
 (`__viserMutable`: nodeRefFromName, nodePoseData, requestRender); each has a browser test.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 import viser
 
-from explorer.colours import scene_theme
+from explorer.colours import DiskInk, Scheme, scene_theme
 from explorer.hosting.browser import call
 from explorer.model.inputs import ViewState, baseline_of
+from explorer.picture.blade_mesh import BladeForm
 from explorer.picture.camera_views import View
-from explorer.picture.disk_image import AT_REST, MOVING
+from explorer.picture.disk_numbers import disk_ink, disk_numbers
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
-from explorer.picture.picture import disk_png, field_values, make_picture, pitch_series, turned_blades
+from explorer.picture.picture import field_values, make_picture, marks_of, pitch_series, turned_blades
+from explorer.picture.polar import NO_MARKS
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.camera import FittedCamera
 from explorer.scene.overlays import VORTICES, AirLines, Ghost, OtherBlade
 from explorer.scene.scene import COMPARED, ROTOR, Scene
 from rotor import Rotor, Solution
+from rotor.arrays import Array
 
 Range = tuple[float, float]
 _WITHIN = False, False
@@ -64,7 +66,36 @@ class PageScene:
         self._client = client
         self._played = self._spun = False
         self._motion: Solution | None = None
+        self._inks: dict[str, tuple[Scheme, DiskInk, bool]] = {}
         call(client, "rotorScene.dress", SURFACES)
+
+    def form(self, forms: Mapping[str, BladeForm]) -> None:
+        """Shape the blades of these nodes."""
+
+        def numbers(values: Array | None, digits: int) -> Any:
+            return None if values is None else values.round(digits).tolist()
+
+        told = {
+            node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)] for node, form in forms.items()
+        }
+        call(self._client, "rotorDisk.form", told)
+
+    def paint(
+        self,
+        solution: Solution,
+        field: Field,
+        colour_range: Range,
+        view: ViewState,
+        root: str = ROTOR,
+        faded: bool = False,
+    ) -> None:
+        """Colour the disk; `faded`: that of a solution that no longer holds."""
+        ink = field.colours, scene_theme(view.dark).ink, faded
+        marks = NO_MARKS if faded else marks_of(view)
+        if ink != self._inks.get(root):
+            self._inks[root] = ink
+            call(self._client, "rotorDisk.ink", root, disk_ink(*ink))
+        call(self._client, "rotorDisk.paint", root, disk_numbers(solution, field, colour_range, marks))
 
     def move(self, solution: Solution) -> None:
         """How the blades flap and pitch from now on; sent at once only while the rotor turns."""
@@ -149,8 +180,8 @@ class SceneController:
         self._drawn: _Drawn | None = None
         self._compared = False
         """Whether A is at the place of B."""
-        self._fine = False
-        """Whether the frame is drawn as finely as it can be."""
+        self._rested = False
+        """Whether the lines that are seen at rest are drawn."""
         self._ranges: dict[str, Range] = {}
         """By title of the field, once one was held."""
         self._chosen: set[str] = set()
@@ -183,38 +214,41 @@ class SceneController:
             # The same disk and its colours: only the blades turn.
             blades = turned_blades(solution, view)
             with self._client.atomic():
-                self.scene.rotor.turn(blades, still=not self._page.playing)
+                if not self._page.playing:
+                    self.scene.rotor.turn(blades)
+                if len(blades.forms) > 1:
+                    other = self._ghost.show(ghost, solution, view, at_rest=not self._page.playing)
+                    self._page.form(self.scene.rotor.forms(blades) | other)
                 self._page.turn(blades.azimuth)
-                if blades.shapes:
-                    self._ghost.show(ghost, solution, view, at_rest=not self._page.playing)
                 if not self._page.playing:  # Else the page moves them.
                     self._air.hide_vortices()
             self._client.flush()
-            self._drawn, self._fine = wanted, False
+            self._drawn, self._rested = wanted, False
             return
-        first = self._drawn is None
-        picture = make_picture(solution, view, colour_range, field, MOVING)
+        picture = make_picture(solution, view)
         with self._client.atomic():
             theme = scene_theme(view.dark)
             self.scene.set_theme(theme)
             self._ghost.set_theme(theme)
             self.scene.fit(solution.design.rotor)
             self.scene.set_alone(solution.design.condition.stand is not None)
-            self.scene.show(picture, everything=first, still=not self._page.playing)
-            self._ghost.show(ghost, solution, view, at_rest=False)
+            self.scene.show(picture, still=not self._page.playing)
+            other = self._ghost.show(ghost, solution, view, at_rest=False)
+            self._page.form(self.scene.rotor.forms(picture.blades) | other)
+            self._page.paint(solution, field, colour_range, view)
             self._page.move(solution)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._show_range(field, colour_range, False, _WITHIN)
         self.camera.follow(solution.controls.shaft_tilt)
-        self._drawn, self._fine = wanted, False
+        self._drawn, self._rested = wanted, False
 
-    def draw_finely(self) -> None:
-        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices, and A to be wiped.
+    def draw_at_rest(self) -> None:
+        """Nothing moves: draw the ghost's edges, vortices, and A to be wiped.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """
         drawn = self._drawn
-        if drawn is None or self._fine:
+        if drawn is None or self._rested:
             return
         solution, view = drawn.solution, drawn.view
         field = _field(view, drawn.pinned)
@@ -222,12 +256,10 @@ class SceneController:
         if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
             fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
+            self._page.paint(solution, field, fitted, view)
         self._show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
-        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
         compared = drawn.pinned if view.wipe and drawn.pinned is not None and drawn.pinned.converged else None
-        other = None if compared is None else make_picture(compared, view, drawn.colour_range, field, AT_REST)
         with self._client.atomic():
-            self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution, view, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
             if compared is not None:
@@ -235,12 +267,15 @@ class SceneController:
             if view.wipe or self._compared:
                 self._compared = compared is not None
                 self._page.compare(compared)
-            if compared is None or other is None:
+            if compared is None:
                 self.scene.hide_compared()
             else:
-                self.scene.show_compared(compared.design.rotor, other)
+                picture = make_picture(compared, view)
+                nodes = self.scene.show_compared(compared.design.rotor, picture)
+                self._page.form(nodes.forms(picture.blades))
+                self._page.paint(compared, field, drawn.colour_range, view, COMPARED)
         self._client.flush()
-        self._drawn, self._fine = drawn, True
+        self._drawn, self._rested = drawn, True
 
     def fade(self, good: Solution | None, view: ViewState, pinned: Solution | None = None) -> None:
         """Show that the picture, of the last converged solution, no longer holds."""
@@ -249,9 +284,7 @@ class SceneController:
             return
         field = shown_field(view, pinned)
         colour_range = self._range(good, field)
-        png = disk_png(good, field, colour_range, faded=True, size=MOVING)
-        with self._client.atomic():
-            self.scene.rotor.show_disk(png, MOVING)
+        self._page.paint(good, field, colour_range, view, faded=True)
         self._show_range(field, colour_range, True, _WITHIN)
 
     def play(self, playing: bool) -> None:

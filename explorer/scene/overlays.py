@@ -14,7 +14,7 @@ from explorer import colours
 from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
-from explorer.picture.blade_mesh import Mesh, blade_shape, blade_vertices, ghost_segments, ghost_vertices
+from explorer.picture.blade_mesh import BladeForm, blade_shape, ghost_form, ghost_segments, straight
 from explorer.picture.picture import drawn_bending, flown_twist, ghost_twist
 from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, set_mesh, solid
@@ -22,6 +22,7 @@ from rotor import Design, Rotor, Solution
 from rotor.design import TwistLaw
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
+OTHER = f"{_BLADE}/other"
 _LEAST = math.radians(0.25)
 """A ghost is drawn where its twist differs by about this [rad]."""
 _OPACITY = 0.38
@@ -51,9 +52,8 @@ class Ghost:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._theme = theme
-        shape = blade_shape(rotor)
-        start = Mesh(blade_vertices(shape, rotor.builtin_twist), shape.faces)
-        self._surface = solid(api, f"{_BLADE}/other", start, theme.ghost)
+        self._rotor = rotor
+        self._surface = solid(api, OTHER, straight(rotor), theme.ghost)
         self._surface.opacity = _OPACITY
         self._surface.visible = False
         self._lines = _unseen_lines(api, f"{_BLADE}/ghost", 1.4)
@@ -61,11 +61,14 @@ class Ghost:
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
 
-    def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> None:
-        """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown."""
+    def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> dict[str, BladeForm]:
+        """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown.
+
+        The form of its surface by the name of the node, where it is seen.
+        """
         if view.wipe:  # A itself is seen, left of the handle.
             self._surface.visible = self._lines.visible = False
-            return
+            return {}
         psi, exaggeration, shape = math.radians(view.azimuth_deg), view.exaggeration, blade_shape(other.rotor)
         twist, bent = flown_twist(solution, psi), drawn_bending(solution, shape.r, psi)
         differs = other.twist != solution.design.twist
@@ -75,10 +78,10 @@ class Ghost:
         self._surface.visible = ghost is not None and (differs or bent is not None)
         self._lines.visible = ghost is not None and (at_rest or bent is not None)
         if ghost is None:
-            return
-        if differs or bent is not None:
-            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST, bent)
-            set_mesh(self._surface, Mesh(vertices, shape.faces))
+            return {}
+        if other.rotor != self._rotor:
+            self._rotor = other.rotor
+            set_mesh(self._surface, straight(other.rotor))
         colour = other.colour if other.colour is not None and differs else self._theme.ghost
         self._surface.color = colour
         if at_rest or bent is not None:  # Of the straight blade beside the bent one all edges.
@@ -88,6 +91,9 @@ class Ghost:
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
                 self._lines.points, self._lines.colors = segments, even_colours(dark, len(segments))
+        if not self._surface.visible:
+            return {}
+        return {OTHER: ghost_form(shape, ghost, twist, exaggeration, _LEAST, bent)}
 
 
 class AirLines:

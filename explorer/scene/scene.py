@@ -1,4 +1,8 @@
-"""The 3D scene of one client: handles made once, assigned afterwards, never made anew, whatever rotor comes."""
+"""The 3D scene of one client: handles made once, assigned afterwards, never made anew, whatever rotor comes.
+
+Blades lie here without twist and the disk without colours: the page shapes and colours them (`explorer/web/disk.js`).
+A file without that script has them as vertices and as a PNG: `RotorNodes.record`.
+"""
 
 import math
 
@@ -10,7 +14,7 @@ from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.airframe import airframe, mast, rotor_head, size
-from explorer.picture.blade_mesh import Faces, Mesh, blade_shape, blade_vertices, joined
+from explorer.picture.blade_mesh import BladeForm, Faces, Mesh, blade_shape, joined, straight
 from explorer.picture.picture import Blades, Picture, Pose, about
 from rotor import Rotor
 
@@ -37,7 +41,6 @@ class RotorNodes:
         self._disk = api.add_frame(f"{name}/disk", show_axes=False)
         self.words = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
         self.image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))
-        self._png_size = 0
         self.set_theme(theme)
         self.fit(rotor)
 
@@ -53,11 +56,12 @@ class RotorNodes:
         self._fitted, radius = rotor, rotor.radius
         head = joined([rotor_head(rotor), mast(radius)])
         set_mesh(self._head, head)
-        shape = blade_shape(rotor)
-        start = blade_vertices(shape, rotor.builtin_twist, ViewState.exaggeration)
+        start = straight(rotor)
+        for blade in self._blades:
+            set_mesh(blade, start)
         for k in range(len(self._blades), rotor.blades):
             colour = self._theme.blade if k else self._theme.reference_blade
-            blade = solid(self._api, f"{self._name}/blade_{k}", Mesh(start, shape.faces), colour)
+            blade = solid(self._api, f"{self._name}/blade_{k}", start, colour)
             self._blades.append(blade)
             psi = math.radians(ViewState.azimuth_deg) + k * 2.0 * math.pi / rotor.blades
             hinge = rotor.blade.flap_hinge * radius * np.array([math.cos(psi), math.sin(psi), 0.0])
@@ -65,42 +69,34 @@ class RotorNodes:
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
         self.words.render_width = self.words.render_height = 2.0 * disk_image.REACH * radius
-        self._png_size = 0
+        self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(radius)
 
-    def show(self, picture: Picture, everything: bool, still: bool = True) -> None:
-        """Assign one frame. `everything`: also the vertices of the other blades, which follow once nothing moves.
-
-        `still`: False while the page itself moves the blades.
-        """
+    def show(self, picture: Picture, still: bool = True) -> None:
+        """Move everything; `still`: False while the page itself moves the blades."""
         viser_compat.place(self.frame, picture.rotor.wxyz)
         place(self._disk, picture.disk)
-        count = len(picture.blades.poses)
-        shapes = picture.blades.shapes or (picture.blade_vertices,) * count
-        for handle, shape in zip(self._blades, shapes[: count if everything else 1], strict=False):
-            set_mesh(handle, Mesh(shape, picture.blade_faces))
-        self._pose(picture.blades, still)
-        self.show_disk(picture.png, picture.png_size)
-
-    def turn(self, blades: Blades, still: bool = True) -> None:
-        """Move, twist and untwist the blades, move the head; `still`: False while the page itself moves them."""
-        self._pose(blades, still)
-        for handle, shape in zip(self._blades, blades.shapes, strict=False):
-            handle.vertices = shape.astype(np.float32)
-
-    def _pose(self, blades: Blades, still: bool) -> None:
         if still:
-            viser_compat.place(self._head, about(2, blades.azimuth))
-            for handle, pose in zip(self._blades, blades.poses, strict=False):
-                place(handle, pose)
+            self.turn(picture.blades)
 
-    def show_disk(self, png: bytes, pixels: int) -> None:
-        """Another picture of the disk, `pixels` along each edge."""
+    def turn(self, blades: Blades) -> None:
+        """Move blades and head."""
+        viser_compat.place(self._head, about(2, blades.azimuth))
+        for handle, pose in zip(self._blades, blades.poses, strict=False):
+            place(handle, pose)
+
+    def forms(self, blades: Blades) -> dict[str, BladeForm]:
+        """The form of each blade by the name of its node."""
+        count = len(blades.poses)
+        forms = blades.forms * count if len(blades.forms) == 1 else blades.forms
+        return {handle.name: form for handle, form in zip(self._blades, forms, strict=False)}
+
+    def record(self, rotor: Rotor, blades: Blades, png: bytes, pixels: int) -> None:
+        """Shape the blades and colour the disk for a file: a picture of so many `pixels` along each edge."""
+        shape, forms = blade_shape(rotor), self.forms(blades)
+        for handle in self._blades[: rotor.blades]:
+            handle.vertices = forms[handle.name].vertices(shape).astype(np.float32)
         viser_compat.set_png(self.image, png)
-        if pixels != self._png_size and self._fitted is not None:
-            self._png_size = pixels
-            self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(
-                self._fitted.radius, pixels
-            )
+        self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(rotor.radius, pixels)
 
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
@@ -145,19 +141,20 @@ class Scene:
             self._fit_airframe(rotor)
         self.rotor.fit(rotor)
 
-    def show(self, picture: Picture, everything: bool = True, still: bool = True) -> None:
+    def show(self, picture: Picture, still: bool = True) -> None:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
-        self.rotor.show(picture, everything, still)
+        self.rotor.show(picture, still)
         place(self._airframe, picture.airframe)
 
-    def show_compared(self, rotor: Rotor, picture: Picture) -> None:
+    def show_compared(self, rotor: Rotor, picture: Picture) -> RotorNodes:
         """A second rotor at the place of the first: the page draws it left of a handle and the first right of it."""
         if self._compared is None:
             self._compared = RotorNodes(self._api, COMPARED, rotor, self._theme)
         self._compared.fit(rotor)
-        self._compared.show(picture, everything=True)
+        self._compared.show(picture)
         self._comparing = True
         self._set_visible()
+        return self._compared
 
     def hide_compared(self) -> None:
         if self._comparing:

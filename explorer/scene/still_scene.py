@@ -4,7 +4,7 @@ import base64
 import io
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,8 @@ from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import BladeShape, blade_vertices
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
-from explorer.picture.picture import flown_twist, follows_azimuth, make_picture, turned_blades
+from explorer.picture.fields import FIELDS
+from explorer.picture.picture import flown_twist, follows_azimuth, make_picture, page_disk_png
 from explorer.scene.controller import motion_of
 from explorer.scene.scene import ROTOR, Scene
 from rotor import Solution, parse_twist
@@ -84,15 +85,17 @@ def still_page(
         server.initial_camera.look_at = camera.look_at
         server.initial_camera.fov = FIELD_OF_VIEW
         scene = Scene(server.scene, solution.design.rotor, scene_theme(view.dark))
-        # Nothing in the file could say that bending is drawn larger.
-        picture = make_picture(solution, view, colour_range, pixels=_PIXELS, bent=False)
         # A file should be small: elastic twist alone is drawn with one shape for all, that of the reference blade.
-        blades = turned_blades(solution, view, solution.design.active_twist is not None, bent=False)
-        scene.show(replace(picture, blades=blades))
+        # Nothing in the file could say that bending is drawn larger.
+        picture = make_picture(solution, view, solution.design.active_twist is not None, bent=False)
+        scene.show(picture)
+        nodes = [(scene.rotor, solution, picture)]
         if compared is not None:
-            other = make_picture(compared, view, colour_range, pixels=_PIXELS, bent=False)
-            plain = turned_blades(compared, view, each=False, bent=False)
-            scene.show_compared(compared.design.rotor, replace(other, blades=plain))
+            other = make_picture(compared, view, each=False, bent=False)
+            nodes.append((scene.show_compared(compared.design.rotor, other), compared, other))
+        for rotor, shown, of in nodes:
+            png = page_disk_png(shown, FIELDS[view.field], colour_range, view, _PIXELS)
+            rotor.record(shown.design.rotor, of.blades, png, _PIXELS)
         return server.scene.as_html()
     finally:
         viser_compat.quiet_stop(server)
@@ -129,9 +132,10 @@ def point_record(
     solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float], root: str = ROTOR
 ) -> dict[str, Any]:
     """One trim: motion and pitch of the blades, poses, and the picture of the disk as WebP."""
-    picture = make_picture(solution, view, colour_range, pixels=DISK_PIXELS)
+    picture = make_picture(solution, view)
+    png = page_disk_png(solution, FIELDS[view.field], colour_range, view, DISK_PIXELS)
     image = io.BytesIO()
-    Image.open(io.BytesIO(picture.png)).convert("RGBA").save(image, "WEBP", quality=80)
+    Image.open(io.BytesIO(png)).convert("RGBA").save(image, "WEBP", quality=80)
     return {
         "motion": motion_of(solution, root),
         "poses": [

@@ -85,6 +85,7 @@ class Presentations:
                 if presenter is session:
                     del self._presenters[name]
                     self._watchers.pop(name, None)  # It belongs to the session's page.
+                    self._forget(name)
 
     def watch(self, secret: str, watcher: Callable[[int], None]) -> None:
         """Tell a presenter how many follow, now and whenever that changes."""
@@ -128,9 +129,15 @@ class Presentations:
                 others.pop(number, None)
                 if not others:
                     self._listeners.pop(name, None)
+                    self._forget(name)
             self._count(name)
 
         return leave
+
+    def _forget(self, name: str) -> None:
+        """What is shown to nobody by nobody is not kept; a presenter who comes back shows it again."""
+        if name not in self._presenters and name not in self._listeners:
+            self._shown.pop(name, None)
 
     def _count(self, name: str) -> None:
         with self._lock:

@@ -15,7 +15,7 @@ import math
 import threading
 import time
 import unicodedata
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -26,6 +26,7 @@ from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from rotor import Design, make_design
+from rotor.design.aircraft import Aircraft
 from rotor.design.quantities import BY_KEY
 from rotor.files.design_file import design_from_record, parse_design
 from rotor.user_input import refusing
@@ -72,15 +73,21 @@ def code_of(design: Design) -> str:
     if design.aircraft.files is not None:
         raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send that.")
     record = design.to_dict()
-    plain = make_design()
-    usual = make_design(preset=record["preset"], rotor=design.aircraft).to_dict()
-    usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
+    usual = _usual(record["preset"], design.aircraft)
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
         raise ValueError("This design is too long for a link: save it as a file and send that.")
     return code
+
+
+@lru_cache(maxsize=8)
+def _usual(preset: str, aircraft: Aircraft) -> Mapping[str, Any]:
+    """What a text need not say."""
+    plain = make_design()
+    usual = make_design(preset=preset, rotor=aircraft).to_dict()
+    return usual | {"preset": plain.preset, "rotor": plain.aircraft.key}
 
 
 @refusing("The design in the address", "ask for a new link")

@@ -33,7 +33,7 @@ from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, sp
 from rotor import Solution, solve
 from rotor.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
 from rotor.markup import end_of, with_title
-from rotor.terminal import called, help_formatter, run_command
+from rotor.terminal import OneLineParser, called, run_command
 from rotor.user_input import check_writable, write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
@@ -242,8 +242,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        formatter_class=help_formatter,
+    parser = OneLineParser(
         prog=called("explorer", "rotor-explorer") + " story",
         description="The lecture as one HTML file without a server: ten steps with guess, answer and a rotor to drag.",
     )

@@ -187,6 +187,11 @@ class ProbePanel(Tab):
         # The first step of r/R on the blade.
         self._r.min = round(_R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
         place = self._place()
+        if not place.shown and self._context.layout.drawer != "probe":
+            if self._drawn is not None:
+                self._drawn = None
+                self._cursor.hide()
+            return
         r = min(max(place.r, self._r.min), 1.0)
         here = probe(solution, r, math.radians(place.psi_deg))
         at_blade = (

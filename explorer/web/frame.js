@@ -285,14 +285,15 @@
     if (words) part('prompt').innerHTML = `${icon('hand')}<span data-explorer="prompt">${text(words.text)}</span>`;
   });
   // Which fractions of the canvas cards cover along its width, so that the camera shows its subject between them. The
-  // card of power grows with its sentence: it counts with its usual height, or the scene would move with every change.
+  // card of power grows with its sentence: it counts with its usual height, and what stands below it as if it had that,
+  // or the scene would move with every change.
   let telling = 0;
-  function tellCover() {
-    clearTimeout(telling);  // Below the veil at once, so that the camera stands when it lifts.
-    telling = setTimeout(measureCover, page.classList.contains('rx-veiled') ? 0 : 120);
+  function tellCover() {  // Below the veil at once, so that the camera stands when it lifts.
+    telling ||= setTimeout(measureCover, page.classList.contains('rx-veiled') ? 0 : 120);
   }
   const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-views', '.rxf-notice', '.rxs-figures'];
   function measureCover() {
+    telling = 0;
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
     const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
@@ -306,8 +307,9 @@
     // The verdict, in columns or as a sentence, hides the vibration.
     const flown = page.hasAttribute('data-flight') && (stage.width > 900 ? 156 : 100);
     const usual = stage.width > 470 ? flown || (state.vibration ? 156 : 126) : state.vibration ? 100 : 70;
-    const told = box('.rxf-power') && !small.matches;
-    const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top));
+    const told = small.matches ? null : box('.rxf-power');
+    const shift = card => told && card.top >= told.bottom ? usual - (told.bottom - stage.top) : 0;
+    const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top + shift(card)));
     const below = low.length ? stage.bottom - Math.min(...low.map(card => card.top)) : 0;
     RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
   }

@@ -2,6 +2,7 @@
 interface Window {
   RX: typeof RX;
   rotorScene: any;
+  rotorDisk: any;
   rotorWipe: any;
   makeStory: any;
   stillRotor: any;

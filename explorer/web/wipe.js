@@ -11,10 +11,12 @@
   };
   function hook(scene) {
     hooked = scene;
-    scene.onBeforeRender = (renderer, of, camera, target) => {
+    const before = scene.onBeforeRender, after = scene.onAfterRender;
+    scene.onBeforeRender = (...all) => {
+      const target = all[3];
+      before.apply(scene, all);
       if ((on || alone) && !target && node('/compared')) see(second, !second);
     };
-    const after = scene.onAfterRender;
     scene.onAfterRender = (...all) => {
       const [renderer, , camera, target] = all;
       after.apply(scene, all);

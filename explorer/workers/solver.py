@@ -10,7 +10,19 @@ from typing import Any
 
 from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
 from rotor.design.quantities import PRESETS
-from rotor.optimisation import Concept, Objective, Plan, Schedule, Search, at_condition, measure, run_plan, run_search
+from rotor.optimisation import (
+    Concept,
+    Objective,
+    Plan,
+    Schedule,
+    Search,
+    at_condition,
+    measure,
+    measure_many,
+    run_plan,
+    run_search,
+)
+from rotor.study.point import WarmStarts
 from rotor.trim import analyse, power_gradient
 
 _NICE = 5
@@ -105,23 +117,27 @@ class MapTask:
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
         """Reports a `MapLevel` for each grid; True when all were done."""
         known: dict[tuple[int, int], float | None] = {}
+        near = [WarmStarts({"x": (0.0, 1.0), "y": (0.0, 1.0)}) for _ in self.objective.conditions]
         finest = self.steps[-1]
         for steps in self.steps:
             stride = finest // steps
-            near: tuple[Solution, ...] = ()
             for row in range(0, finest + 1, stride):
-                columns = range(0, finest + 1, stride)
-                # Back and forth, so that each trim starts from its neighbour.
-                for column in columns if row // stride % 2 == 0 else reversed(columns):
-                    if (row, column) in known:
-                        continue
-                    if stop():
-                        return False
-                    point = measure(self.objective, self.at(column / finest, row / finest), near, gradient=False)
-                    known[row, column] = point.power
-                    near = point.solutions if point.power is not None else ()
-            places = range(0, finest + 1, stride)
-            tell(MapLevel(tuple(tuple(known[row, column] for column in places) for row in places)))
+                if stop():
+                    return False
+                cells = [(row, column) for column in range(0, finest + 1, stride) if (row, column) not in known]
+                places = [{"x": column / finest, "y": row / finest} for row, column in cells]
+                legs = list(zip(near, self.objective.conditions, strict=True))
+                starts = [
+                    [warm.guess(place, hovering=leg.flight.advance_ratio == 0.0) for warm, leg in legs]
+                    for place in places
+                ]
+                points = measure_many(self.objective, [self.at(**place) for place in places], starts, gradient=False)
+                for cell, place, point in zip(cells, places, points, strict=True):
+                    known[cell] = point.power
+                    for warm, trim in zip(near, point.solutions, strict=False):
+                        warm.keep(place, trim)
+            every = range(0, finest + 1, stride)
+            tell(MapLevel(tuple(tuple(known[row, column] for column in every) for row in every)))
         return True
 
     def at(self, x: float, y: float) -> Design:

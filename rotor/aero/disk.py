@@ -223,4 +223,11 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
     numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]
-    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], np.stack([each.tables for each in onsets])
+    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], _onset_tables(disk.sections, only_mach)
+
+
+@lru_cache(maxsize=16)
+@read_only
+def _onset_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
+    """Kept apart from the disks, which share them: 4 MB for two sections."""
+    return np.stack([stall_onset(table).tables for table in _at_mach(sections, only_mach)])

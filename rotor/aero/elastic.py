@@ -27,6 +27,7 @@ import numpy as np
 from rotor.aero.disk import Disk
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
+from rotor.airfoil.sections import Section
 from rotor.arrays import Array, read_only
 from rotor.design.active_twist import HIGHEST
 from rotor.design.blade import Rotor
@@ -120,6 +121,13 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     return out
 
 
+@lru_cache(maxsize=16)
+@read_only
+def _moment_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
+    """`BladeTorsion.moment_tables`; kept apart from the blades, which share them: 4 MB for two sections."""
+    return np.stack([moment_table(item.table, only_mach) for item in sections])[:, :, :, None]
+
+
 @lru_cache(maxsize=32)
 @read_only
 def build_torsion(
@@ -171,7 +179,7 @@ def _at_unit_density(
         damping=rotor.blades * chord**3 / 8.0,
         lag=behind,
         tip_mass=mass * behind * disk.r * radius**3 / unit,
-        moment_tables=np.stack([moment_table(item.table, only_mach) for item in disk.sections])[:, :, :, None],
+        moment_tables=_moment_tables(disk.sections, only_mach),
         moment_unit=unit * rotor.angular_speed**2,
     )
 

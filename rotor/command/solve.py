@@ -59,9 +59,7 @@ def run(args: argparse.Namespace) -> int:
             also["power_band_w"] = [end.power.total for end in band]
         if args.doubt:
             also["doubt"] = sure and sure.record()
-        record = solution.to_dict()
-        also |= _vibration(solution, record["caveats"])
-        print(json.dumps({**record, **also}, indent=2, allow_nan=False))
+        print(json.dumps({**solution.to_dict(), **_vibration(solution), **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
         if sure is not None:
@@ -97,18 +95,18 @@ def doubt_table(doubt: Doubt) -> str:
     return f"{sentence}\n\n{table(columns, rows).text()}"
 
 
-def _vibration(solution: Solution, caveats: list[str]) -> dict[str, Any]:
-    """Hub loads and blade frequencies of `--json`; where there are none, why is added to the caveats."""
+def _vibration(solution: Solution) -> dict[str, Any]:
+    """Hub loads and blade frequencies of `--json`, with a note of whose loads they are or why there are none."""
     reason, frequencies = why_no_hub_loads(solution.design), solution.blade_frequencies
     loads = hub_loads(solution) if solution.converged else None
-    if reason is not None:
-        caveats.append(reason.sentence)
-    elif loads is None and solution.converged:
-        caveats.append("No hub loads: the design does not trim with blades that bend.")
+    note = "" if reason is None else reason.sentence
+    if reason is None and loads is None and solution.converged:
+        note = "No hub loads: the design does not trim with blades that bend."
     elif loads is not None and not solution.design.models.bending:
-        caveats.append("The hub loads are those of blades that bend; add bending for a trim with them.")
+        note = "The hub loads are those of blades that bend; add bending for a trim with them."
     return {
         "hub_loads": loads and loads.record(),
+        "hub_loads_note": note,
         "blade_frequencies_per_rev": frequencies and {name: list(values) for name, values in vars(frequencies).items()},
     }
 
@@ -193,7 +191,7 @@ def report(solution: Solution) -> str:
             f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust"
         ]
     if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
-        lines.append(wrapped(f"caveat: {reason.sentence}", "  "))
+        lines.append(wrapped(reason.sentence))
     elif design.models.bending and solution.converged and (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [

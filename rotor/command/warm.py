@@ -5,7 +5,7 @@ from typing import Any
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.common import add_command
-from rotor.compiled import tell_in_a_log
+from rotor.compiled import tell_in_a_log, why_not_kept
 from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import jacobian
 from rotor.files.make_design import make_design
@@ -18,15 +18,16 @@ def add_parser(commands: Any) -> None:
         commands,
         "warm",
         run,
-        "Compiles all kernels and keeps them, some 20 s of processor time; else each command compiles what it needs.",
+        "Compiles and keeps all kernels, half a minute of processor time; else each command compiles what it needs.",
     )
 
 
 def run(_: argparse.Namespace) -> int:
     tell_in_a_log()
     compile_all()
-    print("All kernels are compiled.")
-    return 0
+    unkept = why_not_kept()
+    print(unkept or "All kernels are compiled.")
+    return 1 if unkept else 0
 
 
 def compile_all() -> None:

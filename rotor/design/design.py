@@ -8,10 +8,10 @@ models, and `thesis`, those that the document states.
 import hashlib
 import json
 import math
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import FrozenInstanceError, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Unpack, cast
+from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from rotor.design import quantities
 from rotor.design.active_twist import (
@@ -27,7 +27,7 @@ from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
-from rotor.user_input import check_suffix, write_whole
+from rotor.user_input import check_suffix, did_you_mean, write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -205,6 +205,15 @@ class Design:
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
         )
+
+    if not TYPE_CHECKING:  # A type checker would take it to have every attribute.
+
+        def __getattr__(self, name: str) -> Any:
+            row = quantities.QUANTITIES.get(name)
+            remedy = (
+                did_you_mean(name, dir(type(self))) if row is None or not row.place else f": read design.{row.place}"
+            )
+            raise AttributeError(f"a design has no {name!r}{remedy}", name=name, obj=self)
 
     @takes(quantities.SWEPT, after="hover")
     def at(
@@ -419,6 +428,14 @@ THESIS_MODELS = Models(
     loss_on="inflow",
     document_losses=True,
 )
+
+
+def _no_change(_: Design, name: str, value: object) -> None:
+    how = f"design.at({name}={value!r:.40})" if name in quantities.SWEPT else f"dataclasses.replace(design, {name}=…)"
+    raise FrozenInstanceError(f"a design does not change: make another, as with {how}")
+
+
+type.__setattr__(Design, "__setattr__", _no_change)
 
 
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:

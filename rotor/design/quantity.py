@@ -8,6 +8,8 @@ from inspect import Parameter, signature
 from numbers import Real
 from typing import Any, Literal, TypeVar, cast
 
+from rotor.user_input import did_you_mean
+
 Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
 here."""
@@ -192,7 +194,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def takes(names: Iterable[str], after: str) -> Callable[[Function], Function]:
     """Give a function a keyword for each name, None by default, in place of its `**` parameter.
 
-    They follow `after` in its signature. Another keyword is a TypeError, as Python words it.
+    They follow `after` in its signature. Another keyword, or a value without one, is a TypeError with one sentence.
     """
 
     def with_keywords(function: Function) -> Function:
@@ -206,11 +208,17 @@ def takes(names: Iterable[str], after: str) -> Callable[[Function], Function]:
         place = 1 + list(written).index(after)
         kept = list(written.values())
         signed = before.replace(parameters=[*kept[:place], *added, *kept[place:]])
+        nameless = sum(parameter.kind is not Parameter.KEYWORD_ONLY for parameter in kept)
 
         @wraps(function)
         def called(*given: Any, **asked: Any) -> Any:
+            call = f"{function.__name__}()"
             if (wrong := next((name for name in asked if name not in signed.parameters), None)) is not None:
-                raise TypeError(f"{function.__name__}() got an unexpected keyword argument {wrong!r}")
+                keywords = [name for name in signed.parameters if name != "self"]
+                remedy = did_you_mean(wrong, keywords) or f": it takes {', '.join(keywords)}"
+                raise TypeError(f"{call} has no argument {wrong!r}{remedy}")
+            if len(given) > nameless:
+                raise TypeError(f"{call} got {given[nameless]!r:.40} without a name: name it, as in mu=0.3")
             return function(*given, **asked)
 
         called.__dict__["__signature__"] = signed

@@ -25,9 +25,9 @@ from rotor.engine.linearise import Grid, Point, System, begin, evaluate, jacobia
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
-_NEARLY = 3.0
+NEARLY = 3.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
-_MOST_SLOW_STEPS = 4
+MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
 
@@ -212,7 +212,7 @@ class _Steps:
         else:
             point, self.passes = begin(system, grid, x), self.passes + 1
         while point.size > goal and self.passes < limits.most_passes:
-            if slow_steps >= _MOST_SLOW_STEPS or rises >= _MOST_RISES:
+            if slow_steps >= MOST_SLOW_STEPS or rises >= _MOST_RISES:
                 break
             fresh = self._corrected is None
             corrected = self._corrected or self._differentiate(point)
@@ -223,7 +223,7 @@ class _Steps:
                 break
             length = self._length(step)
             step /= max(1.0, length)
-            part, last, nearer = 1.0, expected <= _NEARLY, False
+            part, last, nearer = 1.0, expected <= NEARLY, False
             trial = self._moved(point, step, last)
             while fresh and trial.size >= point.size:
                 after = self._length(corrected.factors.solve(trial.residual))
@@ -235,7 +235,7 @@ class _Steps:
             corrected.taken = part * step
             self.serving = trial.size <= limits.kept_ratio * point.size
             most = most_steps if self._made else limits.most_kept_steps
-            if judged and _steps_left(trial.size, point.size, goal) > most:
+            if judged and steps_left(trial.size, point.size, goal) > most:
                 self._corrected = None
             judged = True  # Not the first step from `begin`, which shows how far the nodes were off.
             expected = trial.size * min(trial.size / point.size, 1.0)
@@ -245,7 +245,7 @@ class _Steps:
             hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
             rises += nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
-            if trial.size < point.size or nearer or slow_steps < _MOST_SLOW_STEPS:
+            if trial.size < point.size or nearer or slow_steps < MOST_SLOW_STEPS:
                 point = trial
         return point
 
@@ -275,7 +275,7 @@ class _Steps:
         return self._corrected
 
 
-def _steps_left(size: float, before: float, goal: float) -> float:
+def steps_left(size: float, before: float, goal: float) -> float:
     """How many more steps reach the goal, if each leaves the same part of the residual as the last one did."""
     if size <= goal:
         return 0.0

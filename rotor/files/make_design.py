@@ -87,9 +87,11 @@ def make_design(
     name = preset or (case.preset if case else PRESETS[0])
     check_preset(name)
     aircraft = _aircraft(rotor, case)
-    blade = case if preset is None and rotor is None else None  # Another rotor or preset has its own blade.
+    same = case if case and name == case.preset else None
+    blade = same if rotor is None else None  # Another rotor has its own blade, and another preset.
+    own = case.twist if case and rotor is None and case.twist != aircraft.twist_for(case.preset) else None
     if models is None:
-        models = case.models if case and preset is None else preset_models(name)
+        models = same.models if same else preset_models(name)
     models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
     models = replace(models, **{option: True for option in OPTIONS if asked[option]})
     blades = aircraft.rotor_for(name)
@@ -103,7 +105,7 @@ def make_design(
         preset=name,
         aircraft=aircraft,
         rotor=blades,
-        twist=blade.twist if blade else aircraft.twist_for(name),
+        twist=own or aircraft.twist_for(name),
         condition=changed_condition(before, blades.tip_speed, asked, **overrides),
         fuselage=aircraft.fuselage,
         tail_rotor=aircraft.tail_rotor,

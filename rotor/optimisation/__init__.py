@@ -2,7 +2,14 @@
 
 from rotor.optimisation.concepts import CONCEPTS, Concept, Parameter, find_concept, nearest
 from rotor.optimisation.limits import even_change_limit
-from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, hover_and_cruise, measure
+from rotor.optimisation.objective import (
+    Objective,
+    WeightedCondition,
+    at_condition,
+    hover_and_cruise,
+    measure,
+    measure_many,
+)
 from rotor.optimisation.results import Progress
 from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.optimisation.search import Search, optimise, run_search
@@ -23,6 +30,7 @@ __all__ = (
     "find_concept",
     "hover_and_cruise",
     "measure",
+    "measure_many",
     "nearest",
     "optimise",
     "run_plan",

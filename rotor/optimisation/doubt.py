@@ -5,7 +5,7 @@ P + δ lies beside that of P by −H⁻¹ ∇δ with H = ∇²P, both by central
 Inputs are independent, so the shifts of a parameter are summed as squares.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, measure
+from rotor.optimisation.objective import Objective, measure, measure_many
 from rotor.optimisation.results import ParameterBand
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.doubt import Doubt, DoubtRow
@@ -26,32 +26,44 @@ MOST = 2
 """Inputs named beside the band of a parameter."""
 
 
-def saving_doubt(objective: Objective, best: Design, baseline: Design) -> Doubt | None:
+Starts = Callable[[Design], Sequence[Solution]]
+"""From a design to trims near its own, by condition, or none."""
+
+
+def _cold(design: Design) -> Sequence[Solution]:
+    del design
+    return ()
+
+
+def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
     """The band of a mean power and of its change from that of the baseline.
 
     None where one does not trim, or the objective is not total power.
     """
     if objective.quantity != "total":
         return None
-    measured = [measure(objective, design, gradient=False) for design in (best, baseline)]
-    return mean_doubt(objective.shares, measured[0].solutions, measured[1].solutions)
+    here, there = (measure(objective, design, starts(design), gradient=False).trims for design in (best, baseline))
+    return mean_doubt(objective.shares, here, there)
 
 
-def mean_doubt(shares: Sequence[float], here: Sequence[Solution], there: Sequence[Solution]) -> Doubt | None:
+def mean_doubt(
+    shares: Sequence[float], here: Sequence[Solution | Analysis], there: Sequence[Solution | Analysis]
+) -> Doubt | None:
     """The band of a mean power over conditions, and of its change from other trims; None where one is missing."""
-    if len(here) < len(shares) or len(there) < len(shares) or not all(trim.converged for trim in (*here, *there)):
+    ours, theirs = ([analysed(trim).solution for trim in trims] for trims in (here, there))
+    if len(here) < len(shares) or len(there) < len(shares) or not all(trim.converged for trim in (*ours, *theirs)):
         return None
     power, other = (
-        sum(share * trim.power.total for share, trim in zip(shares, trims, strict=True)) for trims in (here, there)
+        sum(share * trim.power.total for share, trim in zip(shares, trims, strict=True)) for trims in (ours, theirs)
     )
     changes, others = _changes(shares, here), _changes(shares, there)
     rows = [
         DoubtRow(row.name, row.words, row.size, row.source, changes[row.name], changes[row.name] - others[row.name])
-        for row in uncertain_inputs(here[0].design)
+        for row in uncertain_inputs(ours[0].design)
         if row.name in changes and row.name in others
     ]
     rows.sort(key=lambda row: -abs(row.change or 0.0))
-    return Doubt(power, tuple(rows), other, there[0].design.twist.spec())
+    return Doubt(power, tuple(rows), other, theirs[0].design.twist.spec())
 
 
 def _changes(shares: Sequence[float], trims: Sequence[Solution | Analysis]) -> dict[str, float]:
@@ -64,7 +76,12 @@ def _changes(shares: Sequence[float], trims: Sequence[Solution | Analysis]) -> d
 
 
 def best_twist_doubt(
-    design: Design, concept: Concept, objective: Objective, limits: Limits, best: tuple[float, ...]
+    design: Design,
+    concept: Concept,
+    objective: Objective,
+    limits: Limits,
+    best: tuple[float, ...],
+    starts: Starts = _cold,
 ) -> tuple[ParameterBand, ...]:
     """Where each parameter of the best twist may lie by what is uncertain, within its bounds, SI.
 
@@ -75,27 +92,24 @@ def best_twist_doubt(
     if objective.quantity != "total" or np.any(x - steps < low) or np.any(x + steps > high):
         return ()
 
-    def at(values: Array) -> tuple[Array, dict[str, float]] | None:
-        measured = measure(objective, concept.apply(design, tuple(values.tolist())))
+    places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
+    designs = [concept.apply(design, place) for place in places]
+    found = measure_many(objective, designs, [starts(each) for each in designs])
+    gradients, changes = list[Array](), list[dict[str, float]]()
+    for place, measured in zip(places, found, strict=True):
         if measured.by_pitch is None:
-            return None
-        slopes = concept.slopes(tuple(values.tolist()), measured.solutions[0].disk.r)
-        return slopes @ measured.by_pitch, _changes(objective.shares, measured.trims)
-
-    curvature, slopes, names = list[Array](), list[list[float]](), list[str]()
-    for step in np.diag(steps):
-        more, less = at(x + step), at(x - step)
-        if more is None or less is None:
             return ()
-        width = 2.0 * float(step.sum())
-        curvature.append((more[0] - less[0]) / width)
-        names = [*more[1]]
-        slopes.append([(more[1][name] - less[1][name]) / width for name in names])
-    hessian = np.array(curvature)
+        gradients.append(concept.slopes(place, measured.solutions[0].disk.r) @ measured.by_pitch)
+        changes.append(_changes(objective.shares, measured.trims))
+    width = 2.0 * steps[:, None]
+    hessian = (np.array(gradients[::2]) - np.array(gradients[1::2])) / width
+    names = list(changes[0])
+    by_input = np.array([[each[name] for name in names] for each in changes])
+    slopes = (by_input[::2] - by_input[1::2]) / width
     values, axes = np.linalg.eigh(0.5 * (hessian + hessian.T))
     if values.min() <= 0.0:
         return ()
-    shifts = -(axes @ ((axes.T @ np.array(slopes)) / values[:, None]))
+    shifts = -(axes @ ((axes.T @ slopes) / values[:, None]))
     words = {row.name: row.words for row in uncertain_inputs(design)}
     return tuple(
         ParameterBand(

@@ -3,7 +3,7 @@
 import math
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,8 +14,9 @@ from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import Limits, cheap_margins
-from rotor.optimisation.objective import Measured, Objective, measure
+from rotor.optimisation.objective import Measured, Objective, measure, measure_many
 from rotor.optimisation.results import Phase, Progress
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 
 FEASIBLE = 1e-3
@@ -40,11 +41,14 @@ class TrimmedBlades:
 
     def __init__(self) -> None:
         self.all: list[TrimmedBlade] = []
+        self._lost: list[TrimmedBlade] = []
+        """What did not trim."""
         self._solved: deque[tuple[TrimmedBlade, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
 
     def known(self, rotor: Rotor, pitch: Array) -> TrimmedBlade | None:
         """What is known of this very blade."""
-        return next((point for point in self.all if np.array_equal(point.pitch, pitch) and point.rotor == rotor), None)
+        every = (*self.all, *self._lost)
+        return next((point for point in every if np.array_equal(point.pitch, pitch) and point.rotor == rotor), None)
 
     def starts(self, pitch: Array, r: Array) -> tuple[Solution, ...]:
         """The trims of the nearest blade."""
@@ -57,6 +61,8 @@ class TrimmedBlades:
         if measured.power is not None:
             self.all.append(blade)
             self._solved.append((blade, measured.solutions))
+        else:
+            self._lost.append(blade)
         return blade
 
 
@@ -125,6 +131,8 @@ class Evaluator:
         self.best: Evaluation | None = None
         self.trimmed = trimmed
         self.r = build_problem(design).disk.r
+        self._ahead: list[TrimmedBlade] = []
+        """Trimmed, and not yet asked for."""
         self._watch, self._stop = watch, stop
 
     @property
@@ -179,11 +187,28 @@ class Evaluator:
         """Trim a design from the nearest one trimmed before; the design itself need not be trimmed again."""
         pitch = design.twist(self.r)
         known = self.trimmed.known(design.rotor, pitch)
+        if known is None or known in self._ahead:
+            self.count += 1
         if known is not None:
+            self._ahead = [blade for blade in self._ahead if blade is not known]
             return known
-        self.count += 1
         measured = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
         return self.trimmed.add(design.rotor, pitch, measured)
+
+    def trim_ahead(self, points: Iterable[Array]) -> None:
+        """Trim the blades of some points at once, for when they are asked for; SearchStopped as in `__call__`."""
+        self._check()
+        every = [self.concept.apply(self.design, self.values(x)) for x in points]
+        designs = [design for design in every if self.trimmed.known(design.rotor, design.twist(self.r)) is None]
+        starts, options = [self.starts_for(each) for each in designs], SolverOptions(stop=self._stop)
+        found = measure_many(self.objective, designs, starts, limits=self.limits, options=options)
+        self._check()
+        for design, measured in zip(designs, found, strict=True):
+            self._ahead.append(self.trimmed.add(design.rotor, design.twist(self.r), measured))
+
+    def starts_for(self, design: Design) -> tuple[Solution, ...]:
+        """The trims of the nearest blade trimmed before."""
+        return self.trimmed.starts(design.twist(self.r), self.r)
 
     def _check(self) -> None:
         if self._stop is not None and self._stop():

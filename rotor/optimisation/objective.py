@@ -20,9 +20,10 @@ from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.adjoint import power_along
 from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
+from rotor.trim.many import analyse_many
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
-from rotor.trim.solve import analyse
+from rotor.trim.solve import Start, analyse
 from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
@@ -163,11 +164,13 @@ def measure(
     gradient: bool = True,
     limits: Limits | None = None,
     options: SolverOptions = DEFAULT_OPTIONS,
+    solved: Sequence[Analysis] = (),
 ) -> Measured:
     """Trim the design on every condition; the objective and what limits hold, with exact gradients by the pitch along
     the blade.
 
-    `starts`: earlier solutions of the same conditions to begin from. Stops at the first condition that does not trim.
+    `starts`: earlier solutions of the same conditions to begin from. `solved`: the trims themselves, where they are
+    known. Stops at the first condition that does not trim.
     """
     limits = limits or Limits()
     vibration, indexed = objective.quantity == "vibration", limits.index is not None
@@ -175,8 +178,11 @@ def measure(
     trims, stalled, indices = list[Analysis](), list[tuple[float, Array]](), list[tuple[float, Array]]()
     power, index, slopes = 0.0, 0.0, list[Array]()
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
-        start = starts[k] if k < len(starts) else None
-        trims.append(analyse(replace(design, condition=condition.flight), start, options))
+        if k < len(solved):
+            trims.append(solved[k])
+        else:
+            start = starts[k] if k < len(starts) else None
+            trims.append(analyse(replace(design, condition=condition.flight), start, options))
         solution = trims[-1].solution
         if not solution.converged:
             return Measured(None, tuple(trims))
@@ -203,6 +209,30 @@ def measure(
         limited=tuple(value for value, _ in limited),
         limited_by_pitch=np.array([slope for _, slope in limited]) if limited else None,
     )
+
+
+def measure_many(
+    objective: Objective,
+    designs: Sequence[Design],
+    starts: Sequence[Sequence[Start]] = (),
+    *,
+    gradient: bool = True,
+    limits: Limits | None = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
+) -> list[Measured]:
+    """`measure` of many designs at once; starts: for each design, by condition."""
+    by_condition = [
+        analyse_many(
+            [replace(design, condition=condition.flight) for design in designs],
+            [each[k] if k < len(each) else None for each in starts],
+            options,
+        )
+        for k, condition in enumerate(objective.conditions)
+    ]
+    return [
+        measure(objective, design, gradient=gradient, limits=limits, solved=trims)
+        for design, trims in zip(designs, zip(*by_condition, strict=True), strict=True)
+    ]
 
 
 MISSION_COLUMNS = (*(name for name, row in CONDITION.items() if row.told), "hours")

@@ -8,7 +8,7 @@ and the band gives the flatness of the best.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -29,6 +29,9 @@ from rotor.trim.doubt import Doubt, other_models
 
 STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""
+_AHEAD = 12
+"""Starts trimmed before the first descent, which their gradients serve: of power, which far gradients tell of. Our
+choice."""
 _SAME_PLACE = 0.05
 """Ends whose parameters agree within this fraction of their ranges are one minimum."""
 _BESIDE = 1e-4
@@ -96,7 +99,10 @@ def run_search(
                 "says nothing: descend more slowly, or use the objective induced."
             )
         evaluate.phase = "search"
-        for k, x in enumerate(_starts(search, evaluate)):
+        starts = _starts(search, evaluate)
+        if objective.quantity != "vibration" and not len(evaluate.largest):
+            evaluate.trim_ahead(starts[:_AHEAD])
+        for k, x in enumerate(starts):
             evaluate.start = k
             run.descend_from(k, x)
         if any(parameter.unit == "R" for parameter in search.concept.parameters):
@@ -174,9 +180,10 @@ class _Run:
     def ask_how_sure(self, objective: Objective) -> None:
         """What is uncertain of the saving and of the best twist."""
         assert self.best is not None
-        search, values = self.search, self.evaluate.values(self.best.x)
-        self.doubt = saving_doubt(objective, search.concept.apply(search.design, values), search.design)
-        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values)
+        search, values, starts = self.search, self.evaluate.values(self.best.x), self.evaluate.starts_for
+        best = search.concept.apply(search.design, values)
+        self.doubt = saving_doubt(objective, best, search.design, starts)
+        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values, starts)
 
     def _leads_to(self, lead: Evaluation, x: Array) -> bool:
         """Whether a point is so near a minimum that a descent from there ends in it."""
@@ -262,7 +269,7 @@ class _Run:
         )
 
 
-def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
+def _starts(search: Search, evaluate: Evaluator) -> Sequence[Array]:
     """Starting points: guesses, the law nearest to the design's own, then Halton points of the seed."""
     points = [evaluate.scaled(guess) for guess in search.guesses]
     if len(points) < search.starts:

@@ -38,6 +38,7 @@ from rotor.optimisation.search import Search, run_search
 from rotor.trim.adjoint import tail_gain
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.hub_loads import band_inflows, hub_index, index_of, load_units, terms_and_loads
+from rotor.trim.many import analyse_many
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
@@ -135,8 +136,8 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
         base.solution, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1))
     )
     second = np.zeros((*matrix.slopes.shape, matrix.slopes.shape[1]))
-    for k, step in enumerate(STEP * np.eye(matrix.slopes.shape[1])):
-        moved = analyse(with_harmonics(shaped, matrix.twist(step)), base.solution)
+    steps = [with_harmonics(shaped, matrix.twist(step)) for step in STEP * np.eye(matrix.slopes.shape[1])]
+    for k, moved in enumerate(analyse_many(steps, [base.solution] * len(steps))):
         second[:, :, k] = (_measured(moved, shaped)[1] - matrix.slopes) / STEP
     return replace(matrix, second=0.5 * (second + second.transpose(0, 2, 1)))
 
@@ -254,8 +255,9 @@ def vibration_front(
         return _static_front(design, concept, points)
     matrix = t_matrix(design, harmonics)
     start, front, lost = _trimmed(matrix.solution), list[FrontPoint](), 0
-    for x in front_twists(matrix, math.radians(reach_deg), points):
-        trim = analyse(with_harmonics(design, matrix.twist(x)), matrix.solution)
+    steps = front_twists(matrix, math.radians(reach_deg), points)
+    designs = [with_harmonics(design, matrix.twist(x)) for x in steps]
+    for x, trim in zip(steps, analyse_many(designs, [matrix.solution] * len(designs)), strict=True):
         power, index = matrix.power_and_index(x)[0].tolist()
         front += [replace(_trimmed(trim), preview=(power, index))] if trim.solution.converged else []
         lost += not trim.solution.converged
@@ -358,7 +360,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
         searches.append(run_search(held, trimmed=trimmed))
         front.append(_best(searches[-1]))
-    trims = [analyse(family.apply(design, point.parameters)) for point in (*front, _best(calm))]
+    trims = analyse_many([family.apply(design, point.parameters) for point in (*front, _best(calm))])
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
     words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""

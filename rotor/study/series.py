@@ -24,6 +24,7 @@ from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Plan, Schedule, run_plan
 from rotor.plots import draw_chart
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.many import solve_many
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -177,11 +178,13 @@ def sweep(
         raise TypeError(f"{name} is {values!r}: give a list, for example {name}={list(SWEPT[name].examples)}")
     several, steps = hasattr(design, "__iter__") and not isinstance(design, str), list(values)
     designs = [require_design(item) for item in cast(Iterable[Design], design if several else (design,))]
+    rows = [[design.at(**cast(Any, {name: step})) for step in steps] for design in designs]
+    near = [start if start and points and start.design.rotor == points[0].rotor else None for points in rows]
+    first = solve_many([points[0] for points, given in zip(rows, near, strict=True) if points and given is None])
     solutions: list[Solution] = []
-    for points in [[design.at(**cast(Any, {name: step})) for step in steps] for design in designs]:
-        last = start if start and points and start.design.rotor == points[0].rotor else None
-        for point in points:
-            solution = solve(point, last)
+    for points, last in zip(rows, near, strict=True):
+        for k, point in enumerate(points):
+            solution = first.pop(0) if k == 0 and last is None else solve(point, last)
             if solution.converged:
                 last = solution
             solutions.append(solution.without_factors())

@@ -3,6 +3,7 @@
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.hub_loads import why_no_hub_loads
+from rotor.trim.many import analyse_many
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions
 from rotor.trim.solution import DiskFields, HubLoads
 from rotor.trim.solve import analyse
@@ -17,6 +18,7 @@ __all__ = (
     "PitchGradient",
     "SolverOptions",
     "analyse",
+    "analyse_many",
     "power_gradient",
     "stability_boundary",
     "why_no_hub_loads",

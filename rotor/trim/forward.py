@@ -52,9 +52,7 @@ def _trim_of_wake(design: Design) -> tuple[WakeCourse, TrimState] | None:
     if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
     models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
-    return _linear_trim(
-        replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=(), models=models)
-    )
+    return _linear_trim(replace(as_built(design), models=models))
 
 
 @lru_cache(maxsize=64)
@@ -158,14 +156,41 @@ def linear_problem(design: Design) -> Problem:
 
 def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
-    guess = first_guess(problem)
+    if (built := start_as_built(problem)) is not None:
+        yield built
+    yield from _simple_guesses(problem)
+    if problem.design.models.trim == "free-rotor":
+        guess = first_guess(problem)
+        for share in (0.5, 1.7, 3.0):
+            yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
+
+
+def as_built(design: Design) -> Design:
+    """The design with the twist of the blade as built, which does not move."""
+    return replace(design, twist=design.rotor.builtin_twist, active_twist=None, pitch_per_rev=())
+
+
+def start_as_built(problem: Problem) -> Guess | None:
+    """The trim of the blade as built at the condition of a problem, where a lifting line starts; None elsewhere."""
+    design, free = problem.design, problem.design.models.trim == "free-rotor"
+    if problem.inflow.wake_along is None or free or problem.freedoms or problem.joined:
+        return None
+    return _trim_as_built(as_built(design))
+
+
+@lru_cache(maxsize=16)
+def _trim_as_built(design: Design) -> Guess | None:
+    """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
+    problem = with_course(build_problem(design))
+    results = (newton(problem, guess) for guess in _simple_guesses(problem))
+    return next((result.guess for result in results if result.converged), None)
+
+
+def _simple_guesses(problem: Problem) -> Iterator[Guess]:
     slow = problem.design.condition.advance_ratio < FAST
     if slow and (near := _trim_of_wake(problem.design)) is not None:
         yield Guess(near[1])
-    yield guess
-    if problem.design.models.trim == "free-rotor":
-        for share in (0.5, 1.7, 3.0):
-            yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
+    yield first_guess(problem)
 
 
 def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:

@@ -1,20 +1,22 @@
 """The trim of a problem from a guess by Newton's method, and whether it is accepted."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
 from rotor.aero.section import FZ
+from rotor.aero.side_by_side import side_by_side
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.newton import Factors, NewtonLimits, solve
+from rotor.engine.lockstep import alike, solve_together
+from rotor.engine.newton import Factors, NewtonLimits, Solved, solve
 from rotor.engine.waves import STEADY
 
 
@@ -138,13 +140,45 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     """Newton's method on trim unknowns, elastic twist and inflow together, see `rotor.engine.newton`."""
     system = flight_system(problem, options)
     factors = start.factors if start.structure == system.structure.name else None
+    limits = _limits(problem, system, options)
+    return _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
+
+
+def newton_together(
+    problems: Sequence[Problem], starts: Sequence[Guess], options: SolverOptions = DEFAULT_OPTIONS
+) -> list[TrimResult | None]:
+    """`newton` of designs that differ in their twist alone, in step; None for those that take other steps than these.
+
+    All take the factors of the first start. See `rotor.engine.lockstep`.
+    """
+    systems = [flight_system(problem, options) for problem in problems]
+    one, factors = systems[0], starts[0].factors
+    if factors is None or starts[0].structure != one.structure.name or not factors.usable:
+        return [None] * len(problems)
+    begun = list(map(first_point, problems, systems, starts))
+    places = [
+        k
+        for k, x in enumerate(begun)
+        if alike(systems[k], one) and (one.nodes is None or x[one.structure.given :].any())
+    ]
+    x = np.array([begun[k] for k in places])
+    limits, data = _limits(problems[0], one, options), partial(side_by_side, one.grid.data)
+    found = zip(places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True)
+    ended = {k: _ended(problems[k], solved, options) for k, solved in found if solved is not None}
+    return [ended.get(k) for k in range(len(problems))]
+
+
+def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonLimits:
+    if system.nodes is not None:  # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
+        finer = len(system.nodes.matrix) / 576.0
+        most, kept = max(20.0, 7.0 * finer), max(40.0, 10.0 * finer)
+        return NewtonLimits(options.max_passes, most_steps=most, most_kept_steps=kept, kept_ratio=0.5)
     limits = NewtonLimits(options.max_passes)
-    if not problem.inflow.load_dependent:
-        limits = replace(limits, most_steps_on_few=0.0)
-    if system.nodes is not None:  # Derivatives by so many unknowns cost as much as ten steps, on finer grids more.
-        finer = max(1.0, len(system.nodes.matrix) / 576.0)
-        limits = replace(limits, most_steps=7.0 * finer, most_kept_steps=10.0 * finer, kept_ratio=0.5)
-    solved = solve(system, first_point(problem, system, start), factors, limits)
+    return limits if problem.inflow.load_dependent else replace(limits, most_steps_on_few=0.0)
+
+
+def _ended(problem: Problem, solved: Solved, options: SolverOptions) -> TrimResult:
+    """Where Newton's method ended, and whether it is accepted."""
     residual, twisting, difference = _errors(solved.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = solved.point.size <= 1.0 or accepted

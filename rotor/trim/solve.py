@@ -78,20 +78,23 @@ def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequen
         few = replace(DEFAULT_OPTIONS, max_passes=2)
         near = hover(problem) if design.hovering else newton(problem, first_guess(problem), few)
         return assemble(replace(near, converged=False), begin)
-    guess = _guess(design, start) if isinstance(start, Solution) else start
+    guess = guess_of(design, start)
     if design.hovering:
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
     found = assemble(result, begin)
-    # With so much stall, or so implausible, it may not be the trim of least power.
-    doubtful = found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
-    if design.condition.stand is not None or not (result.converged and doubtful):
+    if design.condition.stand is not None or not (result.converged and doubtful(found)):
         return found
     return least_of_branches(found, stall_limit(problem), options)
 
 
-def _guess(design: Design, earlier: Solution) -> Guess | None:
-    """The trim of an earlier solution; None when it did not converge, or hovered and this design does not."""
-    if not earlier.converged or (earlier.design.hovering and not design.hovering):
-        return None
-    return earlier.start
+def doubtful(found: Analysis) -> bool:
+    """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
+    return found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
+
+
+def guess_of(design: Design, start: Start) -> Guess | None:
+    """Where a trim begins; None when an earlier solution did not converge, or hovered and this design does not."""
+    if not isinstance(start, Solution):
+        return start
+    return start.start if start.converged and not (start.design.hovering and not design.hovering) else None

@@ -57,27 +57,27 @@ _AGAINST = {
     "document": "thesis",
 }
 _ASKS = {
-    "validation": "Are they the right equations? No measured forward-flight power of the UH-60A could be reached, and "
-    "no measured benefit of active twist: published figures of both are computed.",
-    "indicative": "Another model, or data of unclear origin: no proof.",
-    "verification": "Are they solved correctly?",
-    "public code": "The same question, by codes of others.",
-    "document": "What the source document states.",
+    "validation": "Are these the right equations? Neither measured forward-flight power of the UH-60A nor a measured "
+    "benefit of active twist was available; published figures of both are computed.",
+    "indicative": "Compared with another model, or with data of unclear origin; this proves nothing.",
+    "verification": "Are the equations solved correctly?",
+    "public code": "The same question, answered by independent codes.",
+    "document": "Statements of the thesis beside our results.",
 }
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 NOT_MODELLED = (
-    "blade bending but as an option; torsion where the rotor file has no blade structure",
+    "blade bending, unless switched on; torsion, if the rotor file has no blade structure",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
-    "a change of lift slope by the swept tip",
+    "change of lift slope due to the swept tip",
     "the trailing-edge tab of the UH-60A, at 0.73 to 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
-    "roll-up and contraction of the wake, which decide up to µ 0.15 what twist is worth ([theory](theory.md), §9)",
-    "the airframe but for its drag and its download: no upwash, no lift, no interference with the tail",
-    "tunnel data of the sections themselves: XFOIL with levels and shocks from public tunnel-derived data; see "
+    "roll-up and contraction of the wake, which decide the value of twist up to µ 0.15 ([theory](theory.md), §9)",
+    "the airframe except its drag and download: no upwash, no lift, no interference with the tail",
+    "wind-tunnel data of the sections themselves: XFOIL, with levels and shocks from public tunnel-derived data; see "
     "[assets/airfoils/CITATION.md](../assets/airfoils/CITATION.md)",
-    "what a real surface adds to section drag, unless the rotor file states it (surface_drag)",
-    "any inflow model below µ 0.05 (0.075 with linear inflow): wakes that respond to the load pass over to the hover "
-    "model by interpolation",
-    "climb and descent, which are verified against theory but compared with no measurement; the vortex ring state",
+    "drag of a real surface, unless the rotor file states it (surface_drag)",
+    "inflow below µ 0.05 (0.075 with linear inflow), where no model is proven: wakes that respond to the load are "
+    "interpolated to the hover model",
+    "climb and descent in comparison with measurement (they are verified against theory); the vortex ring state",
 )
 
 
@@ -133,8 +133,8 @@ def summary(sets: Sequence[TrustSet]) -> str:
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        f"Nothing was fitted to these points. {words}. How sure a power is, and what "
-        "moves the best twist: [doubt](guide/doubt.md).",
+        f"Nothing was fitted to these points. {words}. How uncertain a power is, and what "
+        "moves the best twist: [uncertainty](guide/doubt.md).",
         *parts,
         "## Not modelled",
         "\n".join(f"- {item}" for item in NOT_MODELLED),

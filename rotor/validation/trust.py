@@ -29,7 +29,7 @@ KINDS: dict[Kind, str] = {
 Verdict = Literal["met", "missed", "no target"]
 VERDICTS: dict[Verdict, str] = {
     "met": "within the target at every point that has one",
-    "missed": "not within it; the page of the set says what is known of the reason",
+    "missed": "outside it; the page of the set states the reason if it is known",
     "no target": "shown, not judged",
 }
 """What the verdicts mean."""

@@ -19,9 +19,7 @@ _WATCH = """
 () => {
   // The picture on the disk that is drawn, not the message that brings it.
   const picture = () => {
-    let map = null;
-    __viserMutable.nodeRefFromName['/rotor/disk/field'].traverse(part => { map = part.material?.map ?? map; });
-    return `${map.uuid} ${map.version}`;
+    return rotorDisk.drawn('/rotor').version;
   };
   const {scene} = __viserMutable, own = scene.onAfterRender;
   window.__times = []; let pressed = null, before = picture();

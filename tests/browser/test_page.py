@@ -77,7 +77,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     page = watched.page
     page.evaluate(
         """() => {
-            const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
+            const held = () => rotorDisk.drawn('/rotor').version;
             window.__seen = new Set();
             const look = () => { window.__seen.add(held()); requestAnimationFrame(look); };
             look();

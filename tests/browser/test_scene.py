@@ -2,16 +2,24 @@
 
 import math
 from collections.abc import Iterator
+from io import BytesIO
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from PIL import Image
 from watched import Watched
 
+from explorer.app import App
 from explorer.model.inputs import Inputs
+from explorer.picture.fields import FIELDS
+from explorer.picture.picture import disk_png
 from explorer.picture.wake import tip_vortices
 from rotor.trim.solve import solve
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
@@ -25,6 +33,25 @@ VORTEX = """() => {
     return first;
 }"""
 """Where the first tip vortex begins [m]."""
+PIXELS = """places => {
+    const {scene, camera} = __viserMutable, {gl} = scene.__r3f.root.getState(), context = gl.getContext();
+    const mesh = Common.node('/rotor/disk/field').getObjectByProperty('isMesh', true), hidden = [];
+    scene.traverse(part => { if (part.isMesh && part !== mesh && part.visible) hidden.push(part); });
+    for (const part of hidden) part.visible = false;
+    const {uniforms, numbers} = mesh.material.userData.disk, {width, height} = gl.domElement;
+    const radius = mesh.geometry.parameters.width / 2 / numbers.grid[3], pixel = new Uint8Array(4);
+    uniforms.rxOpacity.value = new Float32Array([1, 1]);
+    gl.render(scene, camera);
+    const colours = places.map(([starboard, aft]) => {
+        const at = camera.position.clone().set(starboard * radius, -aft * radius, 0);
+        const {x, y} = at.applyMatrix4(mesh.matrixWorld).project(camera);
+        context.readPixels((x + 1) / 2 * width, (y + 1) / 2 * height, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel);
+        return Array.from(pixel.slice(0, 3));
+    });
+    for (const part of hidden) part.visible = true;
+    return colours;
+}"""
+"""Colours of places on the disk, in radii to starboard and aft, drawn alone and as opaque as can be."""
 AZIMUTH = """() => {
     const hinge = window.__viserMutable.nodeRefFromName['/rotor/blade_0'].position;
     return Math.atan2(hinge.y, hinge.x);
@@ -156,6 +183,30 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
     shown = watched.at_rest(lambda: round(page.evaluate(AZIMUTH), 3))
     stands = math.radians(float(page.evaluate("() => RX.state.turn.psi")))
     assert math.remainder(shown - stands, 2 * math.pi) == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.slow
+def test_the_disk_has_the_colours_that_files_have(browser: "Browser", app: App):
+    """What the page's shader draws, at full opacity and without marks, against the picture of an export."""
+    page = browser.new_page(viewport={"width": 900, "height": 700})
+    try:
+        watched = Watched(page)
+        watched.open(app.address)
+        page.evaluate("() => ['stall', 'reverse_flow', 'drag_divergence'].forEach(mark => RX.send('region', mark))")
+        watched.show("Mach number")
+        watched.answered(wholly=True)
+        places = [(r, psi) for r in (0.45, 0.7, 0.93) for psi in (40.0, 100.0, 200.0, 320.0)]
+        seen = page.evaluate(
+            PIXELS, [[r * math.sin(math.radians(a)), r * math.cos(math.radians(a))] for r, a in places]
+        )
+    finally:
+        page.close()
+    field = FIELDS["Mach number"]
+    png = disk_png(solve(START.design()), field, (field.low, field.high), size=960)
+    image = np.asarray(Image.open(BytesIO(png)).convert("RGBA"))[..., :3].astype(int)
+    for (r, psi), colour in zip(places, seen, strict=True):
+        across, down = (480 + 479 * r * of(math.radians(psi)) for of in (math.sin, math.cos))
+        np.testing.assert_allclose(colour, image[int(down), int(across)], atol=6.0, err_msg=f"{r} R at {psi}°")
 
 
 def test_the_scene_dresses_its_surfaces(watched: Watched):

@@ -187,12 +187,13 @@ class Watched:
         raise AssertionError(f"never at rest: {now!r:.200}")
 
     def node(self, name: str) -> str:
-        """A digest of what the browser holds for a scene node: vertices or picture."""
+        """A digest of what is drawn of a scene node: a blade's vertices or the numbers on a disk."""
         return self.page.evaluate(
             """name => {
-                const props = window.__viserSceneTree.getState()[name].message.props;
-                const bytes = props.vertices ?? props._data;
-                const view = new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength);
+                const {geometry, material} = Common.node(name).getObjectByProperty('isMesh', true);
+                const {buffer, byteOffset, byteLength} = name.endsWith('/disk/field')
+                    ? rotorDisk.drawn(name.slice(0, -11)).image.data : geometry.attributes.position.array;
+                const view = new Uint8Array(buffer, byteOffset, byteLength);
                 let hash = 5381;
                 for (const byte of view) hash = (hash * 33 + byte) | 0;
                 return view.length + ':' + hash;

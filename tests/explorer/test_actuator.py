@@ -25,6 +25,7 @@ from explorer.model.actuator_inputs import (
 from explorer.model.inputs import Inputs, ViewState, baseline_of, with_rotor
 from explorer.model.units import SI, number
 from explorer.picture import lifted_blade as lifted
+from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.lifted_picture import TIMES, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
 from explorer.tabs.background import PoolAnswers
@@ -87,11 +88,11 @@ def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
     rigid = replace(DESIGN, models=replace(DESIGN.models, elastic_twist=False))
     wave = linear_active_twist(read_harmonics("1:2:0", "test"), rigid.rotor.blade.root_cutout)
     still, turning = (solve(replace(rigid, active_twist=twist)) for twist in (None, wave))
-    assert make_picture(still, ViewState(), (0.0, 10.0)).blades.shapes == ()
-    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).blades.shapes
-    assert len(shapes) == DESIGN.rotor.blades
+    same, forms = (make_picture(solution, ViewState()).blades.forms for solution in (still, turning))
+    assert [len(same), len(forms)] == [1, DESIGN.rotor.blades]
+    shapes = [form.vertices(blade_shape(DESIGN.rotor)) for form in forms]
     middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
-    assert_allclose(middle, make_picture(still, ViewState(), (0.0, 10.0)).blade_vertices, atol=1e-3)
+    assert_allclose(middle, same[0].vertices(blade_shape(DESIGN.rotor)), atol=1e-3)
     assert np.abs(shapes[0] - shapes[2]).max() > 1e-3
 
 

@@ -57,7 +57,7 @@ def shown(solution: Solution, size: int, marks: Marks) -> np.ndarray:
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA")).astype(int)
 
 
-def codes_of(solution: Solution, marks: Marks, size: int = disk_image.AT_REST) -> np.ndarray:
+def codes_of(solution: Solution, marks: Marks, size: int = 960) -> np.ndarray:
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
     made = region_codes(Drawn(solution), grid, marks, 2.8 / size)
     assert made is not None
@@ -67,7 +67,7 @@ def codes_of(solution: Solution, marks: Marks, size: int = disk_image.AT_REST) -
 class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
         codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
-        grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
+        grid = polar_grid(fast.disk, *disk_image.grid_size(960))
         stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (refined(fast, grid).attached < 0.0)
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
@@ -76,7 +76,7 @@ class TestRegions:
 
     def test_reverse_flow_is_the_circle_r_equals_minus_mu_sin_psi(self, fast: Solution):
         codes = codes_of(fast, Marks(stall=False, drag_divergence=False))
-        grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
+        grid = polar_grid(fast.disk, *disk_image.grid_size(960))
         mu = fast.design.condition.advance_ratio * math.cos(fast.controls.shaft_tilt)
         edge = grid.r[:, None] + mu * np.sin(grid.psi)[None, :]
         clear = np.abs(edge) > 0.02  # Away from the rim.

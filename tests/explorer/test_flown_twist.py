@@ -9,17 +9,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState
-from explorer.picture.blade_mesh import PAGE, drawn_pitch, inset
-from explorer.picture.disk_image import MOVING
+from explorer.picture.blade_mesh import PAGE, blade_shape, drawn_pitch, inset
 from explorer.picture.fields import FIELDS, fitted_range
-from explorer.picture.picture import (
-    field_values,
-    flown_twist,
-    follows_azimuth,
-    ghost_twist,
-    make_picture,
-    turned_blades,
-)
+from explorer.picture.picture import field_values, flown_twist, follows_azimuth, ghost_twist, turned_blades
 from explorer.picture.polar import Drawn, polar_grid
 from explorer.tabs.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
@@ -58,7 +50,7 @@ class TestFlownTwist:
 
     def test_in_hover_it_is_the_same_at_every_azimuth(self, hover: Solution):
         assert not follows_azimuth(hover)
-        assert turned_blades(hover, VIEW).shapes == ()  # One does for all.
+        assert len(turned_blades(hover, VIEW).forms) == 1  # One does for all.
         assert_allclose(flown_twist(hover, 0.3)(hover.disk.r), flown_twist(hover, 4.0)(hover.disk.r), atol=1e-15)
         assert float(flown_twist(hover, 0.0)([1.0])[0]) < float(hover.design.twist([1.0])[0]) - math.radians(1.0)
 
@@ -67,7 +59,8 @@ class TestBlades:
     def test_untwist_with_azimuth_as_the_tip_does(self, fast: Solution):
         """At true scale the drawn tip moves by what the solution says."""
         blades = turned_blades(fast, replace(VIEW, azimuth_deg=90.0, exaggeration=1.0))
-        tips = [ring_angles(shape)[-1] for shape in blades.shapes]
+        shape = blade_shape(fast.design.rotor)
+        tips = [ring_angles(form.vertices(shape))[-1] for form in blades.forms]
         elastic = fast.disk.elastic_twist
         assert elastic is not None
         outermost = np.interp((math.pi / 2, math.pi, 1.5 * math.pi), fast.disk.psi, elastic[-1])
@@ -81,13 +74,6 @@ class TestBlades:
         assert drawn_pitch(twist, 0.75, 4.0)[0] == pytest.approx(at)
         tip = float(twist([1.0])[0])
         assert drawn_pitch(twist, 1.0, 4.0)[0] - at == pytest.approx(4.0 * (tip - at))
-
-    def test_only_the_reference_blade_is_bent_while_something_moves(self, fast: Solution):
-        moving = make_picture(fast, VIEW, (-4.0, 10.0), pixels=MOVING)
-        assert moving.blades.shapes == ()
-        still = turned_blades(fast, VIEW)
-        assert_allclose(moving.blade_vertices, still.shapes[0])
-        assert len(still.shapes) == 4
 
 
 class TestInset:

@@ -147,14 +147,14 @@ class TestPoses:
 class TestPicture:
     def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, fast: Solution):
         view = ViewState(azimuth_deg=30.0)
-        picture = make_picture(fast, view, (-4.0, 10.0))
+        picture = make_picture(fast, view)
         azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
         assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
         assert picture.blades.azimuth == pytest.approx(math.radians(30.0))
 
     def test_the_airframe_leans_by_the_shaft_tilt_less_the_shaft_in_the_airframe(self, fast: Solution):
         """The nose is at −x: it goes down by the shaft tilt, less the 3° that the shaft leans forward already."""
-        nose = rotate(make_picture(fast, ViewState(), (-4.0, 10.0)).airframe.wxyz, np.array([-1.0, 0.0, 0.0]))
+        nose = rotate(make_picture(fast, ViewState()).airframe.wxyz, np.array([-1.0, 0.0, 0.0]))
         down = math.degrees(math.asin(-nose[2]))
         assert_allclose(down, math.degrees(fast.controls.shaft_tilt) - 3.0, atol=1e-9)
 

@@ -138,7 +138,14 @@ class TestPresentations:
         presentations, one = Presentations(), object()
         presentations.claim("s", "page", one)
         presentations.watch("s", (counts := list[int]()).append)
-        presentations.follow(follow_name("s"), lambda _: None)
+        leave = presentations.follow(follow_name("s"), lambda _: None)
+        presentations.present("s", PresentedView(Inputs(), ViewState()))
         presentations.release(one)
-        presentations.follow(follow_name("s"), lambda _: None)
+        heard: list[PresentedView | None] = []
+        others = presentations.follow(follow_name("s"), heard.append)
         assert counts == [0, 1]
+        assert len(heard) == 1
+        leave()
+        others()
+        presentations.follow(follow_name("s"), heard.append)
+        assert len(heard) == 1

@@ -171,10 +171,10 @@ def test_a_ray_at_a_blade_finds_its_section_and_keeps_the_azimuth(psi_deg: float
     """Against the vertices of the picture, placed in the world as the page places them."""
     solution = solve(make_design(mu=0.2, models=replace(FLIGHT_MODELS, bending=bending)))
     view = ViewState(azimuth_deg=psi_deg)
-    picture, shape = make_picture(solution, view, (0.0, 1.0)), blade_shape(solution.design.rotor)
+    picture, shape = make_picture(solution, view), blade_shape(solution.design.rotor)
     points = shape.rings.shape[1]
     for k, pose in enumerate(picture.blades.poses):
-        own = picture.blades.shapes[k] if picture.blades.shapes else picture.blade_vertices
+        own = picture.blades.forms[k].vertices(shape)
         for r in (0.98, 0.78, 0.54, 0.35):
             ring = int(np.argmin(np.abs(shape.r - r)))
             top = own[ring * points + points // 4]

@@ -1,24 +1,23 @@
-"""The scene of one session: coarse while something moves, fine at rest, ranges held, A beside B, the turning rotor."""
+"""The scene of one session: what the page is told, lines at rest, ranges held, A beside B, the turning rotor."""
 
+import json
 import math
 from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import replace
-from io import BytesIO
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 import viser
-from PIL import Image
 
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
-from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
-from explorer.picture.disk_image import AT_REST, MOVING
+from explorer.picture.blade_mesh import blade_shape, ghost_segments
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.picture.picture import field_values, flown_twist
+from explorer.picture.polar import Drawn, polar_grid
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
 from rotor.design.twist import LinearTwist
@@ -59,6 +58,21 @@ class Page:
     def __getitem__(self, name: str) -> Any:
         return self._nodes[name]
 
+    def told(self, function: str) -> list[Any]:
+        """The arguments of each call of a function of the page."""
+        begin = f"rotorDisk.{function}("
+        return [json.loads(f"[{script[len(begin) : -1]}]") for script in self.scripts if script.startswith(begin)]
+
+    def pitch(self, node: str) -> list[float]:
+        """Of each ring of the blade that was shaped last there [rad]."""
+        return next(forms[node][0] for (forms,) in reversed(self.told("form")) if node in forms)
+
+
+def unpacked(text: str) -> np.ndarray:
+    """Numbers 0…255 from their differences, as `disk.js` reads them."""
+    steps = np.array([ord(letter) - ord("#") for letter in text])
+    return np.cumsum(np.where(steps % 2, -(steps + 1) // 2, steps // 2)) % 256
+
 
 @pytest.fixture
 def page() -> Iterator[Page]:
@@ -72,34 +86,36 @@ def changed() -> Solution:
     return solve(replace(make_design(mu=0.3), twist=LinearTwist(math.radians(-6.0)))).require()
 
 
-class TestCoarseAndFine:
-    def test_the_disk_is_small_while_it_moves_and_large_at_rest(self, page: Page, fast: Solution):
-        page.controller.draw(fast, VIEW, None)
-        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
-        small = len(page["/rotor/disk/field"]._data)
-        page.controller.draw_finely()
-        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * AT_REST / (AT_REST - 2))
-        assert len(page["/rotor/disk/field"]._data) > 2 * small
-        page["/rotor/disk/field"]._data = b"drawn once"
-        page.controller.draw_finely()
-        assert page["/rotor/disk/field"]._data == b"drawn once"
+class TestFrame:
+    def test_the_disk_goes_as_numbers_once(self, page: Page, fast: Solution):
+        """Values within a step of the 254 of the colour range, margins with the sign that they have."""
+        view = replace(VIEW, field="Mach number")
+        page.controller.draw(fast, view, None)
+        page.controller.draw_at_rest()
+        ((root, numbers),) = page.told("paint")
+        assert root == "/rotor"
+        radii, azimuths, inner, _ = numbers["grid"]
+        grid, drawn = polar_grid(fast.disk, radii, azimuths), Drawn(fast)
+        assert inner == pytest.approx(fast.disk.edges[0])
+        values, u_t, attached, _ = (unpacked(text).reshape(grid.shape) for text in numbers["texts"])
+        field = FIELDS["Mach number"]
+        shown = field.low + (values - 1) / 254.0 * (field.high - field.low)
+        np.testing.assert_allclose(shown, field.sample(drawn, grid).clip(field.low, field.high), atol=0.9 / 500)
+        for margin, exact in ((u_t, drawn.flow(grid).u_t), (attached, drawn.flow(grid).attached)):
+            sure = np.abs(exact) > 1e-3
+            assert np.array_equal((margin > 128)[sure], (exact > 0.0)[sure])
 
-    def test_only_the_reference_blade_bends_until_it_settles(self, page: Page, fast: Solution, changed: Solution):
-        page.controller.draw(fast, VIEW, None)
-        before = page["/rotor/blade_2"].vertices.copy()
+    def test_every_blade_has_the_twist_of_its_azimuth(self, page: Page, changed: Solution):
         page.controller.draw(changed, VIEW, None)
-        assert np.array_equal(page["/rotor/blade_2"].vertices, before)
-        assert not np.array_equal(page["/rotor/blade_0"].vertices, before)
-        page.controller.draw_finely()
-        opposite = flown_twist(changed, math.radians(VIEW.azimuth_deg + 180.0))
-        expected = blade_vertices(blade_shape(ROTOR), opposite, VIEW.exaggeration)
-        np.testing.assert_allclose(page["/rotor/blade_2"].vertices, expected, atol=1e-5)
+        for k in (0, 2):
+            twist = flown_twist(changed, math.radians(VIEW.azimuth_deg + 90.0 * k))
+            expected = blade_shape(ROTOR).pitch(twist, VIEW.exaggeration)
+            np.testing.assert_allclose(page.pitch(f"/rotor/blade_{k}"), expected, atol=1e-5)
 
     def test_a_turned_blade_leaves_the_disk_alone(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
-        page["/rotor/disk/field"]._data = b"as it was"
         page.controller.draw(fast, replace(VIEW, azimuth_deg=120.0), None)
-        assert page["/rotor/disk/field"]._data == b"as it was"
+        assert len(page.told("paint")) == 1
         hub = page["/rotor/blade_0"].position
         assert math.degrees(math.atan2(hub[1], hub[0])) == pytest.approx(120.0)
 
@@ -110,7 +126,7 @@ class TestScale:
         field, view = FIELDS[VIEW.field], replace(VIEW, difference=True)
         assert page.controller.scale is None
         page.controller.draw(fast, view, None, changed)
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         difference = page.controller.scale
         assert difference is not None
         assert difference[0].note
@@ -130,7 +146,7 @@ class TestGhost:
     def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, fast: Solution):
         """By its edges alone: its surface would cut the flown one at small angles."""
         page.controller.draw(fast, VIEW, None)
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         assert page["/rotor/blade_0/ghost"].visible
         assert not page["/rotor/blade_0/other"].visible
         flown = flown_twist(fast, math.radians(VIEW.azimuth_deg))
@@ -140,9 +156,9 @@ class TestGhost:
     def test_it_turns_with_the_elastic_twist_of_the_blade(self, page: Page, changed: Solution):
         """The jig shape stands still in the blade's axes; another blade has the elastic twist of each azimuth."""
         page.controller.draw(changed, VIEW, None)
-        before = np.array(page["/rotor/blade_0/other"].vertices)
+        before = np.array(page.pitch("/rotor/blade_0/other"))
         page.controller.draw(changed, replace(VIEW, azimuth_deg=270.0), None)
-        assert np.abs(page["/rotor/blade_0/other"].vertices - before).max() > 0.01
+        assert np.abs(page.pitch("/rotor/blade_0/other") - before).max() > math.radians(1.0)
 
     def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, fast: Solution, changed: Solution):
         page.controller.draw(rigid(fast), VIEW, None)
@@ -150,7 +166,7 @@ class TestGhost:
         page.controller.draw(changed, VIEW, None)
         assert page["/rotor/blade_0/other"].visible
         assert not page["/rotor/blade_0/ghost"].visible  # Its edges follow at rest.
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         assert page["/rotor/blade_0/ghost"].visible
 
     def test_another_blade_can_take_its_place(self, page: Page, changed: Solution):
@@ -168,7 +184,7 @@ class TestRanges:
         light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
         for solution in (light, heavy):
             page.controller.draw(solution, view, None)
-            page.controller.draw_finely()
+            page.controller.draw_at_rest()
         assert {held for _, held, _, _ in page.shown.calls} == {usual_range(FIELDS["Thrust dT/dr"], ROTOR)}
         for order, fits in (("Rescale", True), ("Default", False)):
             page.controller.order_range(order)
@@ -197,12 +213,13 @@ class TestRanges:
 class TestWipe:
     def test_a_stands_at_the_place_of_b_at_rest(self, page: Page, fast: Solution, changed: Solution):
         page.controller.draw(changed, replace(VIEW, wipe=True), None, fast)
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         assert page["/compared"].visible
-        assert not np.array_equal(page["/compared/blade_0"].vertices, page["/rotor/blade_0"].vertices)
-        assert page.scripts[-1].startswith("rotorScene.compare({")
+        assert page.pitch("/compared/blade_0") != page.pitch("/rotor/blade_0")
+        assert [root for root, _ in page.told("paint")] == ["/rotor", "/compared"]
+        assert sum(script.startswith("rotorScene.compare({") for script in page.scripts) == 1
         page.controller.draw(changed, VIEW, None)
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         assert not page["/compared"].visible
         assert page.scripts[-1] == "rotorScene.compare(null)"
 
@@ -210,7 +227,7 @@ class TestWipe:
 class TestPlay:
     def test_the_page_turns_the_blades_and_the_scene_leaves_them(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
-        page.controller.draw_finely()
+        page.controller.draw_at_rest()
         assert page["/rotor/vortices"].visible
         before = page["/rotor/blade_0"].wxyz.copy()
         page.controller.play(True)
@@ -238,18 +255,16 @@ class TestOverlays:
     def test_vortices_are_switched(self, page: Page, fast: Solution):
         for wake in (True, False):
             page.controller.draw(fast, replace(VIEW, wake=wake), None)
-            page.controller.draw_finely()
+            page.controller.draw_at_rest()
             assert page["/rotor/vortices"].visible == wake
 
     def test_a_lost_trim_greys_the_disk(self, page: Page, fast: Solution):
         page.controller.draw(fast, VIEW, None)
-
-        def colour() -> float:
-            pixels = np.asarray(Image.open(BytesIO(page["/rotor/disk/field"]._data)).convert("RGBA")).astype(int)
-            return float(np.ptp(pixels[pixels[..., 3] > 0, :3], axis=1).mean())
-
-        vivid = colour()
         page.controller.fade(fast, VIEW)
         assert page.shown.calls[-1][2]
-        assert colour() < 0.5 * vivid
-        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
+        vivid, grey = (
+            np.frombuffer(bytes.fromhex(ink["map"]), np.uint8).reshape(-1, 3).astype(int) for _, ink in page.told("ink")
+        )
+        assert np.ptp(vivid, axis=1).mean() > 50
+        assert np.array_equal(grey, np.repeat(grey[:, :1], 3, axis=1))
+        assert page.told("paint")[-1][1]["texts"][2:] == [None, None]  # Nothing is marked on it.

@@ -174,7 +174,7 @@ class TestScene:
         solution = solve(make_design(rotor="r22"))
         for shown in (solve(make_design(mu=0.0)), solve(make_design(preset="thesis", mu=0.2)), solution):
             scene.fit(shown.design.rotor)
-            scene.show(make_picture(shown, ViewState(), (-4.0, 10.0)))
+            scene.show(make_picture(shown, ViewState()))
         assert dict(server.scene._handle_from_node_name) == handles
         assert [blade.visible for blade in scene.rotor._blades] == [True, True, False, False]
         reach = np.abs(scene._body.vertices).max()

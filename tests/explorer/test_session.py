@@ -184,11 +184,11 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
     session._update()
-    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "take"]
+    assert page.calls == ["pin_or_swap", "show_frame", "solved"]
 
 
-def test_the_page_is_drawn_finely_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
-    """A page that is loaded again early must find its own rotor, and need not wait for a fine picture."""
+def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
+    """A page that is loaded again early must find its own rotor."""
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     update(session)

@@ -21,7 +21,7 @@ from explorer.picture.picture import (
     BENDING_SHOWN,
     blade_pose,
     drawn_bending,
-    flown_vertices,
+    flown_form,
     follows_azimuth,
     make_picture,
     rotate,
@@ -85,7 +85,8 @@ class TestDrawnBlade:
         flap = c.coning + c.flap_1c * math.cos(psi) + c.flap_1s * math.sin(psi)
         shape = blade_shape(bent.design.rotor)
         expected = [np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))]
-        moved = flown_vertices(bent, VIEW, psi) - flown_vertices(bent, VIEW, psi, bent=False)
+        crooked, plain = (flown_form(bent, VIEW, psi, shown).vertices(shape) for shown in (True, False))
+        moved = crooked - plain
         rings = moved[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
         assert np.ptp(rings, axis=1).max() < 1e-12  # Each section as a whole.
         seen = on_disk(bent, psi, rings[:, 0]) / BENDING_SHOWN
@@ -95,17 +96,15 @@ class TestDrawnBlade:
 
     def test_every_blade_is_bent_at_its_own_azimuth_while_the_rotor_turns(self, bent: Solution):
         assert follows_azimuth(bent)
-        shapes = turned_blades(bent, VIEW).shapes
-        for k, shape in enumerate(shapes):
-            psi = math.radians(VIEW.azimuth_deg) + 0.5 * math.pi * k
-            assert_allclose(shape, flown_vertices(bent, VIEW, psi), atol=1e-9)
-        assert np.abs(shapes[0] - shapes[1]).max() > 0.1
+        forms, shape = turned_blades(bent, VIEW).forms, blade_shape(bent.design.rotor)
+        for k, form in enumerate(forms):
+            expected = flown_form(bent, VIEW, math.radians(VIEW.azimuth_deg) + 0.5 * math.pi * k)
+            assert_allclose(form.vertices(shape), expected.vertices(shape), atol=1e-9)
+        assert np.abs(forms[0].vertices(shape) - forms[1].vertices(shape)).max() > 0.1
 
     def test_files_show_it_straight_and_bending_off_is_straight(self, bent: Solution, straight: Solution):
         """Nothing in them could say that it is drawn larger."""
-        picture = make_picture(bent, VIEW, (-4.0, 10.0), pixels=96, bent=False)
-        psi = math.radians(VIEW.azimuth_deg)
-        assert_allclose(picture.blade_vertices, flown_vertices(bent, VIEW, psi, bent=False), atol=0.0)
+        assert all(form.bent is None for form in make_picture(bent, VIEW, bent=False).blades.forms)
         assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
 
 

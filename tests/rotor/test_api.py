@@ -85,7 +85,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
-EXPLAINED = ("make_design", "solve", "sweep", "optimise", "schedule", "run_study", "doubt")
+EXPLAINED = ("make_design", "solve", "solve_many", "sweep", "optimise", "schedule", "run_study", "doubt")
 
 
 @pytest.mark.parametrize("name", EXPLAINED)
@@ -277,6 +277,14 @@ WRONG = {
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
     "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
     "rotor.make_design(mass_kg=8)": (ValueError, "mass 8 kg is outside 100…50000 kg"),
+    "rotor.make_design('uh60a')": (TypeError, "got 'uh60a' without a name: name it"),
+    "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
+    "design.at(mass=8000)": (TypeError, "no argument 'mass'; did you mean 'mass_kg'?"),
+    "rotor.sweep(design, twist=['linear:-8'])": (TypeError, "no argument 'twist': it takes design, mu"),
+    "design.mu": (AttributeError, "a design has no 'mu': read design.condition.advance_ratio"),
+    "design.weight": (AttributeError, "a design has no 'weight'"),
+    "setattr(design, 'mu', 0.3)": (AttributeError, "make another, as with design.at(mu=0.3)"),
+    "setattr(design, 'preset', 'thesis')": (AttributeError, "dataclasses.replace(design, preset=…)"),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
     "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),

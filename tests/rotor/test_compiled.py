@@ -12,7 +12,7 @@ import pytest
 from numba.core import caching, config
 
 import rotor
-from rotor.compiled import compiled, compiling, tell_in_a_log
+from rotor.compiled import _watch, compiled, compiling, tell_in_a_log, why_not_kept
 
 SOURCE = """
 import numba
@@ -41,6 +41,7 @@ def module(path: Path) -> Any:
 def _kept_beside_the_source(monkeypatch: pytest.MonkeyPatch):
     """Also where `NUMBA_CACHE_DIR` names a folder for all."""
     monkeypatch.setattr(config, "CACHE_DIR", "")
+    monkeypatch.setattr(_watch, "unkept", False)
 
 
 @pytest.fixture
@@ -102,6 +103,7 @@ def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch:
     monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
     kernel = module(source).kernel
     assert (kernel(1.0), hits(kernel)) == (2.0, 0)
+    assert "NUMBA_CACHE_DIR" in why_not_kept()
 
 
 @pytest.mark.parametrize("method", ["_save_data", "_save_index"])
@@ -109,8 +111,13 @@ def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.Monkey
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
+    assert module(source).kernel(1.0) == 2.0
+    assert not why_not_kept()
+    for file in source.parent.rglob("*.nb*"):
+        file.unlink()
     monkeypatch.setattr(caching.IndexDataCacheFile, method, full)
     assert module(source).kernel(1.0) == 2.0
+    assert why_not_kept()
     monkeypatch.undo()
     assert module(source).kernel(1.0) == 2.0
 

@@ -1,34 +1,28 @@
-"""Write the table of README.md that says how far to trust the program: `python -m tests.tools.readme`.
+"""Write the section of README.md that says how far to trust the program: `python -m tests.tools.readme`.
 
-`make trust` runs it. The rule leaves no choice: every set of assets/trust.csv that has a target is in the table, as
-missed if any row of it missed, with the worst point, else the error, of the first row that decides, and its target in
-brackets. What is not modelled is what `docs/validation.md` says.
+`make trust` runs it. Every set of assets/trust.csv that has a target stands in it, with the row that decides: the first
+that missed its target, else the first that met it. Target and error are in the words of the trust page.
 """
 
 import re
 from pathlib import Path
 
-from rotor.validation.page import NOT_MODELLED
 from rotor.validation.trust import TrustRow, trust_rows
 
 README = Path(__file__).parents[2] / "README.md"
-SHORT = {
-    "xv15-hover": "XV-15 hover power",
-    "xv15-forward-15deg": "XV-15 torque, tilted",
-    "xv15-forward-0deg": "XV-15 torque, upright, C_Q/σ",
-    "pca2": "PCA-2 autogiro",
-    "knight-hefner-3": "Knight–Hefner, three blades",
-    "knight-hefner-4": "four",
-    "caradonna-tung-lift": "Caradonna–Tung, section C_l",
-    "hart2-airloads": "HART II airloads, correlation",
-    "gazelle-airloads": "Gazelle airloads, correlation",
-    "flown-power": "Gazelle power, shape",
-    "glasgow-loops": "pitching aerofoil, C_m",
-    "sc1095": "SC1095 drag",
-    "theory": "theory",
-    "grid": "grid, linear inflow",
-}
-"""What a set is called where words are few; else its name."""
+ROTORS = (
+    {"xv15-hover": "XV-15 hover power"},
+    {"xv15-forward-15deg": "XV-15 C_Q/σ, shaft 15° forward", "xv15-forward-0deg": "upright"},
+    {"knight-hefner-3": "Knight–Hefner hover, three blades", "knight-hefner-4": "four"},
+    {"pca2": "PCA-2 autogiro drag"},
+    {"caradonna-tung-lift": "Caradonna–Tung section C_l"},
+    {"hart2-airloads": "HART II airloads, correlation"},
+    {"gazelle-airloads": "Gazelle airloads, correlation"},
+    {"flown-power": "Gazelle power over speed"},
+)
+"""The sets of measured rotors by line, and what each is called there."""
+OTHERS = {"glasgow-loops": "pitching aerofoil C_m", "sc1095": "SC1095 drag", "theory": "identities", "grid": "grid"}
+"""Sets without a rotor, in the sentence below the table."""
 
 
 def judged() -> dict[str, TrustRow]:
@@ -40,31 +34,56 @@ def judged() -> dict[str, TrustRow]:
     return found
 
 
-def beside_target(row: TrustRow) -> str:
-    """The worst point, else the error, and the target in the same unit; a bound says it in one."""
-    shown, target = row.shown.rpartition("worst ")[2], re.split(r" for | everywhere| at each", row.target)[0]
-    return shown if shown == target else f"{shown} ({target})"
+def linked(names: dict[str, str]) -> str:
+    return ", ".join(f"[{words}](docs/validation/{name}.md)" for name, words in names.items())
 
 
-def table() -> str:
-    """The rows below the head of the table."""
+def as_shown(words: str) -> str:
+    """The trust page's words of a target or an error, with its minus signs."""
+    words = re.sub(r" everywhere| at each", "", words).replace("for ct ", "for C_T ").replace("for mu ", "for µ ")
+    return re.sub(r"(?<![\w.])-(?=\d)", "−", words.replace("…", " to "))
+
+
+def section() -> str:
+    """The heading, the table of measured rotors and the sentence on the other sets."""
     sets = judged()
-    cells = {
-        f"**{verdict}: {sum(row.verdict == verdict for row in sets.values())} of {len(sets)} sets**": ", ".join(
-            f"[{SHORT.get(name, name)}](docs/validation/{name}.md) {beside_target(row)}"
-            for name, row in sets.items()
-            if row.verdict == verdict
-        )
-        for verdict in ("met", "missed")
-    }
-    cells["**not modelled, or not proven**"] = "; ".join(re.split(r"[,:;.] ", one)[0] for one in NOT_MODELLED)
-    return "".join(f"| {head} | {cell} |\n" for head, cell in cells.items())
+    met = sum(row.verdict == "met" for row in sets.values())
+    lines = [
+        "| measured rotor | target | error | verdict |",
+        "| --- | --- | --- | --- |",
+        *(
+            f"| {linked(names)} | {cell(sets, names, 'target')} | {cell(sets, names, 'shown')} | "
+            f"{cell(sets, names, 'verdict')} |"
+            for names in ROTORS
+        ),
+    ]
+    others = "; ".join(
+        f"{linked({name: words})} {as_shown(sets[name].shown)} ({bound(sets[name])}{sets[name].verdict})"
+        for name, words in OTHERS.items()
+    )
+    return (
+        "## How far to trust it\n\n"
+        f"Nothing was fitted. {met} of {len(sets)} sets meet their target. [All comparisons](docs/validation.md),\n"
+        "[what is not modelled](docs/validation.md#not-modelled).\n\n"
+        + "\n".join(lines)
+        + f"\n\nSections, theory and grid: {others}.\n\n"
+    )
 
 
-def with_table(text: str) -> str:
-    """The text with its table anew."""
-    return re.sub(r"(?<=\| --- \| --- \|\n)(\| \*\*.*\n)+", lambda _: table(), text)
+def cell(sets: dict[str, TrustRow], names: dict[str, str], field: str) -> str:
+    """One cell of a line; sets that say the same are said once."""
+    return "; ".join(dict.fromkeys(as_shown(getattr(sets[name], field)) for name in names))
+
+
+def bound(row: TrustRow) -> str:
+    """The target before the verdict, where the error does not state it itself."""
+    return "" if row.shown == row.target else f"target {as_shown(row.target)}, "
+
+
+def with_section(text: str) -> str:
+    """The text with this section anew."""
+    return re.sub(r"## How far to trust it\n.*?(?=## )", lambda _: section(), text, flags=re.DOTALL)
 
 
 if __name__ == "__main__":
-    README.write_text(with_table(README.read_text(encoding="utf-8")), encoding="utf-8")
+    README.write_text(with_section(README.read_text(encoding="utf-8")), encoding="utf-8")

@@ -15,7 +15,7 @@ from tests.tools import wire
 
 Result = TypeVar("Result")
 BLADE = "/rotor/blade_0"
-"""The reference blade: its vertices tell which twist a frame shows."""
+"""The reference blade: the pitch of its rings tells which twist a frame shows."""
 BRIDGE = "frame"
 """Label of the text widget that takes the messages of the page's own scripts."""
 _CAMERA = {
@@ -31,6 +31,7 @@ _CAMERA = {
 }
 _SHOWN = r'data-explorer="{}"([^>]*)>([^<]*)'
 _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
+_FORMS = re.compile(r"rotorDisk\.form\((\{.*\})\)", re.DOTALL)
 _TOLD = re.compile(r"RX\.(keep|address)\((.*)\)", re.DOTALL)
 _CARD_KINDS = {"care": "converged"}
 """Kinds of the power card that the page marks otherwise."""
@@ -40,15 +41,7 @@ _KIND = re.compile(r'data-kind="(\w+)"')
 class Visitor:
     """One connection, from `open` to `close`."""
 
-    def __init__(
-        self,
-        seen: Callable[[bytes], None] = lambda vertices: None,
-        query: str = "",
-        kept: dict[str, str] | None = None,
-        page: str = "",
-    ) -> None:
-        self._seen = seen
-        """Called with the reference blade's vertices whenever a frame brings them."""
+    def __init__(self, query: str = "", kept: dict[str, str] | None = None, page: str = "") -> None:
         self._facts: dict[str, Any] = {"dark": False, "query": query, "kept": kept or {}, "page": page}
         """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
@@ -59,7 +52,8 @@ class Visitor:
         self.frame: dict[str, Any] = {}
         """Parts of the page's state that the frame shows."""
         self.notices: list[str] = []
-        self.blade = b""
+        self.blade: list[float] = []
+        """Pitch of each ring of the reference blade [rad]."""
         self.frames = 0
         self.bytes = 0
         self._pressed = 0
@@ -179,12 +173,6 @@ class Visitor:
                 self.widgets.setdefault(message["uuid"], {}).update(message["updates"])
             case "GuiRemoveMessage":
                 self.widgets.pop(message["uuid"], None)
-            case "MeshMessage" if message["name"] == BLADE:
-                self.blade = bytes(message["props"]["vertices"])
-                self._seen(self.blade)
-            case "SceneNodeUpdateMessage" if message["name"] == BLADE and "vertices" in message["updates"]:
-                self.blade = bytes(message["updates"]["vertices"])
-                self._seen(self.blade)
             case "LocalStorageGetItemRequestMessage":
                 value = json.dumps(self._facts) if message["key"].startswith("facts-") else None
                 await self.send(
@@ -196,6 +184,8 @@ class Visitor:
             case "RunJavascriptMessage":
                 if state := _FRAME.fullmatch(message["source"]):
                     self.frame.update(json.loads(state[1]))
+                elif forms := _FORMS.fullmatch(message["source"]):
+                    self.blade = json.loads(forms[1])[BLADE][0]
                 elif told := _TOLD.fullmatch(message["source"]):
                     self._keep(told[1], *json.loads(f"[{told[2]}]"))
             case _ if "props" in message and "uuid" in message:

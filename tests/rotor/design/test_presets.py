@@ -143,3 +143,12 @@ def test_unreadable_design_file(tmp_path: Path):
     path.write_text('{"mass": 7000}')
     with pytest.raises(ValueError, match=r"broken\.json: unknown key 'mass'; did you mean 'mass_kg'"):
         load_design(path)
+
+
+def test_the_twist_of_a_case_outlives_a_preset():
+    """The blade as built of the other preset takes the place of the blade as built alone."""
+    case = make_design(twist="linear:-8", mu=0.3)
+    assert make_design(case=case, preset="flight") == case
+    assert make_design(case=case, preset="thesis").twist == case.twist
+    built = make_design(preset="thesis")
+    assert make_design(case=built, preset="flight").twist == make_design().twist
