@@ -29,6 +29,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import viser
 import websockets.asyncio.server
 import websockets.http11
@@ -289,8 +290,11 @@ def until_called(client: viser.ClientHandle) -> None:
 
 
 def set_png(handle: viser.ImageHandle, png: bytes) -> None:
-    """Assign an encoded PNG: the public setter would encode again, in true colour, for ten times the time."""
-    handle._data = png
+    """Assign an encoded PNG: the public setter would encode again, in true colour, for ten times the time.
+
+    As an array, which viser sends as it is; bytes it would compress once more.
+    """
+    handle._data = np.frombuffer(png, dtype=np.uint8)  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def place(handle: viser.SceneNodeHandle, wxyz: Array, position: Array | None = None) -> None:

@@ -111,7 +111,7 @@ def test_an_encoded_png_is_assigned_as_it_is(server: viser.ViserServer):
     handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
     png = encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
     viser_compat.set_png(handle, png)
-    assert handle._data == png
+    assert bytes(handle._data) == png
     assert Image.open(io.BytesIO(png)).size == (4, 4)
 
 
