@@ -4,6 +4,10 @@ import ast
 import re
 from pathlib import Path
 
+import numpy as np
+
+from rotor.arrays import Array, bytes_cache
+
 ROTOR = Path(__file__).parent.parent / "rotor"
 FIXED = {
     "sizes of tables": "N_ALPHA N_MACH ALPHA_STEP MACH_STEP _STATIONS AREA_RADII LIFT_ORDER DRAG_ORDER",
@@ -28,7 +32,7 @@ def test_a_choice_of_the_solver_reaches_a_cached_function_as_an_argument():
         for file in sorted((ROTOR / folder).rglob("*.py")):
             for function in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(function, ast.FunctionDef) and any(
-                    re.search(r"\b(lru_)?cache\b", ast.unparse(one)) for one in function.decorator_list
+                    re.search(r"\b(lru_|bytes_)?cache\b", ast.unparse(one)) for one in function.decorator_list
                 ):
                     inside = (node for line in function.body for node in ast.walk(line))
                     names = {node.id for node in inside if isinstance(node, ast.Name)}
@@ -36,3 +40,24 @@ def test_a_choice_of_the_solver_reaches_a_cached_function_as_an_argument():
     assert read
     assert sorted((function, name) for function, name in read if name not in allowed) == []
     assert sorted(allowed - {name for _, name in read}) == []
+
+
+def test_large_results_are_kept_by_their_bytes():
+    made = list[int]()
+
+    @bytes_cache(3 * 800)
+    def hundred(number: int) -> Array:
+        made.append(number)
+        return np.full(100, float(number))
+
+    for number in (1, 2, 3, 1, 4, 1, 2):  # 4 pushes out 2, which was used longest ago; 2 then 3.
+        assert hundred(number)[0] == number
+    assert made == [1, 2, 3, 4, 2]
+
+    @bytes_cache(10)
+    def large(number: int) -> Array:
+        made.append(number)
+        return np.zeros(100)
+
+    assert large(7) is large(7)
+    assert made[-2:] == [2, 7]

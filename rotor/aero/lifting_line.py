@@ -417,7 +417,7 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, harmonic: Array) -> NDArr
     gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(np.square(x * x) + core)))[..., None]
     step = 2.0 * math.pi / line.azimuths
     turned = np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed[0], 1:]))
-    return gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T
+    return np.asarray(gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T, dtype=np.complex128)
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:

@@ -18,6 +18,7 @@ from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import Problem, build_problem
+from rotor.arrays import bytes_cache
 from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
@@ -178,7 +179,7 @@ def start_as_built(problem: Problem) -> Guess | None:
     return _trim_as_built(as_built(design))
 
 
-@lru_cache(maxsize=16)
+@bytes_cache(50_000_000)
 def _trim_as_built(design: Design) -> Guess | None:
     """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
     problem = with_course(build_problem(design))

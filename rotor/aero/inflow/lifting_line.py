@@ -17,7 +17,6 @@ aerofoil has no D: it does not come from the mass flow of the disk.
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, at_points, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, section
-from rotor.arrays import Array, read_only
+from rotor.arrays import Array, bytes_cache, read_only
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
@@ -107,7 +106,7 @@ def mean_share(course: DiskFlow) -> float:
     return 1.0 - 1.0 / course.mass_flow
 
 
-@lru_cache(maxsize=32)
+@bytes_cache(100_000_000)
 @read_only
 def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
     """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
