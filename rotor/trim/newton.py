@@ -171,7 +171,7 @@ def newton_together(
 def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonLimits:
     if system.nodes is not None:  # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
         finer = len(system.nodes.matrix) / 576.0
-        most, kept = max(20.0, 7.0 * finer), max(40.0, 10.0 * finer)
+        most, kept = max(20.0, 7.0 * finer), max(20.0, 10.0 * finer)
         return NewtonLimits(options.max_passes, most_steps=most, most_kept_steps=kept, kept_ratio=0.5)
     limits = NewtonLimits(options.max_passes)
     return limits if problem.inflow.load_dependent else replace(limits, most_steps_on_few=0.0)
