@@ -78,18 +78,33 @@ class PlanRegion:
 
 
 @dataclass(frozen=True)
+class PlanDisk:
+    """The field on the disk as numbers of `explorer.picture.disk_numbers`, by radius and azimuth.
+
+    `values`: 1…255 into `map`, 256 colours as hexadecimal digits; 0 where the field does not exist. `flow`: margin of
+    reverse flow, where that has no field; None: it has one. `none`: the colour there.
+    """
+
+    radii: int
+    azimuths: int
+    values: str
+    flow: str | None
+    map: str
+    none: str
+
+
+@dataclass(frozen=True)
 class PlanPart:
     """Everything that the page's plan of the disk is drawn from; lengths are in radii.
 
-    `picture`: a PNG in base 64, its edges twice `reach` long. `root`: where the blade begins. `flight`: airspeed in
+    `root`: where the blade begins. `flight`: airspeed in
     words. `around`: the axes of the angle of attack over azimuth. `mu`: advance ratio along the disk. `values`: what is
     read under the pointer, by name, once nothing moves: `psi` of the columns begins at zero, `r` of the rows goes from
     `root` to 1. `alpha_a`: angle of attack of A [°]. `held`: what the outlines beside are of while the blade is in the
     hand; None: it is not.
     """
 
-    picture: str
-    reach: float
+    disk: PlanDisk
     root: float
     blades: int
     field: str

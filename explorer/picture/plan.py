@@ -1,4 +1,4 @@
-"""The disk as a plan for the page: picture, outlines of regions, shares and values under the pointer, as JSON."""
+"""The disk as a plan for the page: field, outlines of regions, shares and values under the pointer, as JSON."""
 
 import base64
 import math
@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, number
-from explorer.parts.stage import PackedTable, PlanPart, PlanRegion
-from explorer.picture.disk_image import half_width
+from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion
+from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.picture import disk_png
 from explorer.picture.polar import Drawn, PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
 from rotor import Solution
 from rotor.arrays import Array
@@ -142,11 +142,10 @@ def plan(
     view: ViewState,
     field: Field,
     colour_range: tuple[float, float],
-    pixels: int,
     at_rest: bool,
     pinned: Solution | None = None,
 ) -> PlanPart:
-    """What the page's plan of the disk is drawn from; `pixels`: along each edge of its picture.
+    """What the page's plan of the disk is drawn from.
 
     Values under the pointer only when `at_rest`, and outlines of A where there is one.
     """
@@ -154,8 +153,7 @@ def plan(
     if at_rest and pinned is not None:
         alpha_a = _packed(FIELDS[_READ["alpha"]].sample(Drawn(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS)))
     return PlanPart(
-        picture=base64.b64encode(disk_png(solution, field, colour_range, size=pixels)).decode(),
-        reach=round(half_width(1.0, pixels), 4),
+        disk=_disk(solution, field, colour_range),
         root=round(solution.design.rotor.blade.root_cutout, 4),
         blades=solution.design.rotor.blades,
         field=field.title,
@@ -167,6 +165,14 @@ def plan(
         values=_values(solution, field) if at_rest else None,
         alpha_a=alpha_a,
     )
+
+
+def _disk(solution: Solution, field: Field, colour_range: tuple[float, float]) -> PlanDisk:
+    numbers = disk_numbers(solution, field, colour_range)
+    radii, azimuths, *_ = numbers["grid"]
+    values, flow, *_ = numbers["texts"]
+    colours = colour_map(field.colours, 256).tobytes().hex(), bytes(VOID).hex()
+    return PlanDisk(radii, azimuths, values, flow if field.void_in_reverse_flow else None, *colours)
 
 
 def around_chart(solution: Solution) -> Chart:

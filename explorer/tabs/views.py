@@ -9,7 +9,6 @@ from explorer.model.inputs import Inputs, ViewState, menu_titles
 from explorer.model.session_state import Order, SessionState
 from explorer.model.units import UNITS
 from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
-from explorer.picture import disk_image
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.lifted_blade import fit_lifted
@@ -149,8 +148,6 @@ def _after(titles: tuple[str, ...], title: str, step: int = 1) -> str:
 
 VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
 """Views of the buttons, and their titles."""
-_PLAN_PIXELS = 720
-"""Along each edge of the plan's picture once nothing moves."""
 _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
 
 
@@ -204,11 +201,10 @@ class SceneViews:
         colour_range = self._scene.held_range(field)
         wanted = solution, replace(view, azimuth_deg=0.0), colour_range, pinned, before
         if not at_rest and self._planned == wanted:
-            return  # It stands there already, finer.
+            return  # It stands there already, with its values.
         self._planned = wanted if at_rest else None
-        pixels = _PLAN_PIXELS if at_rest else disk_image.MOVING
         compared = pinned or before
-        content = plan(solution, view, field, colour_range, pixels, at_rest, None if compared is solution else compared)
+        content = plan(solution, view, field, colour_range, at_rest, None if compared is solution else compared)
         held = None if before is None else "before" if pinned is None else "A"
         self._context.bridge.set(plan=replace(content, held=held))
 

@@ -136,15 +136,17 @@
     material.customProgramCacheKey = () => 'rxDisk';
     material.needsUpdate = true;
   }
-  function unpack(text, data, channel) {
+  const numbersOf = text => unpack(text, new Uint8Array(text.length), 0, 1);
+  function unpack(text, data, channel, every = 4) {
     if (text === null) {  // Nothing is marked.
-      for (let n = channel; n < data.length; n += 4) data[n] = 255;
-      return;
+      for (let n = channel; n < data.length; n += every) data[n] = 255;
+      return data;
     }
-    for (let k = 0, n = channel, number = 0; k < text.length; k++, n += 4) {
+    for (let k = 0, n = channel, number = 0; k < text.length; k++, n += every) {
       const step = text.charCodeAt(k) - 35;
       data[n] = number = (number + (step & 1 ? -(step + 1) / 2 : step / 2)) & 255;
     }
+    return data;
   }
 
   const meshes = (name, use) => node(name)?.traverse?.(part => { if (part.isMesh && part.geometry) use(part); });
@@ -172,6 +174,33 @@
     paint(root, numbers) {
       Object.assign(diskOf(root), {numbers, changed: true});
       change();
+    },
+    // A plan without a graphics card, so many pixels wide, as the shader does it: linear between the numbers.
+    fill(canvas, {radii, azimuths, values, flow, map, none}, root, pixels) {
+      const size = Math.round(pixels), [field, back] = [values, flow].map(text => text && numbersOf(text));
+      const colours = (map + none).match(/../g).map(digits => parseInt(digits, 16)), VOID = 256;
+      const picture = new ImageData(size, size), {data} = picture;
+      canvas.width = canvas.height = size;
+      for (let row = 0, n = 0; row < size; row++) for (let column = 0; column < size; column++, n += 4) {
+        const x = (2 * column + 1) / size - 1, y = (2 * row + 1) / size - 1, r = Math.hypot(x, y);
+        const covered = Math.min((1 - r) * size / 2 + .5, (r - root) * size / 2 + .5, 1);
+        if (covered <= 0) continue;
+        const along = Math.min(Math.max((r - root) / (1 - root), 0), 1) * (radii - 1);
+        const around = (Math.atan2(x, y) / (2 * Math.PI) + 1) % 1 * azimuths;
+        const i = Math.min(Math.floor(along), radii - 2), j = Math.floor(around), k = (j + 1) % azimuths;
+        const u = along - i, v = around - j, corners = [i * azimuths + j, i * azimuths + k];
+        let sum = 0, present = 0, margin = 0;
+        for (let corner = 0; corner < 4; corner++) {
+          const at = corners[corner & 1] + (corner >> 1) * azimuths;
+          const part = (corner & 1 ? v : 1 - v) * (corner >> 1 ? u : 1 - u);
+          if (field[at]) { sum += part * field[at]; present += part; }
+          if (back) margin += part * (back[at] - 128);
+        }
+        const shade = 3 * (present < .5 || margin < 0 ? VOID : Math.round((sum / present - 1) / 254 * 255));
+        for (let channel = 0; channel < 3; channel++) data[n + channel] = colours[shade + channel];
+        data[n + 3] = 255 * covered;
+      }
+      canvas.getContext('2d').putImageData(picture, 0, 0);
     },
     // What is drawn, as numbers that are other than before when it changes.
     drawn(root) { return disks.get(root)?.uniforms.rxNumbers?.value; },

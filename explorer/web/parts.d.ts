@@ -357,8 +357,7 @@ interface RxNoticePart {
 }
 
 interface RxPlanPart {
-  picture: string;
-  reach: number;
+  disk: RxPlanDisk;
   root: number;
   blades: number;
   field: string;
@@ -370,6 +369,15 @@ interface RxPlanPart {
   values: Record<string, RxPackedTable> | null;
   alpha_a: RxPackedTable | null;
   held: string | null;
+}
+
+interface RxPlanDisk {
+  radii: number;
+  azimuths: number;
+  values: string;
+  flow: string | null;
+  map: string;
+  none: string;
 }
 
 interface RxPlanRegion {

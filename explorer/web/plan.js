@@ -1,11 +1,12 @@
 // @ts-check
-// The disk as a plan: picture, crisp outlines, labels outside the rim, values under the pointer, pinned cards, and the
+// The disk as a plan: field, crisp outlines, labels outside the rim, values under the pointer, pinned cards, and the
 // angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
 (() => {
   const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, closest, soon} = Common;
   const {part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
   const RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
+  const MOVING = 320;  // [px] Along the edge of the field while something moves.
   const COLOURS = {
     stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)',
   };
@@ -90,7 +91,7 @@
       `<text x="${from + 1.5 * percent}" y="${low + 30}" text-anchor="middle">${text(word)}</text>`);
     const shares = regions.map(({name, title, words}, k) => `<text x="20" y="${low + 18 * k}">
       <tspan style="fill:${COLOURS[name]};font-weight:640">${text(title)}</tspan><tspan
-        dx="7">${text(words)}</tspan></text>`);
+        dx="7">${text(words.split(' · ')[0])}</tspan></text>`);  // Beside the colours there is room for no more.
     return `<linearGradient id="rxk">${stops.join('')}</linearGradient>
       <text x="${from + 75}" y="${low}" text-anchor="middle">${text(field)}${unit ? ` [${text(unit)}]` : ''}</text>
       <rect x="${from}" y="${low + 7}" width="150" height="9" fill="url(#rxk)"/>${numbers.join('')}
@@ -174,7 +175,10 @@
     }
     place.toggleAttribute('data-moving', !plan.values);
     layout = arrange();
-    const {x, y, radius, width, height} = layout, half = radius * plan.reach, svg = place.querySelector('svg');
+    const {x, y, radius, width, height} = layout, svg = place.querySelector('svg'), edge = 2 * radius;
+    const canvas = place.querySelector('canvas'), sharp = Math.min(devicePixelRatio, 2);
+    canvas.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
+    window.rotorDisk.fill(canvas, plan.disk, plan.root, plan.values ? edge * sharp : Math.min(edge, MOVING));
     const regions = plan.regions.filter(({lines}) => lines.length), labels = placeLabels(regions);
     const before = plan.regions.flatMap(region => region.before).map(line =>
       `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`);
@@ -182,9 +186,8 @@
       <path d="${path(line)}" stroke="var(--rx-paper)" stroke-width="4" opacity=".75"/>
       <path d="${path(line)}" stroke="${COLOURS[name]}" stroke-width="2"
         stroke-dasharray="${DASHES[name] ?? 'none'}"/>`));
-    svg.innerHTML = `<image x="${x - half}" y="${y - half}" width="${2 * half}" height="${2 * half}"
-        href="data:image/png;base64,${plan.picture}"/>
-      ${drawRim()}${plan.held && !layout.alone ? drawKey(regions) : ''}<g data-blades></g>${before.join('')}
+    svg.innerHTML = `${drawRim()}${plan.held && !layout.alone ? drawKey(regions) : ''}
+      <g data-blades></g>${before.join('')}
       <g fill="none" stroke-linejoin="round">${outlines.join('')}${labels.map(drawTie).join('')}</g>
       <g data-tied></g><g data-cursor></g>`;
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);

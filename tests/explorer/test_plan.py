@@ -7,7 +7,6 @@ import pytest
 
 from explorer.model.inputs import ViewState
 from explorer.parts.stage import PackedTable
-from explorer.picture.disk_image import MOVING
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
 from explorer.picture.polar import Drawn, polar_grid
@@ -33,7 +32,7 @@ def table(packed: PackedTable | None) -> Array:
 
 def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
     shares = region_shares(solution)
-    (stalled, thrust), words = shares["stall"], plan(solution, ViewState(), ALPHA, (0.0, 9.0), MOVING, False).regions
+    (stalled, thrust), words = shares["stall"], plan(solution, ViewState(), ALPHA, (0.0, 9.0), False).regions
     assert words[0].words.startswith(f"{100.0 * solution.stalled_area:.1f} % area"), "as on the card"
     assert len(words[0].lines) > 0
     assert shares["reverse_flow"][0] == pytest.approx(solution.reverse_flow_area, abs=0.001)
@@ -42,7 +41,7 @@ def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Soluti
 
 
 def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
-    shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), MOVING, at_rest=True)
+    shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), at_rest=True)
     assert shown.values is not None
     grid = polar_grid(solution.disk, 40, 120)
     for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
@@ -59,14 +58,14 @@ def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
 
 
 def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
-    moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), MOVING, at_rest=False)
+    moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), at_rest=False)
     assert moving.values is None
     assert "stall" not in {one.name for one in moving.regions}
 
 
 def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     other = solve(make_design(mu=0.3))
-    shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), MOVING, True, other)
+    shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), True, other)
     reverse = next(one for one in shown.regions if one.name == "reverse_flow")
     own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
