@@ -21,8 +21,6 @@ from rotor.compiled import compiled
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
-MOVING = 368
-"""Pixels along each edge of the small picture beside the blade in the hand, while it moves."""
 SIZE = 512
 """Pixels along each edge of a picture for export, where nothing else is asked for."""
 LARGEST = 2400
@@ -73,12 +71,7 @@ def half_width(radius: float, size: int = SIZE) -> float:
 
 def grid_size(size: int) -> tuple[int, int]:
     """Radii and azimuths of the polar grid behind a picture of `size` pixels: about one pixel each."""
-    return (104, 352) if size <= MOVING else (round(0.34 * size), round(1.5 * size))
-
-
-@lru_cache(maxsize=2)
-def _moving_raster(inner: float) -> Raster:
-    return _raster(inner, MOVING, *grid_size(MOVING))
+    return round(0.34 * size), round(1.5 * size)
 
 
 def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
@@ -123,9 +116,7 @@ def indices(
 
     `regions`: a `MarkedRegion` for each polar point, drawn over the colours.
     """
-    inner, kept = float(grid.r[0]), size == MOVING and values.shape == grid_size(size)
-    # The small one is kept for the next frame; a large one weighs more than it costs to make again.
-    raster = _moving_raster(inner) if kept else _raster(inner, size, *values.shape)
+    raster = _raster(float(grid.r[0]), size, *values.shape)
     codes = levels_of(np.ascontiguousarray(values), low, high, _LEVELS)
     if void is not None:
         np.copyto(codes, _VOID, where=void)

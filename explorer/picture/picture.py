@@ -15,8 +15,9 @@ from explorer.picture import disk_image
 from explorer.picture.airframe import SHAFT_FORWARD, size
 from explorer.picture.blade_mesh import BladeForm, blade_shape
 from explorer.picture.disk_image import encode_png
+from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import NO_MARKS, Drawn, Marks, polar_grid, region_codes
+from explorer.picture.polar import ALL_MARKS, NO_MARKS, Drawn, Marks, polar_grid, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw
@@ -224,7 +225,9 @@ def warm() -> None:
     """Compile and load everything that the first picture would wait for: fields are sampled in either precision."""
     solution = solve(make_design(mu=0.2))
     for field in (FIELDS["Angle of attack"], FIELDS["Mach number"]):
-        page_disk_png(solution, field, (field.low, field.high), ViewState(), disk_image.MOVING)
+        disk_numbers(solution, field, (field.low, field.high), ALL_MARKS)
+    field = FIELDS["Mach number"]
+    page_disk_png(solution, field, (field.low, field.high), ViewState(), disk_image.SIZE)
 
 
 def disk_drop(rotor: Rotor) -> float:
