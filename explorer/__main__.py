@@ -113,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         type=_sessions,
         default=SESSIONS,
-        help=f"pages at work at once (default {SESSIONS}); further pages say so and try again",
+        help=f"largest number of active pages (default {SESSIONS}); others wait for a place",
     )
     return parser
 

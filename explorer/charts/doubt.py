@@ -85,7 +85,7 @@ def _cause(each: TwistRange, units: Units) -> str:
         case "flat":
             return "power within 0.1 %"
         case "doubt":
-            return "by what is uncertain"
+            return "with uncertain inputs"
         case "wake":
             return "annuli … lifting line"
         case _:

@@ -288,7 +288,7 @@ def verdict_sentence(verdict: Verdict) -> str:
     text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
     if verdict.net_saving < SMALL:
         noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
-        return f"{text}: not with this {noun}{_sure(verdict)}."
+        return f"{text}, so this {noun} does not pay{_sure(verdict)}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
     return f"{text}: {kw(verdict.net_saving)} saved{_sure(verdict)}{but}."
 
@@ -303,7 +303,7 @@ def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
     sentences, saved = [_reach(verdict), _savings(verdict)], verdict.fuel_saving
     if saved is not None:
-        sentences.append(f"Net {abs(3600.0 * saved):.1f} kg of fuel an hour {'less' if saved >= 0.0 else 'more'}.")
+        sentences.append(f"Net: {abs(3600.0 * saved):.1f} kg/h {'less' if saved >= 0.0 else 'more'} fuel.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")
     return " ".join(sentences)

@@ -256,7 +256,7 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         if sure := doubts.get(parameter.name):
             low, high = parameter.shown(sure.low), parameter.shown(sure.high)
             causes = ", ".join(f"{words} {parameter.shown(by):+.{digits}f}" for words, by in sure.causes)
-            line += f", {low:.{digits}f} to {high:.{digits}f} by what is uncertain ({causes})"
+            line += f", {low:.{digits}f} to {high:.{digits}f} with uncertain inputs ({causes})"
         for line_rate in _in_hover(beside, optimum, k):
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:.{digits}f} to {high:.{digits}f} between annuli and a lifting line"

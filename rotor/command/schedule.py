@@ -147,7 +147,9 @@ def report(schedule: Schedule) -> str:
     for cell in schedule.cells:
         if cell.condition != before:
             before = cell.condition
-            lines.append(f"{_where(schedule, cell.condition)}: {_power(cell.optimum.baseline_power)} as it is")
+            lines.append(
+                f"{_where(schedule, cell.condition)}: {_power(cell.optimum.baseline_power)} with the present twist"
+            )
         lines.append(_line(cell, max(len(concept.name) for concept in schedule.plan.concepts)))
     if any(cell.optimum.best is not None and cell.optimum.best.active for cell in schedule.cells):
         lines.append("*: at a bound or limit that holds it, so the least power lies beyond")

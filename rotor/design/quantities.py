@@ -151,16 +151,16 @@ _CONDITION = (
         "sound. | section 2",
     ),
     Quantity(
-        "isa_offset_c", "number", "temperature less that of the standard atmosphere at this altitude (default 0)",
+        "isa_offset_c", "number", "temperature above the standard atmosphere at this altitude (default 0)",
         unit="°C", place="condition.isa_offset", what="ISA offset", short="ISA +", below="ISA −",
         plain="a standard day", low=-60.0, high=60.0, default=0.0, examples=(10, 0, 20), key="isa_offset_c",
         word="isa", section="fixed", input="isa_offset_c", in_place="density_kg_m3",
         slider=Slider("ISA offset [°C]", -40.0, 40.0, 1.0, 10.0, "/10 °C"),
-        hint="Temperature less that of the standard atmosphere at this pressure altitude: density, speed of sound and "
+        hint="Temperature above the standard atmosphere at this pressure altitude: density, speed of sound and "
         "viscosity follow; the power of the engines does not. | section 2",
     ),
     Quantity(
-        "climb_m_s", "number", "rate of climb, negative in descent; on a stand wind from above; preset flight",
+        "climb_m_s", "number", "rate of climb, negative in descent; on a test stand: wind from above; preset flight",
         unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
         plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
@@ -190,7 +190,7 @@ _CONDITION = (
 )  # fmt: skip
 
 _BLADE = (
-    Quantity("case", "object", "design, as `load_design` reads one from a file, that the other arguments change"),
+    Quantity("case", "object", "design to start from, as from `load_design`; the other arguments change it"),
     Quantity(
         "rotor", "text", "name of a rotor, or what `load_rotor` reads from a rotor file (docs/rotor_file.md)",
         choices=(*SHIPPED_ROTORS, *MEASURED_ROTORS), key="rotor", section="fixed", written=True, input="rotor",
@@ -209,7 +209,7 @@ _BLADE = (
         key="twist_per_rev", section="fixed",
     ),
     Quantity(
-        "pitch_per_rev", "text", "the same of the root pitch, 2 to 8/rev; both rest in hover",
+        "pitch_per_rev", "text", "harmonic root pitch in the same form, 2 to 8/rev; both are off in hover",
         key="pitch_per_rev", section="fixed",
     ),
 )  # fmt: skip

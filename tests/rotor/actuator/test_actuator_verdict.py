@@ -173,7 +173,7 @@ def test_fuel_by_hand():
     slopes = [127.0 / 358.5 * pound / horse, 298.7 / 771.9 * pound / horse]
     assert judged.fuel_saving is not None
     assert slopes[0] < 3600.0 * judged.fuel_saving / judged.net_saving < slopes[1] * 1.000001
-    assert f"{abs(3600.0 * judged.fuel_saving):.1f} kg of fuel" in verdict_details(judged)
+    assert f"{abs(3600.0 * judged.fuel_saving):.1f} kg/h" in verdict_details(judged)
 
 
 def test_a_class_of_engines_against_one_of_them():
@@ -204,11 +204,11 @@ def without_band(sentence: str) -> str:
 @pytest.mark.parametrize(
     ("choice", "ending", "details"),
     [
-        ({"kind": "retrofit"}, "not with this ply.", ["(2 plies, retrofit) cannot supply", "temperature"]),
-        ({"share": 0.3}, "not with this ply.", ["can supply"]),  # A softer blade: optima lie 4.6° apart.
-        ({"id": "extension_twist"}, "not with this laminate.", ["rotor-speed"]),
-        ({"id": "SMA_tube"}, "not with this tube.", ["(2 tubes, new blade"]),
-        ({"id": "SMA_tube", "concept": "two-segment"}, "not with this tube.", ["(2 tubes a segment, new blade"]),
+        ({"kind": "retrofit"}, "this ply does not pay.", ["(2 plies, retrofit) cannot supply", "temperature"]),
+        ({"share": 0.3}, "this ply does not pay.", ["can supply"]),  # A softer blade: optima lie 4.6° apart.
+        ({"id": "extension_twist"}, "this laminate does not pay.", ["rotor-speed"]),
+        ({"id": "SMA_tube"}, "this tube does not pay.", ["(2 tubes, new blade"]),
+        ({"id": "SMA_tube", "concept": "two-segment"}, "this tube does not pay.", ["(2 tubes a segment, new blade"]),
     ],
 )
 def test_the_sentence_agrees_with_the_numbers(choice: dict[str, Any], ending: str, details: list[str]):
@@ -222,7 +222,7 @@ def test_the_sentence_is_one_line_of_numbers_that_add_up():
     judged = verdict()
     said = without_band(verdict_sentence(judged))
     gains, costs = (float(number) for number in re.findall(r"([0-9.]+) kW", said))
-    assert said == f"Saves {gains} kW over the best fixed blade, costs {costs} kW: not with this ply."
+    assert said == f"Saves {gains} kW over the best fixed blade, costs {costs} kW, so this ply does not pay."
     assert_allclose(1e3 * (gains - costs), judged.net_saving, atol=101.0)
     buildable = tuple(replace(limit, ok=True) for limit in judged.limits)
     first, second = judged.loaded_powers
@@ -232,7 +232,7 @@ def test_the_sentence_is_one_line_of_numbers_that_add_up():
     stopped = tuple(replace(limit, ok=limit.name != "temperature") for limit in judged.limits)
     assert verdict_sentence(replace(good, limits=stopped)).endswith("but it cannot be built (temperature).")
     even = replace(good, loaded_powers=(first + 2500.0, second + 2500.0))
-    assert without_band(verdict_sentence(even)).endswith("not with this ply.")
+    assert without_band(verdict_sentence(even)).endswith("this ply does not pay.")
 
 
 def test_limit_for_the_optimiser():

@@ -197,8 +197,8 @@ class TestLossesAndFuselage:
 
     def test_a_lifting_line_keeps_its_tips_and_roots(self):
         design = small(0.2)
-        assert no_effect(design, "tip_loss") == "tip loss is part of this wake"
-        assert no_effect(design, "hub_loss") == "root loss is part of this wake"
+        assert no_effect(design, "tip_loss") == "tip loss is included in the wake"
+        assert no_effect(design, "hub_loss") == "root loss is included in the wake"
         on, off = (solve(with_switches(design, names)).require().power for names in ((), ("tip_loss", "hub_loss")))
         assert_allclose(off.total, on.total, rtol=1e-11)
 
