@@ -59,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
             also["power_band_w"] = [end.power.total for end in band]
         if args.doubt:
             also["doubt"] = sure and sure.record()
-        print(json.dumps({**solution.to_dict(), **_vibration(solution), **also}, indent=2, allow_nan=False))
+        print(json.dumps({**solution.to_dict(), **also, **_vibration(solution)}, indent=2, allow_nan=False))
     else:
         print(report(solution))
         if sure is not None:
