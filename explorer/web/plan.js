@@ -15,6 +15,9 @@
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 2, ''], ['margin', 'To stall', 1, '°']];
   const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
   // `pointer` and each of `pins` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
+  // In a tree of its own: the first canvas of the page is the scene.
+  const shown = place.querySelector('[data-colours]');
+  shown.attachShadow({mode: 'open'}).innerHTML = '<canvas style="width: 100%; height: 100%"></canvas>';
   let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
 
   const unpack = ({low, step, data}) => {
@@ -176,9 +179,10 @@
     place.toggleAttribute('data-moving', !plan.values);
     layout = arrange();
     const {x, y, radius, width, height} = layout, svg = place.querySelector('svg'), edge = 2 * radius;
-    const canvas = place.querySelector('canvas'), sharp = Math.min(devicePixelRatio, 2);
-    canvas.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
-    window.rotorDisk.fill(canvas, plan.disk, plan.root, plan.values ? edge * sharp : Math.min(edge, MOVING));
+    const sharp = Math.min(devicePixelRatio, 2);
+    shown.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
+    window.rotorDisk.fill(shown.shadowRoot.firstElementChild, plan.disk, plan.root,
+      plan.values ? edge * sharp : Math.min(edge, MOVING));
     const regions = plan.regions.filter(({lines}) => lines.length), labels = placeLabels(regions);
     const before = plan.regions.flatMap(region => region.before).map(line =>
       `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`);

@@ -88,7 +88,7 @@ def test_the_plan_has_the_colours_that_files_have(browser: "Browser", app: App):
     places = [(r, math.radians(psi)) for r in (0.45, 0.7, 0.93) for psi in (40.0, 100.0, 200.0, 320.0)]
     seen = page.evaluate(
         """places => {
-            const canvas = document.querySelector('.rxf-plan > canvas'), half = canvas.width / 2;
+            const canvas = document.querySelector('[data-colours]').shadowRoot.firstChild, half = canvas.width / 2;
             const pixel = ([x, y]) => canvas.getContext('2d').getImageData(half + half * x, half + half * y, 1, 1);
             return places.map(place => [...pixel(place).data]);
         }""",
