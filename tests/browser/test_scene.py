@@ -88,7 +88,8 @@ EDGE = "() => Number(RX.part('rubber').querySelector('circle').getAttribute('cy'
 # Boxes of the live disk, of the blade with its words, and of the card of power.
 BOXES = """() => {
     const blade = RX.part('rubber').querySelectorAll('path[fill]:not([fill=none])');
-    return [RX.part('plan').querySelector('image'), ...blade, document.querySelector('.rxf-power')].map(one => {
+    const disk = RX.part('plan').querySelector('[data-colours]');
+    return [disk, ...blade, document.querySelector('.rxf-power')].map(one => {
         const box = one.getBoundingClientRect();
         return [box.left, box.top, box.right, box.bottom];
     });
