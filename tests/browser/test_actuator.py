@@ -143,8 +143,7 @@ def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched
     stops.click()
     expect(stops).to_have_attribute("aria-pressed", "true")
     assert twist() == frozen
-    box = bar.bounding_box()
-    assert box is not None
+    box = watched.at_rest(bar.bounding_box)
     x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
     page.mouse.move(x, y)
     page.mouse.down()
@@ -169,9 +168,8 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
     dot = page.locator("[data-supposed]")
     expect(dot).to_have_attribute("data-kind", "loss", timeout=VERDICT)
-    box, chart = dot.bounding_box(), page.locator(".rxf-earns svg").bounding_box()
-    assert box is not None
-    assert chart is not None
+    box = watched.at_rest(dot.bounding_box)  # The chart is drawn anew with its dot.
+    chart = watched.at_rest(page.locator(".rxf-earns svg").bounding_box)
     page.mouse.move(box["x"] + 10.0, box["y"] + 10.0)
     page.mouse.down()
     page.mouse.move(chart["x"] + 0.6 * chart["width"], chart["y"] + 0.66 * chart["height"], steps=8)
