@@ -16,7 +16,10 @@ Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning"
 
 @dataclass(frozen=True)
 class TrimState:
-    """The trim, all angles in radians. θ = θ0 + θ1c cos ψ + θ1s sin ψ, β likewise."""
+    """Controls, flapping and mean inflow of a trim, angles in radians.
+
+    θ = θ0 + θ1c cos ψ + θ1s sin ψ, and β likewise.
+    """
 
     collective: float = 0.0
     """θ0, the pitch at 0.75 R."""

@@ -93,11 +93,11 @@ def power_of_air(s: Structure) -> tuple[Sum, Sum, Sum]:
 
 
 class Freedom(ABC):
-    """Degrees of freedom of the blade beside rigid flapping: torsion, bending, and whatever is added to these.
+    """Degrees of freedom of the blade beyond rigid flapping, such as torsion and bending; subclass it to add others.
 
-    A freedom is a value: its class and its fields, which can be hashed, tell its columns and equations; only `numbers`
-    and `shapes` differ from one design to another. Lengths are over R, time is ψ, forces those of all blades over
-    ρA(ΩR)².
+    A freedom is a value. Its class and its fields, which must be hashable, determine its columns and equations; only
+    `numbers` and `shapes` depend on the design. Lengths are over R, time is ψ, and forces are those of all blades
+    over ρA(ΩR)².
     """
 
     states: tuple[Hashable, ...]
@@ -120,14 +120,14 @@ class Freedom(ABC):
         """
 
     def shapes(self, problem: Problem) -> dict[Shape, Array]:
-        """Functions along the blade by name, (elements,), beside "one", "r" and "arm"; none."""
+        """Functions along the blade by name, (elements,), in addition to "one", "r" and "arm"; by default none."""
         del problem
         return {}
 
     def power(self, s: Structure) -> list[Addend]:
-        """What its dampers take of the shaft's power, over ρA(ΩR)³; none.
+        """Shaft power that its dampers dissipate, over ρA(ΩR)³; by default none.
 
-        The air gives the motion of all blades just this: a solution that says otherwise is refused.
+        It must equal the power that the air puts into the blades' motion: `solve` checks this and refuses otherwise.
         """
         del s
         return []

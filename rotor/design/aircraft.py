@@ -345,7 +345,10 @@ class ControlRange:
 
 @dataclass(frozen=True, repr=False)
 class Aircraft:
-    """One aircraft, without arrays, so that it can be compared, hashed and sent to other processes."""
+    """An aircraft as far as its main rotor needs it: rotor, drag area, mass, tail rotor and engines.
+
+    It holds no arrays, so it can be compared, hashed and sent to other processes.
+    """
 
     name: str
     """Display name, for example UH-60A."""

@@ -208,7 +208,7 @@ class Blade:
 
 @dataclass(frozen=True, repr=False)
 class Rotor:
-    """A main rotor: blades, hub and speed."""
+    """A main rotor: its blades, its hub and the speed at which it turns."""
 
     name: str
     blade: Blade

@@ -61,7 +61,7 @@ BEYOND_DOCUMENT = (
 
 @dataclass(frozen=True)
 class Models:
-    """The models of a computation. A preset is a value of this type."""
+    """The choice of models. A preset is a value of this type."""
 
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
@@ -142,7 +142,10 @@ class Models:
 
 @dataclass(frozen=True, repr=False)
 class Design:
-    """A rotor, its twist, the flight condition and the models."""
+    """Everything that determines a result: rotor, twist, flight condition and models.
+
+    A design never changes. `make_design` makes one, `at` and `with_twist` return changed copies.
+    """
 
     preset: str
     aircraft: Aircraft

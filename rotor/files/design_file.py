@@ -100,7 +100,10 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file; ValueError with one sentence when it cannot be used."""
+    """Read a design file, as `Design.save`, `Solution.save` and the page write it.
+
+    Raises ValueError when it cannot be used; the sentence names the file, the key and the remedy.
+    """
     name, remedy = shorten(str(path)), "give the path of a JSON design file"
     content = read_bytes(path, "design file", remedy)
     with refusing(f"design file {name!r}", remedy):

@@ -258,10 +258,18 @@ def find_aircraft(name: str, *, allow_outside: bool = False) -> Aircraft:
 
 
 def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
-    """The aircraft of a rotor file on disk, with the section files in its folder and the folders in that.
+    """Read a rotor file and the section files that it names.
 
-    `allow_outside`: it may name files anywhere. A rotor file may come from others, and what it names is kept in saved
-    designs. Raises ValueError with one sentence that names file, line and remedy.
+    Parameters:
+        path: the rotor file (docs/rotor_file.md).
+        allow_outside: whether it may name files outside its own folder. A file from somebody else should not: saved
+            designs contain what it names.
+
+    Returns:
+        The aircraft, for `make_design(rotor=…)`.
+
+    Raises:
+        ValueError: a file cannot be used; the sentence names file, line and remedy.
     """
     path = Path(path)
     with refusing(f"rotor file {shorten(path.name)!r}", "check its values, see docs/rotor_file.md"):

@@ -53,10 +53,10 @@ def even_change_limit(reference: TwistLaw, tip: float, root: float = 0.0) -> Cha
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a search; by default only the bounds of the concept.
+    """Limits of a search in addition to the bounds of its concept.
 
     In degrees and per cent: `Limits(rate_deg=(-20, 0), stalled_percent=2, change_deg=4, index_percent=3)`.
-    Raises TypeError or ValueError with one sentence for what cannot be used.
+    Raises TypeError or ValueError for a limit that cannot be used.
     """
 
     bounds: tuple[tuple[str, float, float], ...] = ()

@@ -120,11 +120,20 @@ def with_harmonics(design: Design, harmonics: tuple[Harmonic, ...]) -> Design:
 
 
 def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix:
-    """The response of hub loads and power of a design to n/rev twist, trimmed; about a second.
+    """How hub loads and power of a trimmed design respond to twist at n per revolution.
 
-    `T.response("2:1:240,3:0.5:60")` then answers at once: loads, index and power. What active twist the design has
-    does not count but for its shape along the span. Raises ValueError with one sentence for a design without hub loads,
-    RuntimeError with the solution's sentence for one that does not trim.
+    It takes about a second; `response("2:1:240,3:0.5:60")` of the result then gives loads, index and power at once.
+
+    Parameters:
+        design: a design with hub loads. Only the shape of its active twist along the span is used.
+        harmonics: the n of the twist, 2 to 8.
+
+    Returns:
+        Slopes and second derivatives of loads [N, N m] and power [W] by the amplitudes [rad].
+
+    Raises:
+        ValueError: the design has no hub loads, or a harmonic cannot be used.
+        RuntimeError: the design does not trim.
     """
     require_design(design)
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
@@ -235,15 +244,24 @@ def vibration_front(
     reach_deg: float = 1.0,
     points: int = 5,
 ) -> VibrationFront:
-    """Least power at one limit of the vibration index after another, from least power to least index; some seconds.
+    """The trade-off between power and vibration: the least power at each of several limits of the vibration index.
 
-    concept: of the static twist to vary, as for `rotor.optimise`; None: active twist at rest is varied instead.
-    harmonics, reach_deg: of the active twist, and its largest amplitude at each.
-    points: how many, 2 to 50.
+    Every point is trimmed; it takes several seconds. Points of active twist are found with `t_matrix`, those of a
+    concept by searches.
 
-    Every point is trimmed. Points of active twist are found with `t_matrix`, whose error there is stated; those of
-    static twist by searches. Raises ValueError with one sentence for bad input and for a design without hub loads,
-    RuntimeError where the start does not trim.
+    Parameters:
+        design: a design with hub loads.
+        concept: the static twist to vary, as for `rotor.optimise`; None: active twist is varied instead.
+        harmonics: the n per revolution of the active twist.
+        reach_deg: its largest amplitude at each harmonic [°], up to 5.
+        points: number of points, 2 to 50.
+
+    Returns:
+        The points from least power to least index. Each point of active twist states the error of its preview.
+
+    Raises:
+        ValueError: an argument cannot be used, or the design has no hub loads.
+        RuntimeError: the design does not trim.
     """
     require_design(design)
     if not 2 <= points <= 50:

@@ -166,11 +166,11 @@ def envelope(
     The load factor is that of a steady turn: lift n W, and the propulsive force of straight flight at that speed.
 
     Parameters:
-        design: what flies. Its load factor, mass and altitude are those of the top speed, its speed is that of the
-            ceiling.
+        design: the design that flies. The top speed is that of its load factor, mass and altitude; the ceiling is
+            that of its speed.
         mu: advance ratios.
-        moving: at each speed the linear twist of least power at the load factor of the design, between speeds by
-            straight lines, in place of its twist; what an actuator without limits would fly.
+        moving: whether the twist moves: at each speed the linear twist of least power replaces the design's own, as
+            with an actuator without limits. It is interpolated linearly between speeds.
         tell: called with each point as it is found.
 
     Returns:

@@ -44,7 +44,7 @@ SHARED_COLUMNS = ("rotor", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev", 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SweepTable:
-    """The solutions of a sweep in order. It iterates over them, and shows them as rows of `columns`."""
+    """The solutions of a sweep in order, as a sequence of `Solution` and as a table with `columns`."""
 
     solutions: tuple[Solution, ...]
     over: str = ""
@@ -251,8 +251,8 @@ def schedule(
 
 
 def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
-    """Draw power over what was swept: the parts for one design, or the totals of several; of one table that is relative
-    to one of its designs the changes. Returns the matplotlib axes.
+    """Plot power over the swept quantity: its parts for one design, the totals for several, or the change in power for
+    a table that is relative to one of its designs. Returns the matplotlib axes.
 
     Raises TypeError for anything but sweeps.
     """

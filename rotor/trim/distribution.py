@@ -18,7 +18,7 @@ _SHOWN = (0.25, 0.4, 0.55, 0.7, 0.8, 0.87, 0.92, 0.96, 0.99)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Distribution(ShortRepr):
-    """What one blade carries and meets; arrays are (elements, azimuths) unless said otherwise."""
+    """Loads and flow of one blade; arrays are (elements, azimuths) unless stated otherwise."""
 
     r: Array
     """Element centres y/R, (elements,)."""

@@ -152,15 +152,17 @@ def decimals(band: float) -> int:
 
 
 def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = None, *, models: bool = False) -> Doubt:
-    """How sure the power of a design is, and how much surer what it saves.
+    """The uncertainty of a design's power, and that of its difference from another design.
+
+    Most causes act on both designs alike, so the difference is far more certain than the power.
 
     Parameters:
-        solution: a trim, or its `rotor.trim.Analysis` where more is asked of it.
-        against: the trim of another twist, or of any other design; by default there is no change to speak of.
-        models: whether to solve with other models as well, one new trim each.
+        solution: a converged trim, or its `rotor.trim.Analysis`, which keeps what this computes.
+        against: the trim of another twist or of any other design; by default there is no difference.
+        models: whether to solve with the other models too, one new trim each.
 
     Returns:
-        The bands of the power and of its change, with what they consist of.
+        Bands [W] of the power and of the difference, each with its parts.
 
     Raises:
         RuntimeError: a solution is not converged, or is of a free rotor, which takes no power.

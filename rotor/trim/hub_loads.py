@@ -60,12 +60,21 @@ Solve = Callable[[Design, Solution | Guess | None], Analysis]
 
 
 def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool = True) -> HubLoads | None:
-    """Vibratory loads on the hub, in some tenths of a second; None where `trim.why_no_hub_loads` says why.
+    """Vibratory loads of all blades on the hub at N_b per revolution.
 
-    band: whether to solve with other inflow models as well, for the band.
+    It takes a few tenths of a second. A design whose blades do not bend is solved again with blades that bend.
 
-    A design whose blades do not bend is solved once more with blades that do; None where that does not trim.
-    Raises RuntimeError with the solution's sentence when it is not converged.
+    Parameters:
+        given: a converged trim, or its `rotor.trim.Analysis`.
+        solve: how the further designs are trimmed.
+        band: whether to solve with the other inflow models too, for the range of the index.
+
+    Returns:
+        The loads, or None for a design that has none, or whose bending blade does not trim;
+        `rotor.trim.why_no_hub_loads` says why.
+
+    Raises:
+        RuntimeError: the trim did not converge.
     """
     trim = analysed(given)
     design = trim.solution.require().design

@@ -37,21 +37,21 @@ from rotor.engine.waves import wave_grid
 
 @dataclass(frozen=True)
 class PowerBudget:
-    """Power by parts [W]."""
+    """Power by parts [W]. `total` is the sum of `main_rotor` and `tail`."""
 
     induced: float
-    """Σ λ_i dF_z"""
+    """Σ λ_i dF_z: the work of the induced velocity."""
     profile: float
-    """Σ U dD, dissipation"""
+    """Σ U dD: what the drag of the sections dissipates."""
     parasite: float
-    """D·V, in a climb with the power that lifts the download"""
+    """D·V of the airframe; in a climb also the power that lifts the download."""
     tail: float
     shaft: float
     """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
     climb: float = 0.0
-    """W V_c, negative in descent"""
+    """W V_c, negative in descent."""
     damping: float = 0.0
-    """What the dampers of `Solution.freedoms` take."""
+    """What the dampers of `Solution.freedoms` dissipate."""
 
     @property
     def main_rotor(self) -> float:

@@ -172,13 +172,21 @@ def stability(
     with_margins: bool = True,
     harmonics: int = HARMONICS,
 ) -> Stability:
-    """Modes and margins of the blade of a design, of a solution, or of its `rotor.trim.Analysis`.
+    """Modes of the trimmed blade, and its margins to flutter and divergence.
 
-    offset: how far the centre of gravity is moved aft, all along the lifting blade [chords]. harmonics: of Hill's
-    matrix.
+    Parameters:
+        given: a design, a solution, or its `rotor.trim.Analysis`.
+        air: `quasi-steady`: lift follows at once; `unsteady`: with the lag of the shed vorticity.
+        offset: how far the centre of gravity is moved aft along the whole lifting blade [chords], −0.5 to 0.5.
+        with_margins: whether to search for the margins, which takes most of the time.
+        harmonics: harmonics of Hill's matrix in forward flight.
 
-    Raises RuntimeError when it does not trim, ValueError for an offset beyond half a chord, air of another name, and
-    rigid blades.
+    Returns:
+        Frequencies per revolution, growth per radian of azimuth, and margins where the blade twists elastically.
+
+    Raises:
+        RuntimeError: the design does not trim.
+        ValueError: the offset or `air` cannot be used, or the blade is rigid.
     """
     if air not in AIRS:
         raise ValueError(f"air {air!r} is not known: use {' or '.join(AIRS)}")
@@ -196,9 +204,9 @@ def stability(
 
 
 def margins(given: Design | Solution | Analysis) -> PitchFlapMargins:
-    """Margins with the mean slopes of the air around the azimuth, in tenths of a second.
+    """Margins to flutter and divergence with the air's slopes averaged around the azimuth; a few tenths of a second.
 
-    ValueError for a blade that is rigid in torsion. RuntimeError when it does not trim.
+    Raises ValueError for a blade that is rigid in torsion, RuntimeError when the design does not trim.
     """
     system = blade_system(linearised(given))
     if not any(name.startswith("torsion") for name in system.names):
