@@ -14,7 +14,8 @@ _COMPLETION = "completion"
 
 
 def build_parser(command: str | None = None) -> argparse.ArgumentParser:
-    """Of all commands; with the flags of one alone where its name is given, since the others take a second to read."""
+    """The parser of all commands, or of one with its flags where its name is given: to read the others takes a
+    second."""
     parser = OneLineParser(
         prog=called("rotor", "rotor"),
         description="Helicopter main rotors: trim, power, twist.",
@@ -40,7 +41,7 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
 
 
 def completion(commands: Mapping[str, argparse.ArgumentParser], script: str) -> str:
-    """What bash reads to complete commands and flags of the script; zsh too, after bashcompinit."""
+    """A script with which bash, or zsh after bashcompinit, completes commands and flags."""
     flags = {name: " ".join(sorted(command._option_string_actions)) for name, command in commands.items()}  # pyright: ignore[reportPrivateUsage]
     cases = "\n".join(f'    {name}) words="{words}" ;;' for name, words in flags.items())
     return f'''_{script}() {{

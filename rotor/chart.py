@@ -32,7 +32,7 @@ _DASHES = "6 4"
 
 @dataclass(frozen=True)
 class Axis:
-    """What an axis is, and where it ends."""
+    """One axis of a chart: its title, unit, scale and ends."""
 
     label: str = ""
     range: Span | None = None
@@ -78,7 +78,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Points:
-    """Values that are not joined."""
+    """Values drawn as separate marks."""
 
     label: str
     x: Values
@@ -136,7 +136,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Chart:
-    """One pair of axes with what is drawn over them."""
+    """One pair of axes and everything that is drawn on them."""
 
     title: str
     x: Axis

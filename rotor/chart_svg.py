@@ -48,7 +48,7 @@ class _Axes:
 
 
 def svg(chart: Chart, inline: bool = False) -> Markup:
-    """The chart with key and axes, as an SVG file, or `inline` as part of a page."""
+    """The chart with legend and axes as an SVG file, or `inline` as part of a page."""
     y_ticks = chart.ticks("y", 6)
     key, lines = _key(chart)
     left = 12.0 + _LETTER * max((len(word) for _, word in y_ticks), default=0) + (0.0 if chart.y.names else 1.5 * _SIZE)

@@ -126,7 +126,7 @@ class _Watch(event.Listener):
 
     @property
     def words(self) -> str:
-        """Empty where nothing is compiled."""
+        """The words on what is being compiled; empty where nothing is."""
         if not self.open:
             return ""
         ready, all_of_them = sum(bool(one.overloads) or self._is_kept(one) for one in self.kernels), len(self.kernels)
@@ -168,12 +168,12 @@ event.register("numba:compile", _watch)  # pyright: ignore[reportUnknownMemberTy
 
 
 def compiling() -> str:
-    """What is compiled at this moment, "Compiling, once: 7 of 40"; empty where nothing is."""
+    """What is being compiled now, as in "Compiling, once: 7 of 40"; empty where nothing is."""
     return _watch.words
 
 
 def why_not_kept() -> str:
-    """One sentence where compiled kernels could not be kept on disk; else empty."""
+    """One sentence on why compiled kernels could not be kept on disk; empty where they were."""
     sentence = "Compiled kernels cannot be kept, so each run compiles anew: set NUMBA_CACHE_DIR to another folder"
     return sentence if _watch.unkept else ""
 

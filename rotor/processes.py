@@ -92,7 +92,7 @@ class JobProgress:
 
 @dataclass(frozen=True)
 class JobEnded:
-    """The end: the task's result, or None if it was stopped before it had one."""
+    """The job ended with the task's result, or with None if it was stopped before it had one."""
 
     result: Any
     stopped: bool = False
@@ -102,7 +102,7 @@ class JobEnded:
 
 @dataclass(frozen=True)
 class JobFailed:
-    """The end without a result, with a sentence for who waits for it."""
+    """The job failed; the sentence tells whoever waits for it why."""
 
     message: str
     error: Exception | None = None
@@ -139,7 +139,7 @@ class Job:
 
 
 class Processes(Executor):
-    """So many processes of this machine, safe from any thread: as an executor, and for jobs with progress and a stop.
+    """A pool of processes of this machine, as an executor and for jobs with progress that can be stopped; thread-safe.
 
     Each has a thread that feeds it through a pipe, so a process that ends or hangs costs only its own job, and is
     replaced. They are started once there is work.

@@ -84,7 +84,7 @@ class PiezoPly:
         return self.voltage_range[1] - self.voltage_range[0]
 
     def layer(self, plies: int, angle: float) -> Layer:
-        """That many plies as one layer of a wall, switched through the whole range."""
+        """The plies as one layer of a wall, driven through the whole voltage range."""
         return Layer(self.material, plies * self.thickness, angle, self.swing)
 
 
@@ -287,7 +287,7 @@ def engines_of(aircraft: Aircraft) -> Engines | None:
 
 
 def fuel_caveats(aircraft: Aircraft) -> tuple[str, ...]:
-    """What is not known of the fuel flow of an aircraft, in a sentence."""
+    """A sentence on what is unknown about the aircraft's fuel flow."""
     engines = engines_of(aircraft)
     if engines is None:
         return (f"No source for the fuel flow of the engines of {aircraft.name}: savings are told as power only.",)

@@ -27,7 +27,7 @@ class FlightLeg:
     """[m/s], negative in descent."""
 
     def of(self, design: Design) -> Design:
-        """The design on this leg."""
+        """The design in the flight condition of this leg."""
         condition = replace(design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed)
         return replace(design, condition=condition)
 
@@ -47,7 +47,7 @@ UNLIMITED = math.radians(20.0)
 
 @dataclass(frozen=True, eq=False)
 class ActuatorFlight:
-    """An actuator over the legs of a flight. It pickles, and holds no solution.
+    """An actuator over the legs of a flight. It holds no solutions and can be pickled.
 
     Twists are what the actuator adds at the tip in flight (`InstalledActuator.tip`), less that with no voltage (a tube
     at rest) [rad]. Powers are of all rotors [W]. Arrays are (legs,).
@@ -81,7 +81,7 @@ class ActuatorFlight:
 
     @property
     def net_saving(self) -> Array:
-        """Saving with stiffness, mass and drive counted [W]."""
+        """Saving less the cost of stiffness, mass and drive [W]."""
         return self.reference_power - self.power_with
 
 

@@ -30,7 +30,7 @@ def tip_amplitude(installed: InstalledActuator) -> float:
 
 
 def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
-    """Part of half the voltage range that steady voltages leave for n/rev, 0…1; none given: 1, about the middle."""
+    """Part of half the voltage range, 0…1, that steady voltages leave for n/rev drive; 1 without steady voltages."""
     actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
         return 0.0
@@ -41,7 +41,7 @@ def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
 
 @dataclass(frozen=True)
 class EffectInFlight:
-    """What an actuator changes in one flight, against another blade there.
+    """How an actuator changes power and vibration in one flight condition, compared with another blade.
 
     By inflow model that trims: the design's own first, then those of `hub_loads.band_inflows`.
     """
@@ -79,7 +79,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
 
 
 def powers(designs: Sequence[Design]) -> tuple[float, ...]:
-    """Power of each design as `effect` counts it [W]. RuntimeError where one does not trim."""
+    """Power of each design by the rules of `effect` [W]. Raises RuntimeError where one does not trim."""
     known = dict[Design, float]()
     for design in designs:
         if design not in known:

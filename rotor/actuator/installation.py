@@ -47,7 +47,7 @@ class MassBreakdown:
 
     @property
     def blade(self) -> float:
-        """On one blade."""
+        """Total added to one blade."""
         return self.actuator + self.wiring + self.balance
 
     @property
@@ -133,16 +133,16 @@ class InstalledActuator:
 
     @property
     def attainable(self) -> float:
-        """Root to tip, all segments together [rad]."""
+        """Twist from root to tip, the sum of all segments [rad]."""
         return float(self.segment_twists.sum())
 
     @property
     def segment_twists(self) -> Array:
-        """Root to tip by segment [rad]."""
+        """Twist of each segment, root to tip [rad]."""
         return np.abs(self.shapes[:, -1])
 
     def shapes_in(self, design: Design) -> Array:
-        """Twist of each segment that the design's twist law gains [rad], (segments, nodes)."""
+        """What each segment adds to the design's twist law [rad], (segments, nodes)."""
         return self.rest_shapes if design.elastic else self.shapes
 
     def on(self, design: Design) -> Design:
@@ -241,7 +241,7 @@ def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
 
 
 def without_nose_weight(installed: InstalledActuator) -> InstalledActuator:
-    """An actuator whose plies nothing balances about the pitch axis: the centre of gravity lies aft."""
+    """The same actuator without its nose weight, so that the centre of gravity lies farther aft."""
     radius = float(installed.beam.r[-1])
     masses = replace(installed.masses, balance=0.0)
     sheets = isinstance(installed.actuator, PiezoPly)
@@ -258,7 +258,7 @@ def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
 
 
 def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: float) -> Design:
-    """The design with a mass [kg] spread evenly over a span [m] of each blade, and with `aircraft` [kg] in all."""
+    """The design with a mass [kg] spread evenly over a span [m] of each blade, `aircraft` [kg] in total."""
     blade, rotor = design.rotor.blade, design.rotor
     hinge = blade.flap_hinge * rotor.radius
     inner, outer = (end - hinge for end in span)

@@ -31,7 +31,7 @@ TENSION = np.array([[36.0, 3.0, -36.0, 3.0], [3.0, 4.0, -3.0, -1.0], [-36.0, -3.
 
 
 def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Array, Array]:
-    """Radii [m] and load per length that the rigid flapping blade leaves [N/m], (elements,), (elements, azimuths)."""
+    """Radii [m], (elements,), and load per length that rigid flapping does not balance [N/m], (elements, azimuths)."""
     design, disk, controls = solution.design, solution.disk, solution.controls
     rotor = design.rotor
     r = rotor.radius * disk.r
@@ -97,7 +97,7 @@ _STATIONS = 25
 
 @dataclass(frozen=True, eq=False)
 class FibreStrain:
-    """Largest tension along the fibres where the plies are [-], (stations,)."""
+    """Largest tensile strain along the fibres over the span of the plies [-], (stations,)."""
 
     r: Array
     """r/R, (stations,)."""
@@ -309,7 +309,7 @@ def _flutter(solution: Solution | None) -> list[Limit]:
 
 @dataclass(frozen=True)
 class ActuatorStability:
-    """One design, each blade trimmed with its own stiffness, inertia and mass."""
+    """Stability of a design without its actuator and with it, each trimmed with its own stiffness, inertia and mass."""
 
     without: Stability
     fitted: Stability
@@ -318,12 +318,12 @@ class ActuatorStability:
 
     @property
     def cases(self) -> dict[str, Stability]:
-        """By name."""
+        """The stability of each case by name."""
         named = {"without": self.without, "with": self.fitted}
         return named if self.unbalanced is None else named | {"without nose weight": self.unbalanced}
 
     def to_dict(self) -> dict[str, Any]:
-        """The record of each, by name."""
+        """The record of each case by name."""
         return {name: case.to_dict() for name, case in self.cases.items()}
 
     def table(self) -> str:

@@ -87,7 +87,7 @@ class TwistOptimum:
 def best_twist(
     design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
 ) -> TwistOptimum:
-    """The concept's twist of least power at one condition; `alone`: from these starts and no others."""
+    """The concept's twist of least power at one condition; `alone`: search from these starts only."""
     return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone)
 
 
@@ -105,12 +105,13 @@ def best_actuated(
     starts: Sequence[Sequence[float]] = (),
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
-    """Least mean power with the actuator, within its range times `scale`; `near`: trims to begin with, by condition."""
+    """Least mean power with the actuator within `scale` times its range; `near`: trims to start from, by condition."""
     return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
 
 
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
-    """Least power at one condition of a blade that keeps its twist; bounds of swings, (segments, 2); a trim near it."""
+    """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
+    nearby."""
     reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
@@ -245,7 +246,7 @@ SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
 
 
 def divisions_of(law: TwistLaw, parameters: int) -> tuple[float, ...]:
-    """r/R where segments of an actuator meet that is to follow a law with so many parameters."""
+    """r/R where the segments of an actuator meet so that it can follow a law with this number of parameters."""
     if isinstance(law, PiecewiseLinearTwist):
         return law.breaks
     return () if parameters == 1 else SMOOTH_DIVISIONS

@@ -38,7 +38,7 @@ WORTH = 1e-4
 
 @dataclass(frozen=True)
 class Requirement:
-    """An actuator that just pays: half of what its twist saves goes to mass, half to drive."""
+    """An actuator that just breaks even, its mass and its drive each costing half of what its twist saves."""
 
     twist: float
     """Range of the tip relative to the root [rad]."""
@@ -68,16 +68,16 @@ class BreakEven:
 
     @property
     def ideal_saving(self) -> float:
-        """Saving of a twist without limits [W]."""
+        """Saving of unlimited twist [W]."""
         return float(self.gross[-1])
 
     @property
     def worthwhile(self) -> bool:
-        """Whether there is a saving to look for."""
+        """Whether unlimited twist saves enough to be worth a search."""
         return self.ideal_saving > WORTH * self.fixed_power
 
     def saving(self, twist: float) -> float:
-        """Gross saving of a range of twist [W], between trims by straight lines."""
+        """Gross saving of a range of twist [W], interpolated linearly between trims."""
         return float(np.interp(twist, self.twists, self.gross))
 
     def twist_for(self, saving: float) -> float:
@@ -85,7 +85,7 @@ class BreakEven:
         return float(np.interp(saving, self.gross, self.twists))
 
     def cost(self, mass: float) -> float:
-        """Power that carrying a mass costs [W]; beyond the line with its last slope."""
+        """Power that carrying a mass costs [W]; extrapolated with the last slope."""
         x, y = self.masses, self.gross
         if mass <= x[-1]:
             return float(np.interp(mass, x, y))
@@ -96,12 +96,13 @@ class BreakEven:
         return self.saving(twist) - self.cost(mass) - watts
 
     def mass_allowed(self, twist: float, watts: float = 0.0) -> float:
-        """Mass of all blades that just pays [kg]; 0 where the drive alone costs more."""
+        """Mass on all blades at which the actuator breaks even [kg]; 0 where the drive alone costs more than is
+        saved."""
         return float(np.interp(self.saving(twist) - watts, self.gross, self.masses))
 
     @property
     def requirement(self) -> Requirement:
-        """Twist for most of the ideal saving, and the mass and drive that share it evenly."""
+        """The twist that gives most of the ideal saving, and the mass and drive that share this saving evenly."""
         wanted = ENOUGH * self.ideal_saving
         twist = self.twist_for(wanted)
         return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
@@ -110,7 +111,7 @@ class BreakEven:
 @lru_cache(maxsize=16)
 @read_only
 def break_even(pair: ConditionPair) -> BreakEven:
-    """The break-even line of a pair of flight conditions, any rotor; a second or two.
+    """The break-even line of any rotor for a pair of flight conditions; it takes a second or two.
 
     Raises RuntimeError with one sentence where nothing trims.
     """
@@ -195,7 +196,7 @@ def with_mass(design: Design, mass: float) -> Design:
 
 @dataclass(frozen=True, eq=False)
 class OtherStroke:
-    """What the actuator of a verdict would save with another stroke and another mass, counted as the verdict counts.
+    """What the actuator of a verdict would save with another stroke and another mass, by the rules of the verdict.
 
     Stiffness, shape and drive are its own, so that its own stroke and mass save what the verdict says.
     """
@@ -208,15 +209,16 @@ class OtherStroke:
     """Power that a kilogram on board costs [W]."""
 
     def net(self, twist: float, mass: float) -> float:
-        """Saving of a range of twist [rad] and a mass of all blades [kg]; what exceeds the line's range is not used."""
+        """Net saving of a range of twist [rad] and a mass on all blades [kg]; twist beyond the line's range is not
+        used."""
         return float(np.interp(twist, self.twists, self.saved)) - self.per_kg * mass
 
     def mass_allowed(self, twist: float) -> float:
-        """Mass of all blades that just pays [kg]; 0 where the twist alone costs more."""
+        """Mass on all blades at which it breaks even [kg]; 0 where the twist alone costs more than it saves."""
         return max(0.0, self.net(twist, 0.0) / self.per_kg)
 
     def twist_for(self, mass: float) -> float | None:
-        """Least range of twist that pays for a mass of all blades [kg]; None where none does."""
+        """Smallest range of twist that pays for a mass on all blades [kg]; None where none does."""
         cost = self.per_kg * mass
         return float(np.interp(cost, self.saved, self.twists)) if cost <= self.saved[-1] else None
 
@@ -226,7 +228,7 @@ STROKES = (0.5, 2.0, 4.0)
 
 
 def other_stroke(verdict: Verdict) -> OtherStroke:
-    """The line of a verdict, by an optimum of the same flights for each of `STROKES`; a second each.
+    """The break-even line of a verdict: an optimum over the same flights for each of `STROKES`, a second each.
 
     ValueError for an actuator that has no mass, RuntimeError where nothing trims.
     """
@@ -245,7 +247,7 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
 
 
 def pay_sentence(even: BreakEven) -> str:
-    """What an actuator would have to be for this rotor, in one line."""
+    """One line on the twist, mass and drive that an actuator would need to break even on this rotor."""
     needed, ideal = even.requirement, even.ideal_saving
     change = math.degrees(abs(even.change))
     if not even.worthwhile:

@@ -18,7 +18,7 @@ from rotor.trim.solve import solve
 
 @dataclass(frozen=True)
 class Flown:
-    """A trim in numbers."""
+    """The numbers of one trim."""
 
     twist: float
     """Twist of the tip relative to the root, built in as well [rad]."""
@@ -56,7 +56,7 @@ class FailurePoint:
 
 @dataclass(frozen=True)
 class Failure:
-    """An actuator stopped at one speed, over several."""
+    """An actuator that stopped at one speed, flown at several speeds."""
 
     actuator: str
     stops_at: float

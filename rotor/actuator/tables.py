@@ -126,7 +126,7 @@ def table_5_2(pair: ConditionPair, *, placement: Placement | None = None, host: 
 
 
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
-    """Rows of verdicts."""
+    """The table of several verdicts."""
     pair = verdicts[0].baseline.pair
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (
@@ -168,7 +168,7 @@ def kilowatts(power: float) -> str:
 
 
 def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
-    """What an actuator would have to be, a rotor a row."""
+    """What an actuator would need to break even, one row for each rotor."""
     notes = (
         f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "

@@ -68,12 +68,12 @@ class Verdict:
 
     @property
     def required(self) -> float:
-        """Root to tip, the magnitudes of the segments added [rad]."""
+        """Required twist from root to tip, the sum of the segments' magnitudes [rad]."""
         return float(np.abs(self.required_segments).sum())
 
     @property
     def attainable(self) -> float:
-        """Root to tip over the whole voltage range, nominal [rad]."""
+        """Nominal twist from root to tip over the whole voltage range [rad]."""
         return self.installed.attainable
 
     @property
@@ -95,22 +95,22 @@ class Verdict:
 
     @property
     def attained(self) -> float:
-        """Twist reached from root to tip, the magnitudes of the segments added [rad]."""
+        """Twist reached from root to tip, the sum of the segments' magnitudes [rad]."""
         return float(np.abs(self.attained_segments).sum())
 
     @property
     def reference_power(self) -> float:
-        """Power of the blade that savings are counted from [W]."""
+        """Power of the baseline blade [W]."""
         return self.baseline.pair.mean(self.reference_powers)
 
     @property
     def net_power(self) -> float:
-        """With the actuator's mass on board and its drive [W]."""
+        """Power with the actuator's mass on board and its drive [W]."""
         return self.baseline.pair.mean(self.loaded_powers) + self.drive.hold_power
 
     @property
     def net_band(self) -> float | None:
-        """Band of `net_saving`, to both sides [W]; None where it is not known."""
+        """Uncertainty of `net_saving`, ± [W]; None where it is not known."""
         return None if self.doubt is None else self.doubt.change_band
 
     @property
@@ -125,7 +125,7 @@ class Verdict:
 
     @property
     def stiffness_cost(self) -> float:
-        """Power that the other stiffness and inertia of an elastic blade cost with no voltage [W]."""
+        """Power that the changed stiffness and inertia of an elastic blade cost without voltage [W]."""
         return self.resting.power - self.bare_power
 
     @property
@@ -135,7 +135,7 @@ class Verdict:
 
     @property
     def mass_allowed(self) -> float | None:
-        """Mass on board with which what its twist saves just pays [kg]; None for an actuator without mass."""
+        """Mass on board at which the actuator breaks even [kg]; None for an actuator without mass."""
         mass = self.installed.masses.aircraft
         return max(0.0, mass * (1.0 + self.net_saving / self.mass_cost)) if mass else None
 
@@ -146,7 +146,7 @@ class Verdict:
 
     @property
     def net_saving(self) -> float:
-        """Saving with stiffness, mass and drive counted [W]."""
+        """Saving less the cost of stiffness, mass and drive [W]."""
         return self.reference_power - self.net_power
 
     @property
@@ -174,7 +174,8 @@ class Verdict:
 
     @property
     def buildable(self) -> bool:
-        """Whether only limits on the twist range are exceeded; the actuated optimum keeps those."""
+        """Whether it can be built: only limits on the twist range are exceeded, and the actuated optimum keeps
+        those."""
         return all(limit.name in ("voltage", "field", "torque") for limit in self.broken)
 
     @property
@@ -283,7 +284,7 @@ PRINTED = 50.0
 
 
 def verdict_sentence(verdict: Verdict) -> str:
-    """The outcome in one line: what is saved, what that costs, and whether it pays."""
+    """One line: what the twist saves, what the actuator costs, and whether it pays."""
     gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
     text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
     if verdict.net_saving < SMALL:
@@ -310,7 +311,7 @@ def verdict_details(verdict: Verdict) -> str:
 
 
 def reference(verdict: Verdict) -> str:
-    """The blade that all savings of a verdict count from."""
+    """The baseline blade of all savings of a verdict."""
     same = "the same blade without it" if verdict.installed.host.kind == "retrofit" else "the present blade"
     return same if verdict.against == "same-blade" else "the best fixed blade"
 

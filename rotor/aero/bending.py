@@ -186,7 +186,7 @@ def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Arr
 
 @dataclass(frozen=True)
 class BladeFrequencies:
-    """Natural frequencies of the rotating blade [per rev], by what moves most."""
+    """Natural frequencies of the rotating blade [per rev], by the kind of motion that dominates."""
 
     flap: tuple[float, ...]
     lag: tuple[float, ...]

@@ -15,7 +15,7 @@ from rotor.design.blade import Blade, Rotor
 
 
 class OnDisk:
-    """Values of elements that reach to the tip, at even azimuths."""
+    """Values at blade elements out to the tip and at evenly spaced azimuths."""
 
     dr: Array
     psi: Array
@@ -27,7 +27,7 @@ class OnDisk:
 
     @property
     def cells(self) -> Array:
-        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        """Fraction of πR² that an element sweeps between two azimuths, (elements,)."""
         return np.diff(self.edges**2) / len(self.psi)
 
 

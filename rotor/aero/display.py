@@ -39,7 +39,7 @@ AREA_RADII = 80
 @lru_cache(maxsize=16)
 @read_only
 def resampling(source: int, target: int) -> Array:
-    """Fourier interpolation of evenly spaced periodic samples, (source, target); the samples themselves stay."""
+    """Matrix of the Fourier interpolation of evenly spaced periodic samples, (source, target), exact at the samples."""
     angle = 2.0 * np.pi * (np.arange(target) / target - np.arange(source)[:, None] / source)
     waves = np.arange(1, (source + 1) // 2)
     kernel = 1.0 + 2.0 * np.cos(angle[..., None] * waves).sum(axis=-1)
@@ -49,7 +49,7 @@ def resampling(source: int, target: int) -> Array:
 
 
 def as_asked(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeElements]:
-    """Problem and blade elements on at least the azimuths that the models ask for: a multiple of those of the trim.
+    """Problem and blade elements on at least as many azimuths as the models ask for, a multiple of those of the trim.
 
     The same two where the trim has as many.
     """
@@ -108,7 +108,7 @@ def pitch_of_alpha(flow: Any) -> Array:
 
 
 def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
-    """Reverse-flow and stalled parts of πR², the latter without reverse flow, and the thrust's stalled part.
+    """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled part of the thrust.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
@@ -135,7 +135,7 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
-    """Stalled parts of πR² and of the thrust, on the azimuths that are shown."""
+    """Stalled fractions of πR² and of the thrust on the azimuths that are shown."""
     problem, e = as_asked(problem, elements)
     disk = problem.disk
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)

@@ -63,7 +63,7 @@ class TwistState:
 
 @dataclass(frozen=True, eq=False)
 class BentState:
-    """A blade that bends."""
+    """The bending of the blade at a trim state."""
 
     channels: Array
     """Slopes, curvatures and B, see `rotor.aero.bent_section`, (5, elements, azimuths)."""
@@ -73,7 +73,7 @@ class BentState:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Unsteady(ShortRepr):
-    """What dynamic stall does at the blade elements, (elements, azimuths) each."""
+    """The state of dynamic stall at the blade elements, (elements, azimuths) each."""
 
     separation: Array
     """f″: where the flow leaves the upper surface, over the chord; 1 attached, 0 separated from the leading edge."""
@@ -125,7 +125,7 @@ class BladeElements:
 
 @dataclass(frozen=True)
 class DiskSums:
-    """Sums over the disk, as coefficients of ρA(ΩR)²."""
+    """Sums over the disk as coefficients over ρA(ΩR)²."""
 
     thrust: float
     """C_T along the shaft, eq. (3.12)."""
@@ -155,5 +155,5 @@ def section_fields(forces: Array, flow: Array) -> dict[str, Any]:
 
 
 def over_azimuths(values: Array, azimuths: int) -> Array:
-    """What is the same at every azimuth, (elements,) → (elements, azimuths)."""
+    """Spread values that do not change with azimuth, (elements,) → (elements, azimuths)."""
     return np.repeat(values[:, None], azimuths, axis=1)

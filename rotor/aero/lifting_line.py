@@ -58,7 +58,7 @@ theory."""
 
 @dataclass(frozen=True, kw_only=True)
 class WakeCourse(DiskFlow):
-    """What the course of a wake depends on."""
+    """The quantities on which the course of a wake depends."""
 
     coning: float
     """β0 [rad], and β1c and β1s."""

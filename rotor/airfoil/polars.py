@@ -230,7 +230,7 @@ RowOfAngle = TypeVar("RowOfAngle", bound=tuple[float, ...])
 
 
 def one_row_an_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
-    """Rows of (line, angle [deg], values …) in order of their angles; of rows alike at one angle the first.
+    """Rows of (line, angle [deg], values …) sorted by angle; of equal rows at one angle the first is kept.
 
     ValueError for an angle that comes again with other values.
     """

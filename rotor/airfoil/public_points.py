@@ -51,7 +51,7 @@ def public_points(section: str) -> tuple[PublicPoint, ...]:
 
 @dataclass(frozen=True)
 class SectionAgreement:
-    """A section table beside the points kept aside, below stall."""
+    """Errors of a section table below stall at the measured points that were not used to make it."""
 
     points: int
     cl_rms: float
@@ -65,7 +65,7 @@ class SectionAgreement:
 
 
 def agreement(section: str) -> SectionAgreement:
-    """How a section agrees with the points kept aside. ValueError for a section that has none."""
+    """How a section agrees with the measured points not used to make it. Raises ValueError where there are none."""
     aside = [point for point in public_points(section) if point.kept_aside]
     if not aside:
         raise ValueError(f"no public data of {section} was kept aside: there is no second set")

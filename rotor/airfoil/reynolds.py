@@ -28,7 +28,7 @@ def _same_reynolds(one: float, other: float) -> bool:
 
 
 def same(one: Polar, other: Polar) -> bool:
-    """Whether two polars are of one Mach number, within 0.01, and one Reynolds number, within 1 % or not stated."""
+    """Whether two polars have the same Mach number, within 0.01, and Reynolds number, within 1 % or not stated."""
     numbers = _number(one), _number(other)
     return _same_mach(one, other) and (0.0 in numbers or _same_reynolds(*numbers))
 

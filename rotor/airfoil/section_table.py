@@ -290,7 +290,7 @@ def make_table(
 
 
 def between(first: SectionTable, second: SectionTable, share: float) -> SectionTable:
-    """A table between two; share: of the second."""
+    """A table interpolated between two; `share` is the weight of the second."""
     limit = min(first.mach_limit, second.mach_limit)
     coefficients = (1.0 - share) * first.coefficients + share * second.coefficients
     made = make_table(first.name, first.source, coefficients, limit)

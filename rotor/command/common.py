@@ -37,7 +37,8 @@ Run = Callable[[argparse.Namespace], int]
 
 
 def add_command(commands: Any, name: str, run: Run, description: str = "") -> argparse.ArgumentParser:
-    """A command's parser; its words in the list of commands stand above its own flags unless there are others."""
+    """Add the parser of a command. Its summary in the list of commands also heads its own help unless another is
+    given."""
     words = COMMANDS[name][1]
     parser = commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
     parser.set_defaults(run=run)
@@ -51,7 +52,7 @@ _FLAGS = {name: row for name, row in ARGUMENTS.items() if name not in ("models",
 def add_design_arguments(
     parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False, ranges: bool = False
 ) -> None:
-    """A flag for every argument of `make_design`; those of the speed on demand, more than one twist, and ranges."""
+    """Add a flag for every argument of `make_design`: those of the speed, several twists and ranges only on demand."""
     speeds = parser.add_mutually_exclusive_group() if speed else parser
     stand = parser.add_argument_group("test stand")
     parser.add_argument(
@@ -148,7 +149,7 @@ def add_processes_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def processes_from(args: argparse.Namespace) -> int:
-    """How many were asked for, or one a core; ValueError outside 1…64."""
+    """The number of processes asked for, or one per core. Raises ValueError outside 1…64."""
     count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
     if not 1 <= count <= 64:
         raise ValueError(f"{count} processes are outside 1…64: give one a core")

@@ -81,7 +81,7 @@ def root_pitch(harmonics: tuple[Harmonic, ...]) -> ActiveTwist:
 
 
 def check_harmonics(harmonics: tuple[Harmonic, ...], what: str) -> None:
-    """Raise ValueError, with one sentence, where a harmonic is there twice; so there are `HIGHEST` at most."""
+    """Raise ValueError where a harmonic comes twice; so there are at most `HIGHEST`."""
     orders = [harmonic.per_rev for harmonic in harmonics]
     twice = next((n for k, n in enumerate(orders) if n in orders[:k]), None)
     if twice is not None:
@@ -89,7 +89,7 @@ def check_harmonics(harmonics: tuple[Harmonic, ...], what: str) -> None:
 
 
 def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
-    """Raise ValueError, with one sentence, for harmonics that root pitch cannot have."""
+    """Raise ValueError for harmonics that root pitch cannot have."""
     check_harmonics(harmonics, "root pitch")
     for harmonic in harmonics:
         if harmonic.per_rev == 1:

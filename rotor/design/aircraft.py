@@ -165,7 +165,7 @@ class FlightCondition:
 
     @property
     def beside(self) -> tuple[str, ...]:
-        """What is not as in most flights, in words: `climb 5 m/s`."""
+        """The quantities that differ from ordinary level flight, in words: `climb 5 m/s`."""
         numbers = self.numbers
         return tuple(row.said(numbers[name]) for name, row in BESIDE.items() if numbers[name] != row.default)
 
@@ -176,7 +176,7 @@ class FlightCondition:
 
     @property
     def load(self) -> float:
-        """n W, what the rotor carries [N]"""
+        """Lift that the rotor carries, n W [N]."""
         return self.load_factor * self.weight
 
     @cached_property
@@ -226,7 +226,7 @@ class Fuselage:
 
 
 def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
-    """Names of the quantities that a table of these conditions has: those of every table, and what is set."""
+    """Names of the quantities that a table of these conditions shows: the usual ones, and those that are set."""
     numbers = [condition.numbers for condition in conditions]
     return tuple(
         name for name, row in CONDITION.items() if row.told or any(value[name] != row.default for value in numbers)
@@ -299,7 +299,7 @@ HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hing
 
 @dataclass(frozen=True)
 class Stated:
-    """The rotor as the source document states it, where it differs from the aircraft's."""
+    """The rotor as the source document states it, where that differs from the aircraft's rotor."""
 
     rotor: Rotor
     twist: TwistLaw

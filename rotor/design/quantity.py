@@ -127,17 +127,17 @@ class Quantity:
 
     @property
     def heading(self) -> str:
-        """At the begin of a line."""
+        """The label with a capital, to begin a line."""
         return f"{self.what[:1].upper()}{self.what[1:]}"
 
     @property
     def axis_title(self) -> str:
-        """For the axis of a chart."""
+        """The title of a chart's axis: label and unit."""
         return self.heading + (f" [{self.unit}]" if self.unit else "")
 
     @property
     def tooltip(self) -> str:
-        """For the page, its source after a bar."""
+        """The tooltip on the page, with the source after a bar."""
         if self.kind == "switch" and not self.hint:
             return f"{self.on} Off: {self.off}"
         return self.hint or f"{self.help[:1].upper()}{self.help[1:]}."
@@ -179,12 +179,12 @@ class Quantity:
             raise ValueError(f"{words} {value!r} is not known: use one of {', '.join(self.choices)}")
 
     def said(self, value: float) -> str:
-        """The value after its word: `climb 5 m/s`, `descent 3 m/s`."""
+        """The value with its word: `climb 5 m/s`, `descent 3 m/s`."""
         falls = bool(self.below) and value < 0.0
         return f"{self.below if falls else self.short} {abs(value) if falls else value:g} {self.unit}".rstrip()
 
     def applies(self, *, tested: bool, axial: bool) -> bool:
-        """Whether it counts: on a test stand, and with models that have the axial flow of the tilted disk or not."""
+        """Whether the quantity has an effect on a test stand or in flight, and with these models."""
         return not (tested and self.in_flight) and (axial or not self.axial)
 
 

@@ -29,7 +29,7 @@ REFERENCE_RADIUS = 0.75
 
 @runtime_checkable
 class TwistLaw(Protocol):
-    """A function that gives the built-in pitch along the blade."""
+    """A twist law: the built-in pitch along the blade."""
 
     def __call__(self, r: ArrayLike) -> Array:
         """Built-in twist at r = y/R [rad], zero at 0.75 R; same shape as r."""

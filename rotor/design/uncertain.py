@@ -12,7 +12,7 @@ from rotor.design.design import Design
 
 @dataclass(frozen=True)
 class Uncertain:
-    """An uncertain input."""
+    """An input that is known only within limits."""
 
     name: str
     """Name in `assets/doubt.toml` and rotor files; ends in `_percent` where the size is a share of the input."""

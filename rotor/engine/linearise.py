@@ -186,7 +186,7 @@ class Point:
 
     @property
     def forgetful(self) -> "Point":
-        """The point without its memory, for derivatives that need not be exact."""
+        """The point without the lags of its section, for derivatives that need not be exact."""
         return replace(self, system=replace(self.system, memory=None))
 
     @cached_property
@@ -232,7 +232,7 @@ def begin(system: System, grid: Grid, x: Array) -> Point:
 
 
 def with_data(point: Point, data: Any) -> Point:
-    """R(x) with other data of the section: the channels stay, and the slopes of the shapes."""
+    """R(x) with other section data; channels and slopes of the shapes stay the same."""
     grid = replace(point.grid, data=data)
     return _with_forces(point.system, grid, (point.x, point.z, point.by_roots, point.phi), point.channels)
 

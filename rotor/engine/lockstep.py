@@ -37,7 +37,7 @@ class _Points:
     size: Array
 
     def point(self, k: int) -> Point:
-        """That of one design by itself."""
+        """The point of one design."""
         channels, forces, slopes, flow = (
             np.ascontiguousarray(each[:, k]) for each in (self.channels, self.forces, self.slopes, self.flow)
         )
@@ -134,7 +134,7 @@ class _Going:
         self.taken: Array = np.zeros((0, 0))
 
     def keep(self, those: Booleans) -> None:
-        """Leave the others."""
+        """Keep only these designs."""
         for name in ("which", "x", "residual", "size", "slow", "expected", "_before", "taken"):
             values: Array = getattr(self, name)
             if len(values):

@@ -273,7 +273,7 @@ class Memory:
     """R, (inputs, channels, elements, azimuths)."""
 
     def times(self, fields: Mapping[int, Array]) -> Array:
-        """What fields added to channels do to the forces, (forces, elements, azimuths)."""
+        """How forces respond to fields added to channels, (forces, elements, azimuths)."""
         given, out = np.zeros((INPUTS, *self.left.shape[2:])), np.empty(self.left.shape[1:])
         for channel, field in fields.items():
             given += self.right[:, channel] * field
@@ -288,7 +288,7 @@ class Memory:
 
     @cached_property
     def used(self) -> Integers:
-        """The forces that remember."""
+        """The forces that depend on channels at other azimuths."""
         return np.flatnonzero(self.left.any(axis=(1, 2, 3)))
 
     def by_inputs(self, waves: WaveGrid) -> Array:

@@ -201,7 +201,7 @@ class Structure:
         self.terms.append((equation, q, i, j, factor, number))
 
     def sum(self, name: str, terms: Sequence[Addend]) -> None:
-        """A further measure."""
+        """Add a measure that is a sum of terms."""
         numbers = [term[4] if len(term) > 4 else ONE for term in terms]
         self.sums[name] = Terms.of(
             [(0, t[3], t[1], t[2], t[0], number) for t, number in zip(terms, numbers, strict=True)], 1
@@ -219,7 +219,7 @@ class Structure:
 
     @property
     def given(self) -> int:
-        """1, numbers and states."""
+        """The vector (1, numbers, states)."""
         return 1 + len(self.numbers) + len(self.states)
 
     @fixed_property

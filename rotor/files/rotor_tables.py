@@ -128,12 +128,12 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
         return self.chord_m if isinstance(self.chord_m, tuple) else (self.chord_m,)
 
     def chords_at(self, stations: tuple[float, ...]) -> tuple[float, ...]:
-        """A chord that is given alone is that of every station."""
+        """The chord at every station; a single value holds for all."""
         return self.chords * len(stations) if len(self.chords) == 1 else self.chords
 
     @property
     def weighed(self) -> bool:
-        """Whether its mass is given."""
+        """Whether the mass of the blade is given."""
         return self.blade_mass_kg is not None or self.mass_per_length_kg_m is not None
 
     def masses(self, length: float, radius: float) -> tuple[float, float, float]:

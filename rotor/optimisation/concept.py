@@ -58,7 +58,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Handle:
-    """What one parameter moves, for a sketch of the blade."""
+    """The part of the blade's sketch that one parameter moves."""
 
     parameter: str
     motion: Motion

@@ -119,7 +119,7 @@ class Model:
                 self.limited.append(Quadratic(centre.pitch, measured.limited[k], slope, second))
 
     def cost(self, x: Array) -> float:
-        """The objective."""
+        """The objective at x."""
         return self._cost(x)[0]
 
     def _cost(self, x: Array) -> tuple[float, Array]:
@@ -219,7 +219,7 @@ _LEAST_REACH = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Descent:
-    """Where a descent ended."""
+    """The end of one descent."""
 
     end: Evaluation | None
     """The best feasible point evaluated; None when there was none, or when the descent leads to a minimum known."""

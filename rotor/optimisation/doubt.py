@@ -36,7 +36,7 @@ def _cold(design: Design) -> Sequence[Solution]:
 
 
 def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
-    """The band of a mean power and of its change from that of the baseline.
+    """The uncertainty of a mean power and of its difference from that of the baseline.
 
     None where one does not trim, or the objective is not total power.
     """
@@ -49,7 +49,8 @@ def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: S
 def mean_doubt(
     shares: Sequence[float], here: Sequence[Solution | Analysis], there: Sequence[Solution | Analysis]
 ) -> Doubt | None:
-    """The band of a mean power over conditions, and of its change from other trims; None where one is missing."""
+    """The uncertainty of a mean power over conditions, and of its difference from other trims; None where one is
+    missing."""
     ours, theirs = ([analysed(trim).solution for trim in trims] for trims in (here, there))
     if len(here) < len(shares) or len(there) < len(shares) or not all(trim.converged for trim in (*ours, *theirs)):
         return None
@@ -83,7 +84,7 @@ def best_twist_doubt(
     best: tuple[float, ...],
     starts: Starts = _cold,
 ) -> tuple[ParameterBand, ...]:
-    """Where each parameter of the best twist may lie by what is uncertain, within its bounds, SI.
+    """The range of each parameter of the best twist that follows from the uncertain inputs, within its bounds, SI.
 
     Empty where the objective is not total power, a neighbour does not trim, or the best lies on a bound.
     """

@@ -27,7 +27,7 @@ _KEPT_SOLUTIONS = 64
 
 @dataclass(frozen=True, eq=False)
 class TrimmedBlade:
-    """A trim of one blade, of use for all blades near it, whatever their concept."""
+    """A trim of one blade, from which trims of similar blades of any concept can start."""
 
     rotor: Rotor
     pitch: Array
@@ -37,7 +37,7 @@ class TrimmedBlade:
 
 
 class TrimmedBlades:
-    """What searches with one objective have trimmed."""
+    """The blades that searches with one objective have trimmed."""
 
     def __init__(self) -> None:
         self.all: list[TrimmedBlade] = []
@@ -46,7 +46,7 @@ class TrimmedBlades:
         self._solved: deque[tuple[TrimmedBlade, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
 
     def known(self, rotor: Rotor, pitch: Array) -> TrimmedBlade | None:
-        """What is known of this very blade."""
+        """The trim of exactly this blade, or None."""
         every = (*self.all, *self._lost)
         return next((point for point in every if np.array_equal(point.pitch, pitch) and point.rotor == rotor), None)
 
@@ -93,7 +93,7 @@ class Evaluation:
 
     @property
     def rank(self) -> tuple[float, float]:
-        """The lesser, the better: by the objective within the limits, by the violation outside."""
+        """The sort key, smaller is better: the objective within the limits, the violation outside."""
         if self.power is None:
             return math.inf, math.inf
         return (0.0, self.cost) if self.feasible else (-float(self.margins.min()), self.cost)

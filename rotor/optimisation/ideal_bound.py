@@ -81,7 +81,7 @@ class LinesInWake:
 
 @dataclass(frozen=True, eq=False)
 class InducedPower:
-    """A load and what it costs. Fields are (panels, azimuths)."""
+    """A load and its induced power. Fields are (panels, azimuths)."""
 
     circulation: Array
     """Γ over ΩR²."""

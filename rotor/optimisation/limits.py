@@ -30,7 +30,7 @@ CHANGE_STATIONS = 33
 
 @dataclass(frozen=True)
 class ChangeLimit:
-    """Largest change of twist from a reference law, relative to the clamped root."""
+    """The largest allowed change of twist from a reference law, relative to the clamped root."""
 
     reference: TwistLaw
     stations: tuple[float, ...]

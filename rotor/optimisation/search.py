@@ -178,7 +178,7 @@ class _Run:
             self.groups.append((end, []))
 
     def ask_how_sure(self, objective: Objective) -> None:
-        """What is uncertain of the saving and of the best twist."""
+        """Compute the uncertainty of the saving and of the best twist."""
         assert self.best is not None
         search, values, starts = self.search, self.evaluate.values(self.best.x), self.evaluate.starts_for
         best = search.concept.apply(search.design, values)
@@ -315,7 +315,7 @@ def optimise(
     starts: int = STARTS,
     seed: int = 0,
 ) -> Optimum:
-    """The twist of a concept with the least power, or vibration, at the design's own flight condition or over several.
+    """Find the twist of least power or vibration, at the design's flight condition or over several.
 
     Parameters:
         design: the design whose twist is replaced; its own twist is the baseline of `saving_percent`.
@@ -324,7 +324,7 @@ def optimise(
             place of an advance ratio a design, as in `(design.at(speed_kt=140, mass_kg=9000), 2)`, whose flight
             condition counts.
         division: r/R where the segments meet, for the concepts that hold it fixed.
-        quantity: what to make small: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
+        quantity: what to minimise: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
             N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
         limits: `rotor.Limits` on twist rates, on the change of twist, on the stalled area and on the vibration index;
             by default the concept's own bounds.

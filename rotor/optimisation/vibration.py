@@ -48,7 +48,7 @@ STEP = math.radians(0.5)
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """What an active twist does, by a `TMatrix`."""
+    """The response to an active twist by a `TMatrix`."""
 
     power: float
     """Total power [W]."""
@@ -126,7 +126,7 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
 
     Parameters:
         design: a design with hub loads. Only the shape of its active twist along the span is used.
-        harmonics: the n of the twist, 2 to 8.
+        harmonics: the n of the twist, 1 to 8.
 
     Returns:
         Slopes and second derivatives of loads [N, N m] and power [W] by the amplitudes [rad].

@@ -151,7 +151,7 @@ def report(
     numbers: Mapping[str, float] | None = None,
     **words: str | float,
 ) -> Report:
-    """What was computed, with the words of `thesis` filled from `numbers` and `words`.
+    """The report of what was computed, its text from `thesis` filled with `numbers` and `words`.
 
     number: as the catalogue has it, for example `3.11`, `table 4.1`, `tail rotor`.
     """

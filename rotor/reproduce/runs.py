@@ -149,7 +149,7 @@ class ConceptOptimum:
 
     @property
     def saving(self) -> float:
-        """Part of the baseline's power."""
+        """Saving as a fraction of the baseline's power."""
         return 1.0 - self.power_kw / self.baseline_kw
 
 

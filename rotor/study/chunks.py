@@ -97,7 +97,7 @@ def keep_freed_memory() -> None:
 
 
 def describe(study: Study, provenance: StudyProvenance) -> dict[str, Any]:
-    """The provenance in the metadata of every file and in the description of the folder."""
+    """The provenance that goes into the metadata of every file and the description of the folder."""
     given = dict(study.given)
     return {
         "format": "rotor-explorer study",

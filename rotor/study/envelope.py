@@ -43,7 +43,7 @@ _NO_TRIM = -0.1
 
 @dataclass(frozen=True)
 class Reach:
-    """How far one quantity goes, in the unit of its name."""
+    """The largest value of one quantity, in the unit of its name, by stall and by engines."""
 
     stall: float | None
     """Until the solver refuses; None where nothing trims, and where no limit was met."""
@@ -98,7 +98,7 @@ class EnvelopePoint:
 
 @dataclass(frozen=True)
 class Envelope:
-    """What a design can fly; `rotor.envelope` makes it."""
+    """The flight envelope of a design, as `rotor.envelope` returns it."""
 
     design: Design
     moving: bool
@@ -174,10 +174,10 @@ def envelope(
         tell: called with each point as it is found.
 
     Returns:
-        Points in ascending order of speed. Limits that are not reached are None.
+        The envelope, its points in ascending order of speed. A limit that is not reached is None.
 
     Raises:
-        TypeError: the design is none.
+        TypeError: the argument is not a design.
         ValueError: a speed cannot be used, or the rotor is on a test stand.
 
     Example:

@@ -66,7 +66,7 @@ class Results:
         return tuple(name for name in self.axes if isinstance(ranges.get(name), dict))
 
     def codes(self, names: tuple[str, ...]) -> Integers:
-        """One number for rows that agree in all these columns, 0 upward, (rows,)."""
+        """A number for each row, from 0, equal for rows that agree in all these columns, (rows,)."""
         code = np.zeros(self.rows, dtype=np.int64)
         for name in names:
             values = self.columns[name]

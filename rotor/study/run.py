@@ -57,7 +57,7 @@ class ChunkRun:
 
     @property
     def sentence(self) -> str:
-        """What a user should know; empty where all is well."""
+        """A sentence on what went wrong; empty where nothing did."""
         if not self.lost:
             return ""
         chunks = "1 chunk" if len(self.lost) == 1 else f"{len(self.lost)} chunks"

@@ -145,21 +145,21 @@ def sweep(
     start: Solution | None = None,
     **others: Unpack[Flight[Iterable[float] | None]],
 ) -> SweepTable:
-    """Solve the design, or each of several, over one quantity of the flight condition, in order.
+    """Solve one design, or each of several, over one quantity of the flight condition.
 
     Each trim starts from the last that converged.
 
     Parameters:
         design: one design, or several.
-        mu: advance ratios. Give this or one of those that follow `start`; all else stays as in the design.
+        mu: advance ratios. Give this or one of the quantities after `start`; everything else stays as in the design.
         start: an earlier solution to begin from, for designs of the same rotor.
         {arguments}
 
     Returns:
-        The solutions in order, also those that did not converge, as a table.
+        The solutions in order as a table, including those that did not converge.
 
     Raises:
-        TypeError: a design is none, or not one quantity is given. Nothing has been solved then.
+        TypeError: an argument is not a design, or not exactly one quantity is given. Nothing has been solved then.
         ValueError: a value cannot be used.
 
     Example:
@@ -208,22 +208,23 @@ def schedule(
     seed: int = 0,
     processes: int = 1,
 ) -> Schedule:
-    """The best twist at each advance ratio, the best fixed blade, and what a twist that moves saves beyond it.
+    """The best twist at each advance ratio, the best fixed twist, and what changing the twist in flight saves beyond
+    it.
 
     Parameters:
         design: the design whose twist is replaced; its own twist is the baseline.
         mu: advance ratios.
         concepts: names in `rotor.optimisation.CONCEPTS`, for example `linear` or `two-segment`.
         hours: time at each advance ratio [h]; by default the same at all.
-        quantity: what to make small, as in `optimise`.
+        quantity: what to minimise, as in `optimise`.
         limits: of each search, as in `optimise`.
         starts: number of descents in each search.
         seed: of their starting points.
-        processes: processes of this machine; the numbers do not depend on them.
+        processes: number of processes; the results do not depend on it.
 
     Returns:
         `Schedule.at(k, concept)` is the optimum at the k-th advance ratio in ascending order, `at(None, concept)` the
-        fixed blade, `in_flight_gain(concept)` the gain of moving.
+        fixed twist, `in_flight_gain(concept)` the gain of changing it in flight.
 
     Raises:
         TypeError: the design or the advance ratios are of another type.

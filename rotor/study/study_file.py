@@ -99,7 +99,7 @@ class _Top(FileTable, frozen=True, kw_only=True):
 
 
 class Reader:
-    """Reads a study from the text of a file. Refusal for whatever is wrong."""
+    """Reads a study from the text of a file. Raises Refusal for what is wrong."""
 
     def __init__(self, values: dict[str, Any], name: str) -> None:
         self._name = name

@@ -80,7 +80,7 @@ class Weights:
     """By the swirl at the same velocities."""
 
     def over(self, shape: tuple[int, int]) -> list[Array]:
-        """All of them as arrays."""
+        """All weights as arrays."""
         return [np.broadcast_to(weight, shape) for weight in vars(self).values()]
 
 

@@ -25,7 +25,7 @@ LEAST_TOLD = 0.01
 
 @dataclass(frozen=True)
 class DoubtRow(Uncertain):
-    """An uncertain input and what it does to one design, or to two."""
+    """An uncertain input and its effect on the power of one design, or of two."""
 
     power: float
     """Change of total power where the input is larger by its size [W]."""
@@ -47,7 +47,7 @@ class OtherModels:
 
 @dataclass(frozen=True, repr=False)
 class Doubt:
-    """What is uncertain about the power of a design, and about what it saves against another."""
+    """The uncertainty of a design's power, and of what it saves compared with another design."""
 
     power: float
     """Total power [W]."""
@@ -65,17 +65,17 @@ class Doubt:
 
     @property
     def band(self) -> float:
-        """Band of the power, to both sides [W]."""
+        """Uncertainty of the power, ± [W]."""
         return math.hypot(*(row.power for row in self.rows))
 
     @property
     def change(self) -> float | None:
-        """Power less that of the design compared with [W]."""
+        """Power minus that of the design compared with [W]."""
         return None if self.against is None else self.power - self.against
 
     @property
     def change_band(self) -> float | None:
-        """Band of `change`, to both sides [W]."""
+        """Uncertainty of `change`, ± [W]."""
         return None if self.against is None else math.hypot(*(row.change or 0.0 for row in self.rows))
 
     @property

@@ -54,7 +54,7 @@ DEFAULT_OPTIONS = SolverOptions()
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """Where a trim starts: what a solution leaves for the next one."""
+    """The start of a trim, which a solution leaves for the next one."""
 
     state: TrimState
     elastic: Array | None = None
@@ -87,7 +87,7 @@ class LinearisedTrim:
 
 @dataclass(frozen=True, eq=False)
 class TrimResult:
-    """Where the solution of a trim or of hover ended."""
+    """The last iterate of a trim, in forward flight or hover."""
 
     problem: Problem
     point: Point

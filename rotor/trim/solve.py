@@ -28,10 +28,10 @@ def solve(
     """Trim a design: the controls, inflow and blade motion at which forces and moments balance.
 
     Parameters:
-        design: what is trimmed, as `make_design` makes it.
+        design: the design to trim, from `make_design`.
         start: an earlier solution, or a guess, from which the iteration begins. The answer does not depend on it.
         options: limits of the iteration.
-        freedoms: of the blade, beside those of the design, in forward flight with blades that do not bend.
+        freedoms: further freedoms of the blade, in forward flight with blades that do not bend.
 
     Returns:
         The trim of least power where there are several. A design that does not trim comes back as well, with
@@ -39,7 +39,7 @@ def solve(
 
     Raises:
         TypeError: a design, a start or a freedom is of another type.
-        ValueError: there can be no freedoms here, or their equations and `power` contradict their columns.
+        ValueError: freedoms cannot be used here, or their equations and `power` contradict their columns.
 
     Example:
         >>> trim = rotor.solve(rotor.make_design(twist="linear:-8", mu=0.2))

@@ -31,7 +31,7 @@ _STEP = 1e-5
 
 
 class HarmonicInflow(InflowModel):
-    """A model that says its harmonics at a flow."""
+    """An inflow model given by its harmonics, which depend on the flow through the disk."""
 
     load_dependent = False
     columns: Sequence[tuple[int, str]]

@@ -30,7 +30,7 @@ Atoms = dict[Hashable, tuple[float, tuple[float, float, float]]]
 
 
 class Followed(NamedTuple):
-    """What a model makes of a flow, each with slopes by (µ_x, µ_z, λ0)."""
+    """What a model derives from a flow, with slopes by (µ_x, µ_z, λ0)."""
 
     atoms: Atoms
     live: Mapping[tuple[int, Shape], tuple[Array, Array]]
@@ -39,7 +39,7 @@ class Followed(NamedTuple):
 
 @dataclass(frozen=True)
 class SectionInterface:
-    """A section as the engine's structure takes it."""
+    """The section model in the form that the engine's structure needs."""
 
     section: Callable[[Array, Any, bool, bool], tuple[Array, Array, Array]]
     pairs: tuple[tuple[int, int], ...]
@@ -106,7 +106,7 @@ class InflowTerms:
         return [(channel, name, STEADY, ONE) for channel, name in self.live]
 
     def shapes(self) -> dict[Shape, Array]:
-        """Functions along the blade by name, (elements,)."""
+        """The functions along the blade by name, (elements,)."""
         return {}
 
     def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
