@@ -26,7 +26,7 @@ from rotor.design import (
     TwistLaw,
 )
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import FLIGHT_MODELS, preset_models
+from rotor.design.design import FLIGHT_MODELS, grid_asked, preset_models, with_grid
 from rotor.design.quantities import CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
@@ -151,6 +151,10 @@ class Inputs(_Quantities):
     """Root pitch at harmonics of rotor speed."""
     twist_per_rev: tuple[Harmonic, ...] = ()
     """Active twist, that of an actuator apart."""
+    elements: int | None = None
+    """Blade elements, where a design asks for a number of its own."""
+    azimuths: int | None = None
+    """Azimuths, where a design asks for a number of its own."""
     active_shape: tuple[tuple[float, ...], tuple[float, ...]] | None = None
     """Stations and shape of active twist where a design file gives them; else it is linear from the root cut-out."""
 
@@ -175,7 +179,9 @@ class Inputs(_Quantities):
             rotor=self.aircraft,
             twist=self.twist(),
             **self._flight(),
-            models=replace(models, **{name: getattr(self, name) for name in MODELS}),
+            models=with_grid(
+                replace(models, **{name: getattr(self, name) for name in MODELS}), self.elements, self.azimuths
+            ),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
             pitch_per_rev=self.pitch_per_rev,
@@ -307,6 +313,7 @@ def inputs_of(design: Design) -> Inputs:
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
         **{name: row.of(design) / row.input_size for name, row in FLIGHT.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
+        **grid_asked(design.models),
     )
     if design.aircraft.isolated:
         start = replace(start, mass_t=reference_mass_t(design.aircraft))

@@ -39,6 +39,12 @@ PINNED = "a"
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 
+MOST_ELEMENTS = 48
+"""Most blade elements of a design on the page, which shares its server with others."""
+MOST_AZIMUTHS = 240
+MOST_LINE_AZIMUTHS = 48
+"""Most azimuths of a lifting line, whose work grows with the square of its points and more."""
+
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
 
@@ -132,6 +138,7 @@ def within(inputs: Inputs) -> Inputs:
 
     A twist beyond its sliders is kept as it is, as one from a file.
     """
+    _check_grid(inputs)
     if any(not _holds(name, inputs) for name in LAWS[inputs.law].inputs):
         law = inputs.design().twist
         inputs = replace(inputs, law="given", given=law, **{name: getattr(_PLAIN, name) for name in _TWISTS})
@@ -143,6 +150,16 @@ def within(inputs: Inputs) -> Inputs:
                 "bring it inside."
             )
     return inputs
+
+
+def _check_grid(inputs: Inputs) -> None:
+    elements, azimuths = inputs.elements or 0, inputs.azimuths or 0
+    most = MOST_LINE_AZIMUTHS if inputs.inflow == "lifting-line" else MOST_AZIMUTHS
+    if elements > MOST_ELEMENTS or azimuths > most:
+        raise ValueError(
+            f"The design asks for {elements or 'the usual'} blade elements and {azimuths or 'the usual'} azimuths, but "
+            f"this page computes with at most {MOST_ELEMENTS} and {most}: solve it with `python -m rotor solve`."
+        )
 
 
 def _holds(name: str, inputs: Inputs) -> bool:

@@ -71,6 +71,8 @@ def random_inputs(chance: random.Random) -> Inputs:
         load_factor=chance.choice((1.0, chance.randint(10, 16) / 10.0)),
         unsteady=chance.random() < 0.8,
         dynamic_stall=chance.random() < 0.8,
+        elements=chance.choice((None, None, 12, 48)),
+        azimuths=chance.choice((None, None, 16, 48)),
     )
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)
