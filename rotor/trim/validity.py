@@ -33,6 +33,8 @@ HOVER_CAUTION = 0.12
 """C_T/σ in hover from which maximum lift decides, the least certain part of the section data. Our choice."""
 LARGEST_BUILT_TWIST = math.radians(25.0)
 """Root to tip, with a margin: the UH-60A has 18° nominal. Only tiltrotor blades, propellers in cruise, have more."""
+NOSE_UP_TWIST = math.radians(1.0)
+"""Root to tip, above which the sign is questioned. Our choice: no rotor here is built with any."""
 STALL_SHARE = 0.02
 """Stalled part of the disk above which dynamic stall would change the results."""
 MOST_STALLED = 0.25
@@ -95,6 +97,11 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
             said["twist-beyond-built"] = (
                 f"The blade twists by {math.degrees(tip - root):.0f}° from root to tip; helicopter blades are built "
                 "with about 20° or less. Read the result as an extrapolation."
+            )
+        elif tip - root > NOSE_UP_TWIST:
+            said["nose-up-twist"] = (
+                f"The twist raises the pitch of the tip {math.degrees(tip - root):.1f}° above that of the root; built "
+                "blades lower it. For such a blade give the opposite sign, as in linear:-8."
             )
     if design.tail_rotor is None and models.tail_rotor_solved and not trim.on_stand:
         said["no-tail-rotor"] = (

@@ -177,6 +177,7 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     ("flags", "words"),
     [
         (["--twist", "linear:-30"], "built with about 20"),
+        (["--twist", "linear:8"], "give the opposite sign, as in linear:-8"),
         (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "one of data, not of airfoils"),
     ],
 )
