@@ -406,6 +406,8 @@ class _Worker(threading.Thread):
                     return
                 case "error":
                     sentence = f"The work failed ({str(reply.value) or type(reply.value).__name__})."
+                    if isinstance(reply.value, MemoryError):
+                        sentence = "This needs more memory than is free here: end other programs, then press again."
                     job.tell(JobFailed(sentence, reply.value))
                     return
 

@@ -98,8 +98,10 @@ class Deaf:
 
 @dataclass(frozen=True)
 class Failing:
+    error: Exception
+
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
-        raise ValueError("a value that nobody wants")
+        raise self.error
 
 
 @dataclass(frozen=True)
@@ -309,8 +311,9 @@ def test_time_is_limited(pool: Processes):
 
 def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Processes):
     before = pids_of(pool)
-    _, heard = begin(pool, Failing())
-    assert "a value that nobody wants" in heard.until(JobFailed).message
+    for error, words in (ValueError("a bad value"), "a bad value"), (MemoryError(), "needs more memory than is free"):
+        _, heard = begin(pool, Failing(error))
+        assert words in heard.until(JobFailed).message
     _, heard = begin(pool, Count(5))
     assert heard.until(JobEnded) == JobEnded(5)
     assert heard.items == [1, 2, 3, 4, 5]
