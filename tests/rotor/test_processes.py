@@ -310,6 +310,7 @@ def test_time_is_limited(pool: Processes):
 
 
 def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Processes):
+    begin(pool, Count(1))[1].until(JobEnded)
     before = pids_of(pool)
     for error, words in (ValueError("a bad value"), "a bad value"), (MemoryError(), "needs more memory than is free"):
         _, heard = begin(pool, Failing(error))
