@@ -167,11 +167,15 @@ def _scale(modes: BendingModes, radius: float) -> tuple[Array, int]:
 def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     """Sums of strips outboard, mean over each element by weights, over all of the root too in the first.
 
-    strips: (rows, stations), weights: (stations,) → (rows, elements).
+    strips: (rows, stations), weights: (stations,) → (rows, elements). Elements finer than the stations are interpolated.
     """
     sums = np.cumsum(strips[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips
-    cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, len(edges) - 2)
-    return np.stack([np.bincount(cell, row * weights) for row in sums]) / np.bincount(cell, weights)
+    count = len(edges) - 1
+    cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, count - 1)
+    inside = np.bincount(cell, weights, count)
+    means = np.stack([np.bincount(cell, row * weights, count) for row in sums]) / np.where(inside, inside, 1.0)
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    return np.where(inside, means, [np.interp(middle, r, row) for row in sums])
 
 
 def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Array:

@@ -32,8 +32,12 @@ from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY
 
-LARGEST = 6000
-"""Panels times azimuths: the influence matrix then has 140 MB."""
+MOST_PANELS = 128
+"""Beyond some 200 the panels at the tip are so short that Newton's method in single precision no longer converges."""
+MOST_AZIMUTHS = 480
+"""Lags tie all azimuths of a panel to each other: at 1500 they take 4 GB."""
+MOST_POINTS = 3000
+"""Panels times azimuths. From some 5800 on Newton's method takes minutes, or does not converge."""
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
 
@@ -88,10 +92,11 @@ class LiftingLineInflow(InflowModel):
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """Panels, and azimuths in a multiple of the number of blades."""
-        if models.panels * models.line_azimuths > LARGEST:
+        panels, azimuths = models.panels, models.line_azimuths
+        if panels > MOST_PANELS or azimuths > MOST_AZIMUTHS or panels * azimuths > MOST_POINTS:
             raise ValueError(
-                f"a lifting line of {models.panels} elements at {models.line_azimuths} azimuths has more than "
-                f"{LARGEST} points: 24 × 24 is enough for power"
+                f"a lifting line of {panels} elements at {azimuths} azimuths is too fine: give at most {MOST_PANELS} "
+                f"and {MOST_AZIMUTHS}, and {MOST_POINTS} points in all; 24 × 24 is enough for power"
             )
         return models.panels, -(-models.line_azimuths // blades) * blades
 
