@@ -167,7 +167,7 @@ def _scale(modes: BendingModes, radius: float) -> tuple[Array, int]:
 def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     """Sums of strips outboard, mean over each element by weights, over all of the root too in the first.
 
-    strips: (rows, stations), weights: (stations,) → (rows, elements). Elements finer than the stations are interpolated.
+    strips: (rows, stations), weights: (stations,) → (rows, elements). Elements between stations are interpolated.
     """
     sums = np.cumsum(strips[:, ::-1], axis=1)[:, ::-1] - 0.5 * strips
     count = len(edges) - 1
@@ -175,7 +175,7 @@ def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     inside = np.bincount(cell, weights, count)
     means = np.stack([np.bincount(cell, row * weights, count) for row in sums]) / np.where(inside, inside, 1.0)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    return np.where(inside, means, [np.interp(middle, r, row) for row in sums])
+    return np.where(inside, means, np.stack([np.interp(middle, r, row) for row in sums]))
 
 
 def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Array:
