@@ -175,7 +175,8 @@ def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     inside = np.bincount(cell, weights, count)
     means = np.stack([np.bincount(cell, row * weights, count) for row in sums]) / np.where(inside, inside, 1.0)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    return np.where(inside, means, np.stack([np.interp(middle, r, row) for row in sums]))
+    between: list[Array] = [np.interp(middle, r, row) for row in sums]
+    return np.where(inside, means, np.stack(between))
 
 
 def _with_root(along: Array, shapes: Array, inboard: Array, width: float) -> Array:
