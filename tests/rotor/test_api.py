@@ -259,8 +259,14 @@ class TestSweep:
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         """The tests do without pandas: something else takes its place."""
         table = rotor.sweep(design, [0.2])
-        monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows, columns: (rows, columns)))
-        assert table.to_dataframe() == (list(table.rows), list(table.columns))
+        made = SimpleNamespace(DataFrame=lambda columns: SimpleNamespace(columns=columns, attrs={}))
+        monkeypatch.setitem(sys.modules, "pandas", made)
+        frame = table.to_dataframe()
+        assert frame.columns == table.to_dict()
+        units = frame.attrs["units"]
+        known = {"speed_kt": "kt", "mass_kg": "kg", "total_kw": "kW", "twist_deg_per_r": "°/R"}
+        assert known.items() <= units.items()
+        assert not {"rotor", "mu", "pitch_per_rev", "message"} & units.keys()
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install 'rotor-explorer\[pandas\]'"):
             table.to_dataframe()
