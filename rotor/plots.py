@@ -1,10 +1,7 @@
-"""Charts and disks with matplotlib, an extra of the installation: it is imported when something is drawn."""
+"""Charts with matplotlib, an extra of the installation: it is imported when something is drawn."""
 
 from typing import Any
 
-import numpy as np
-
-from rotor.arrays import Array
 from rotor.chart import Band, Chart, Line
 from rotor.units import typographic
 from rotor.user_input import extra_module
@@ -24,24 +21,6 @@ def drawing_module(name: str = "matplotlib.figure") -> Any:
 def new_axes(**options: Any) -> Any:
     """Axes in a new pyplot figure."""
     return drawing_module("matplotlib.pyplot").subplots(**options)[1]
-
-
-def plot_disk(r: Array, psi: Array, values: Array, label: str, ax: Any = None) -> Any:
-    """A field over the disk, seen from above: tail (ψ = 0) down, advancing side (ψ = 90°) right.
-
-    r: element centres y/R, (elements,). psi: azimuths [rad], (azimuths,). values: (elements, azimuths).
-    `ax`: polar axes to draw into; by default new ones. Returns the axes.
-    """
-    if ax is None:
-        ax = new_axes(subplot_kw={"projection": "polar"})
-    ax.set_theta_zero_location("S")
-    ax.set_theta_direction(1)
-    closed = np.concatenate((values, values[:, :1]), axis=1)
-    drawn = ax.contourf(np.append(psi, psi[0] + 2.0 * np.pi), r, closed, levels=40)
-    ax.set_rlim(0.0, 1.0)
-    ax.set_title(label)
-    ax.figure.colorbar(drawn, ax=ax, shrink=0.8)
-    return ax
 
 
 def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:

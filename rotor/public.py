@@ -20,6 +20,7 @@ from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.doubt import doubt
+from rotor.trim.export import plot_field, save_solution, solution_record
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.power import PowerBudget
@@ -55,9 +56,12 @@ __all__ = (
     "make_design",
     "optimise",
     "parse_twist",
+    "plot_field",
     "plot_power",
     "run_study",
+    "save_solution",
     "schedule",
+    "solution_record",
     "solve",
     "solve_many",
     "stability",

@@ -23,6 +23,8 @@ _UNITS = {
     "_n": "N",
     "_nm": "N m",
     "_w": "W",
+    "_kw": "kW",
+    "_deg_per_r": "°/R",
     "_ms": "ms",
     "_per_rev": "/rev",
 }

@@ -30,7 +30,7 @@ print(f"elastic twist at the tip: mean {tip.mean():.2f}Â°, from {tip.min():.2f}Â
 # %%
 # Elastic twist over the azimuth: the advancing blade twists up or down by its own moments.
 
-solutions["elastic"].plot("elastic_twist")
+rotor.plot_field(solutions["elastic"], "elastic_twist")
 
 # %%
 # Power over jig twist, with the best twist of each blade.

@@ -68,7 +68,7 @@ print(f"misleads most about power itself: {lowest}, by {off[lowest]:+.1f} %")
 
 _, axes = plt.subplots(1, 2, subplot_kw={"projection": "polar"}, figsize=(10, 4.5))
 for ax, name in zip(axes, (names[0], reference), strict=True):
-    solutions[name].plot("induced", ax=ax)
+    rotor.plot_field(solutions[name], "induced", ax=ax)
     ax.set_title(name)
 
 # %%

@@ -54,7 +54,7 @@ print(best)
 # The angle of attack over the disk, with that twist.
 
 solution = rotor.solve(best.design).require()
-solution.plot("alpha")
+rotor.plot_field(solution, "alpha")
 print(f"stalled: {100 * solution.stalled_area:.1f} % of the disk")
 for caveat in solution.caveats:
     print("-", caveat.sentence)
@@ -62,7 +62,7 @@ for caveat in solution.caveats:
 # %%
 # A saved design contains the rotor file, so you can send it to others.
 
-solution.save(folder / "best.json")
+rotor.save_solution(solution, folder / "best.json")
 again = rotor.solve(rotor.load_design(folder / "best.json"))
 print(f"{solution.power.total / 1e3:.3f} kW, read back {again.power.total / 1e3:.3f} kW")
 explorer.show(solution.design, browser=False)

@@ -14,6 +14,7 @@ from rotor.table import CellValue, table
 from rotor.terminal import wrapped
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
+from rotor.trim.export import solution_record
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -59,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
             also["power_band_w"] = [end.power.total for end in band]
         if args.doubt:
             also["doubt"] = sure and sure.record()
-        print(json.dumps({**solution.to_dict(), **also, **_vibration(solution)}, indent=2, allow_nan=False))
+        print(json.dumps({**solution_record(solution), **also, **_vibration(solution)}, indent=2, allow_nan=False))
     else:
         print(report(solution))
         if sure is not None:

@@ -138,6 +138,7 @@ def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
         arrow.field(name.name, kinds[name.kind], metadata={"unit": name.unit} if name.unit else None)
         for name in columns_of(study)
     ]
+    about = about | {"PANDAS_ATTRS": {"units": about["units"]}}  # What pandas reads into `attrs` of its data frame.
     texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
     table = arrow.Table.from_pylist(rows, schema=arrow.schema(fields, metadata=texts))
     out = io.BytesIO()

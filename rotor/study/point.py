@@ -34,6 +34,7 @@ from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.analysis import Analysis
+from rotor.trim.export import solution_record
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
@@ -315,7 +316,7 @@ def _found(optimum: Optimum, search: Search) -> Row:
 
 
 def _answer(solution: Solution) -> Row:
-    record = solution.to_dict()
+    record = solution_record(solution)
     powers = {f"power_{part}_w": power for part, power in record["power_w"].items()}
     row = {name: value for name, value in {**record, **powers}.items() if name in ANSWER}
     return row | {"caveats": ", ".join(caveat.name for caveat in solution.caveats), "passes": solution.passes}

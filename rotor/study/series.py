@@ -15,7 +15,7 @@ from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
 from rotor.design.aircraft import told
 from rotor.design.design import Design, require_design
-from rotor.design.quantities import CONDITION, SWEPT, Flight
+from rotor.design.quantities import ARGUMENTS, CONDITION, SWEPT, Flight
 from rotor.design.quantity import Quantity, takes
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
@@ -27,7 +27,7 @@ from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import KNOT
+from rotor.units import KNOT, unit_of
 from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
@@ -133,9 +133,14 @@ class SweepTable:
         write_whole(path, csv_text([self.columns, *self.rows]))
 
     def to_dataframe(self) -> Any:
-        """The table as a pandas DataFrame; MissingExtra with the remedy where pandas is missing."""
-        pandas = extra_module("pandas", "pandas", "a data frame")
-        return pandas.DataFrame(list(self.rows), columns=list(self.columns))
+        """The table as a pandas DataFrame, with the unit of each column that has one in `attrs["units"]`.
+
+        Raises MissingExtra with the remedy where pandas is missing.
+        """
+        frame = extra_module("pandas", "pandas", "a data frame").DataFrame(self.to_dict())
+        units = ((name, ARGUMENTS[name].unit if name in ARGUMENTS else unit_of(name)) for name in self.columns)
+        frame.attrs["units"] = {name: unit for name, unit in units if unit}
+        return frame
 
 
 @takes(SWEPT, after="start")

@@ -10,7 +10,7 @@ from rotor.aero.problem import LOW_MACH, build_problem, on_azimuths
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array, ShortRepr
 from rotor.design.design import Design
-from rotor.trim.solution import DiskFields, Solution
+from rotor.trim.solution import DiskFields, Solution, require_solution
 
 _SHOWN = (0.25, 0.4, 0.55, 0.7, 0.8, 0.87, 0.92, 0.96, 0.99)
 """r/R near which rows of the table stand."""
@@ -68,9 +68,7 @@ def distribution(solution: Solution) -> Distribution:
 
     Raises RuntimeError when the solution did not converge, TypeError for anything but a solution.
     """
-    if not isinstance(solution, Solution):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(f"solution is {solution!r:.80}: give what rotor.solve returns")
-    design, disk = solution.design, solution.require().disk
+    design, disk = require_solution(solution).design, solution.require().disk
     rotor = design.rotor
     lift, inflow = disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)), disk.induced * rotor.tip_speed
     return Distribution(disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow)

@@ -12,7 +12,8 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -25,13 +26,39 @@ from rotor.engine.terms import Terms
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.newton import Guess
-from rotor.trim.solution import Caveat, HubLoads, Solution
+from rotor.trim.solution import Caveat, Solution
 from rotor.trim.solve import analyse
 
 SLOWEST = 0.2
 """Advance ratio below which the wake model decides the loads."""
 _AFT, _SIDE = 0.5, 0.67
 """Weights of the in-plane forces in the index."""
+
+
+@dataclass(frozen=True)
+class HubLoads:
+    """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
+
+    per_rev: int
+    """N_b: the lowest harmonic that reaches the hub."""
+    amplitudes: dict[str, float]
+    """At N_b/rev of fx, fy, fz [N] and of the moments mx (advancing side up) and my (nose up) about the hub [N m]."""
+    phases: dict[str, float]
+    """ψ N_b at the largest value [rad], by the same names."""
+    index: float
+    """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
+    band: tuple[float, float] | None
+    """Least and largest index over several inflow models [%]."""
+
+    def record(self) -> dict[str, Any]:
+        """For `solve --json`."""
+        unit = {"f": "n", "m": "nm"}
+        return {
+            "per_rev": self.per_rev,
+            **{f"{name}_{unit[name[0]]}": value for name, value in self.amplitudes.items()},
+            "index_percent": self.index,
+            "band_percent": None if self.band is None else list(self.band),
+        }
 
 
 def why_no_hub_loads(design: Design) -> Caveat | None:

@@ -1,17 +1,13 @@
 """What a solve returns: status and sentence, trim, fields over the disk, power by parts.
 
-One file, because they are the parts of one value: records, texts and bands are made of the same fields, and whoever
-reads a result finds here what each number means.
+One file, because they are the parts of one value, and whoever reads a result finds here what each number means.
 """
 
-import json
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
-from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -21,20 +17,13 @@ from rotor.aero.display import STALLED, pitch_of_alpha
 from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
-from rotor.aero.switches import switched_off
 from rotor.arrays import Array, Booleans, ShortRepr
-from rotor.assets import package_version
 from rotor.columns.blade import Freedom
-from rotor.design.active_twist import active_twist_record, harmonics_record
-from rotor.design.aircraft import told
 from rotor.design.design import Design
-from rotor.design.quantities import BESIDE
 from rotor.engine.waves import waves_at
-from rotor.plots import plot_disk
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
 from rotor.units import power_unit
-from rotor.user_input import check_suffix, write_whole
 
 
 class Status(Enum):
@@ -142,21 +131,6 @@ class ElasticTwist(ShortRepr):
         """Amplitude of the 1/rev part of `tip` [rad]."""
         return float(np.hypot(*self.coordinates[:, 1:3].sum(axis=0)))
 
-    def record(self) -> dict[str, Any]:
-        """For `solve --json`; the amplitude of the pitch-link load is half of peak to peak."""
-        load = self.pitch_link_load
-        return {
-            "elastic_twist_deg": {
-                "mean_tip": math.degrees(float(self.tip.mean())),
-                "amplitude_1_tip": math.degrees(self.first_harmonic),
-                "min_tip": math.degrees(float(self.tip.min())),
-                "max_tip": math.degrees(float(self.tip.max())),
-            },
-            "torsion_frequencies_per_rev": self.frequencies.tolist(),
-            "pitch_link_load_n": {"mean": float(load.mean()), "amplitude": 0.5 * float(np.ptp(load))},
-            "control_power_w": self.control_power,
-        }
-
 
 @dataclass(frozen=True, eq=False)
 class Deflections:
@@ -176,37 +150,8 @@ class Deflections:
         return up, forward
 
 
-@dataclass(frozen=True)
-class HubLoads:
-    """Vibratory loads of all blades on the hub, in axes that do not turn: x aft, y to starboard, z up."""
-
-    per_rev: int
-    """N_b: the lowest harmonic that reaches the hub."""
-    amplitudes: dict[str, float]
-    """At N_b/rev of fx, fy, fz [N] and of the moments mx (advancing side up) and my (nose up) about the hub [N m]."""
-    phases: dict[str, float]
-    """ψ N_b at the largest value [rad], by the same names."""
-    index: float
-    """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
-    band: tuple[float, float] | None
-    """Least and largest index over several inflow models [%]."""
-
-    def record(self) -> dict[str, Any]:
-        """For `solve --json`."""
-        unit = {"f": "n", "m": "nm"}
-        return {
-            "per_rev": self.per_rev,
-            **{f"{name}_{unit[name[0]]}": value for name, value in self.amplitudes.items()},
-            "index_percent": self.index,
-            "band_percent": None if self.band is None else list(self.band),
-        }
-
-
-SCHEMA = "rotor-explorer solution 1"
-"""What `Solution.to_dict` is: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
 _NO_THRUST = 1e-12
 """Ideal power over ρA(ΩR)³ below which there is none but rounding."""
-_RIGID = ("elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -342,124 +287,9 @@ class Solution:
             raise RuntimeError(self.message)
         return self
 
-    def to_dict(self) -> dict[str, Any]:
-        """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
-        design, controls, power, stand = self.design, self.controls, self.last_power, self.design.condition.stand
-        values: dict[str, Any] = {
-            "power_w": {
-                "total": power.total,
-                "main_rotor": power.main_rotor,
-                "induced": power.induced,
-                "profile": power.profile,
-                "parasite": power.parasite,
-                "climb": power.climb,
-                **({"damping": power.damping} if self.freedoms else {}),
-                "tail": power.tail,
-            },
-            **({"freedoms": self.freedom_states} if self.freedoms else {}),
-            "ct": self.ct,
-            "cp": self.cp,
-            "ct_over_sigma": self.ct_over_sigma,
-            "cq": self.cq,
-            "cq_over_sigma": self.cq / design.rotor.solidity,
-            "shaft_torque_nm": self.torque,
-            "rotor_lift_n": self.lift_and_drag[0],
-            "rotor_drag_n": self.lift_and_drag[1],
-            "collective_deg": math.degrees(controls.collective),
-            "cyclic_1c_deg": math.degrees(controls.cyclic_1c),
-            "cyclic_1s_deg": math.degrees(controls.cyclic_1s),
-            "coning_deg": math.degrees(controls.coning),
-            "flap_1c_deg": math.degrees(controls.flap_1c),
-            "flap_1s_deg": math.degrees(controls.flap_1s),
-            "shaft_tilt_deg": math.degrees(controls.shaft_tilt),
-            "lambda0": controls.lambda0,
-            "reverse_flow_area_percent": 100.0 * self.reverse_flow_area,
-            "stalled_area_percent": 100.0 * self.stalled_area,
-            "dynamic_stall": self.disk.unsteady is not None,
-            "stalled_percent": {"area": 100.0 * self.stalled_area, "thrust": 100.0 * self.stalled_thrust},
-            **(self.elastic.record() if self.elastic else dict.fromkeys(_RIGID)),
-        }
-        return {
-            "schema": SCHEMA,
-            "version": package_version(),
-            "rotor": design.rotor.name,
-            "status": self.status.value,
-            "message": self.message,
-            "caveats": [caveat.sentence for caveat in self.caveats],
-            "mu": design.condition.advance_ratio,
-            "speed_m_s": design.airspeed,
-            "mass_kg": design.condition.mass,
-            "altitude_m": design.condition.altitude,
-            **{name: design.condition.numbers[name] for name in told([design.condition]) if name in BESIDE},
-            "preset": design.preset,
-            "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
-            "twist": design.twist.spec(),
-            **({} if stand is None else {"trim": design.models.trim, "stand": stand.record()}),
-            **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
-            **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
-            **self._switches(),
-            **(values if self.converged else _emptied(values)),
-            "elapsed_ms": 1e3 * self.elapsed,
-        }
 
-    def _switches(self) -> dict[str, Any]:
-        """What is switched off, and the hub moment, which is then not zero; nothing for the full model."""
-        off = switched_off(self.design.models)
-        if not off:
-            return {}
-        moment = self.hub_moment if self.converged else None
-        return {
-            "switched_off": [switch.flag for switch in off],
-            "hub_moment_n_m": {"roll": moment and moment.roll, "pitch": moment and moment.pitch},
-        }
-
-    def save(self, path: str | Path) -> None:
-        """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back.
-
-        ValueError for the suffix of another format, and with freedoms, which no file holds.
-        """
-        check_suffix(path, ".json")
-        if self.freedoms:
-            raise ValueError("a design file holds no freedoms of the blade: write to_dict() of this solution instead")
-        record = {**self.design.to_dict(), "solution": self.to_dict()}
-        write_whole(path, json.dumps(record, indent=2, allow_nan=False) + "\n")
-
-    def plot(self, field: str = "alpha", ax: Any = None) -> Any:
-        """Draw a field of `disk` over the disk seen from above, nose up; returns the matplotlib axes.
-
-        Raises ValueError for a field that does not exist, and RuntimeError when the solution did not converge.
-        """
-        if field not in DISK_LABELS:
-            raise ValueError(f"field {field!r} is not known: use one of {', '.join(DISK_LABELS)}")
-        disk = self.require().disk
-        label, scale = DISK_LABELS[field]
-        values: Array | None = getattr(disk, field)
-        if values is None:
-            raise ValueError(f"this blade is rigid, so it has no field {field!r}: choose another field")
-        return plot_disk(disk.r, disk.psi, scale * values, label, ax)
-
-
-def _emptied(values: dict[str, Any]) -> dict[str, Any]:
-    """Keys of a record without their values."""
-    return {
-        key: _emptied(cast(dict[str, Any], value)) if isinstance(value, dict) else None for key, value in values.items()
-    }
-
-
-_DEGREES = math.degrees(1.0)
-DISK_LABELS: dict[str, tuple[str, float]] = {
-    "alpha": ("Angle of attack [°]", _DEGREES),
-    "theta": ("Pitch [°]", _DEGREES),
-    "stall_margin": ("Stall margin [°]", _DEGREES),
-    "induced": ("Induced inflow λi", 1.0),
-    "inflow": ("Total inflow λ", 1.0),
-    "u_t": ("Tangential velocity U_T/ΩR", 1.0),
-    "u_p": ("Perpendicular velocity U_P/ΩR", 1.0),
-    "mach": ("Mach number", 1.0),
-    "cl": ("Lift coefficient", 1.0),
-    "cd": ("Drag coefficient", 1.0),
-    "dct": ("Thrust loading dC_T/dr", 1.0),
-    "dcq": ("In-plane loading dC_H/dr", 1.0),
-    "elastic_twist": ("Elastic twist [°]", _DEGREES),
-}
-"""Fields that `Solution.plot` draws: label, and factor from SI to the unit of the label."""
+def require_solution(given: object) -> Solution:
+    """What is given, or TypeError with one sentence when it is no solution."""
+    if not isinstance(given, Solution):
+        raise TypeError(f"solution is {given!r:.80}: give what rotor.solve returns")
+    return given

@@ -34,8 +34,8 @@ from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import hub_loads
-from rotor.trim.solution import HubLoads, Solution
+from rotor.trim.hub_loads import HubLoads, hub_loads
+from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.rotor.root_loads import displacements
 

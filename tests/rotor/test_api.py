@@ -37,9 +37,9 @@ rotor.solve(design.at(mu=0.3), start=solution)
 rotor.sweep(design, mu=[.1, .2, .3])
 best = rotor.optimise(design, concept="two-segment")
 design.with_twist(best.twist)
-solution.save("a.json")
-rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); solution.save("a.json")
-solution.plot("alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
+rotor.save_solution(solution, "a.json")
+rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); rotor.save_solution(solution, "a.json")
+rotor.plot_field(solution, "alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
 import explorer; page = explorer.show(design, browser=False)
 """
 """As a user types it, except that the page opens no browser."""
@@ -174,17 +174,17 @@ class TestSolution:
         with pytest.raises(RuntimeError, match=r"did not converge.*last_power"):
             _ = failed.power
         assert failed.last_power.total > 0.0
-        assert failed.to_dict()["power_w"]["total"] is None
+        assert rotor.solution_record(failed)["power_w"]["total"] is None
 
     def test_saved_design_loads_and_keeps_its_numbers(self, solution: rotor.Solution, tmp_path: Path):
         path = tmp_path / "a.json"
-        solution.save(path)
+        rotor.save_solution(solution, path)
         assert rotor.load_design(path) == solution.design
         saved = json.loads(path.read_text(encoding="utf-8"))["solution"]
         assert saved["power_w"]["total"] == solution.power.total
 
     def test_plots(self, solution: rotor.Solution, design: rotor.Design):
-        axes = solution.plot("alpha")
+        axes = rotor.plot_field(solution, "alpha")
         assert "Angle of attack" in axes.get_title()
         table = rotor.sweep(design, [0.1, 0.2])
         axes = rotor.plot_power(table)
@@ -259,8 +259,14 @@ class TestSweep:
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         """The tests do without pandas: something else takes its place."""
         table = rotor.sweep(design, [0.2])
-        monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=lambda rows, columns: (rows, columns)))
-        assert table.to_dataframe() == (list(table.rows), list(table.columns))
+        made = SimpleNamespace(DataFrame=lambda columns: SimpleNamespace(columns=columns, attrs={}))
+        monkeypatch.setitem(sys.modules, "pandas", made)
+        frame = table.to_dataframe()
+        assert frame.columns == table.to_dict()
+        units = frame.attrs["units"]
+        known = {"speed_kt": "kt", "mass_kg": "kg", "total_kw": "kW", "twist_deg_per_r": "°/R"}
+        assert known.items() <= units.items()
+        assert not {"rotor", "mu", "pitch_per_rev", "message"} & units.keys()
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install 'rotor-explorer\[pandas\]'"):
             table.to_dataframe()
@@ -308,7 +314,8 @@ WRONG = {
     "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
     "rotor.sweep(design, [0.2]).to_csv('a.json')": (ValueError, "write 'a.csv'"),
     "rotor.sweep([design, 'uh60a'], mu=[0.2])": (TypeError, "design is 'uh60a': give what rotor.make_design"),
-    "solution.plot('noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
+    "rotor.plot_field(design)": (TypeError, "give what rotor.solve returns"),
+    "rotor.plot_field(solution, 'noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
     "explorer.show('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
 }
 

@@ -44,7 +44,7 @@ def test_a_picture_without_matplotlib_is_one_sentence(
     for name in ("matplotlib.figure", "matplotlib.pyplot"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     with pytest.raises(ImportError, match=re.escape(WANTS)):
-        solution.plot()
+        rotor.plot_field(solution)
     for words in (["validate", "xv15-hover", "--plot", str(tmp_path)], ["reproduce", str(tmp_path / "out")]):
         assert main(words) == 2
         assert capsys.readouterr().err.endswith(f"{WANTS}\n")

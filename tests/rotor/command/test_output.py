@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import build_parser, main
-from rotor.trim.solution import SCHEMA
+from rotor.trim.export import SCHEMA
 
 QUICK = ("--inflow", "uniform", "--elements", "12", "--azimuths", "24")
 FORMATS = (Path(__file__).parents[3] / "docs" / "formats.md").read_text(encoding="utf-8")

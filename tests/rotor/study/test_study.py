@@ -314,6 +314,7 @@ def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[Store, 
     assert about["study"] == store.study.fingerprint
     assert about["package_version"] == "0.0"
     assert json.loads(about["units"])["mass_kg"] == "kg"
+    assert json.loads(about["PANDAS_ATTRS"])["units"] == json.loads(about["units"])
     units = [QUANTITIES[f"stand_{key}"].unit for key in ("shaft_tilt_deg", "thrust_n", "hub_roll_nm", "density_kg_m3")]
     assert units == ["°", "N", "N m", "kg/m³"]
     models = json.loads(about["models"])

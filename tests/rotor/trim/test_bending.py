@@ -20,9 +20,9 @@ from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
 from rotor.trim.analysis import Analysis, power_gradient
-from rotor.trim.hub_loads import hub_loads, index_along, why_no_hub_loads
+from rotor.trim.hub_loads import HubLoads, hub_loads, index_along, why_no_hub_loads
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import HubLoads, Solution
+from rotor.trim.solution import Solution
 from rotor.units import GRAVITY
 from tests.rotor.check_jacobian import check_along
 from tests.rotor.root_loads import displacements, root_loads

@@ -20,6 +20,7 @@ from rotor.design.design import Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import power_gradient
+from rotor.trim.export import solution_record
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
@@ -246,7 +247,7 @@ class TestVortexRing:
         refused = solve(design(mu, edge - 0.01))
         assert not refused.converged
         assert "vortex ring state" in refused.message
-        assert refused.to_dict()["power_w"]["total"] is None
+        assert solution_record(refused)["power_w"]["total"] is None
         slower = float(refused.message.partition("less than ")[2].partition(" m/s")[0])
         faster = float(refused.message.rstrip(".").rpartition("advance ratio ")[2])
         assert solve(design(mu, -slower)).converged

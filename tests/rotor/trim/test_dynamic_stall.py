@@ -13,6 +13,7 @@ from rotor.aero.switches import no_effect
 from rotor.design.design import Design
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.distribution import distribution
+from rotor.trim.export import solution_record
 from rotor.trim.forward import first_guess
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import newton
@@ -101,7 +102,7 @@ def test_a_turn_is_met_that_steady_sections_refuse():
     """Within 5 %; with steady sections it takes twice the power, from stalled sections alone."""
     found = solve(make_design(**TURN)).require()
     assert found.power.main_rotor == pytest.approx(513e3, rel=0.05)
-    assert found.to_dict()["dynamic_stall"] is True
+    assert solution_record(found)["dynamic_stall"] is True
     still = solve(steady(make_design(**TURN)))
     assert not still.converged
     assert "% of the thrust comes from stalled sections, and beyond 25 % no measured rotor" in still.message
@@ -115,7 +116,7 @@ def test_a_turn_is_met_that_steady_sections_refuse():
 def test_elsewhere_sections_stay_steady(given: dict[str, Any]):
     solution = solve(make_design(**given)).require()
     assert solution.disk.unsteady is None
-    assert solution.to_dict()["dynamic_stall"] is False
+    assert solution_record(solution)["dynamic_stall"] is False
 
 
 def test_power_over_mass_rises_evenly():

@@ -205,10 +205,10 @@ class TestRefused:
 def test_the_record(tmp_path: Any) -> None:
     """Numbers only; without freedoms as before; no design file."""
     solution = lagging(rotor.make_design(mu=0.25, inflow="pitt-peters"))
-    record = json.loads(json.dumps(solution.to_dict(), allow_nan=False))
+    record = json.loads(json.dumps(rotor.solution_record(solution), allow_nan=False))
     assert record["freedoms"] == solution.freedom_states
     assert_allclose(record["power_w"]["damping"], solution.power.damping)
     assert "damping" in repr(solution)
-    assert "freedoms" not in rotor.solve(solution.design).to_dict()
+    assert "freedoms" not in rotor.solution_record(rotor.solve(solution.design))
     with pytest.raises(ValueError, match="freedoms"):
-        solution.save(tmp_path / "lag.json")
+        rotor.save_solution(solution, tmp_path / "lag.json")
