@@ -142,14 +142,16 @@ def test_a_camera_is_aimed_as_its_setters_aim_it():
     connection = SimpleNamespace(queue_message=lambda message: queued.append((type(message), vars(message))))
     one, other = (viser.CameraHandle(cast(Any, SimpleNamespace(_websock_connection=connection))) for _ in range(2))
     for camera in (one, other):
-        camera._state.update_timestamp, camera._state.up_direction = 1.0, np.array([0.0, 0.0, 1.0])
+        state = camera._state
+        state.update_timestamp, state.up_direction, state.look_at = 1.0, np.array([0.0, 0.0, 1.0]), np.ones(3)
     position, target = np.array([5.0, -4.0, 3.0]), np.array([1.0, 0.5, 0.0])
     one.position, one.look_at = position, target
-    theirs = {kind: fields for kind, fields in queued}  # Of each kind the last one counts.
+    theirs = dict(queued)  # Of each kind the last one counts.
     queued.clear()
     viser_compat.aim(other, position, target)
     assert dict(queued) == theirs
-    assert (other.position == position).all() and (other.look_at == target).all()
+    assert (other.position == position).all()
+    assert (other.look_at == target).all()
     viser_compat.aim(other, position.copy(), target.copy())
     assert len(queued) == 2
 
