@@ -285,13 +285,14 @@ class Page:
     def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._now = replace(self._now, state=state, curve=curve)
-        self.rival.show(state)
-        self._refresh(reading)
-        self.vibration.show(state)
-        self._curve.show(state)
-        self._learn()
-        self.follower.follow(self.now())
-        self.display.show(state)
+        with self._client.atomic():  # Each message by itself would wake the thread that sends.
+            self.rival.show(state)
+            self._refresh(reading)
+            self.vibration.show(state)
+            self._curve.show(state)
+            self._learn()
+            self.follower.follow(self.now())
+            self.display.show(state)
 
     def show_power(self, curve: PowerCurve) -> None:
         """Draw power over advance ratio anew."""

@@ -101,7 +101,8 @@ class Session:
         if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
             self.page.solved(reading.inputs, solution)
             return iter(())
-        baseline = self._baseline.solve(baseline_of(solution.design))
+        as_built = baseline_of(solution.design)
+        baseline = solution if as_built == solution.design else self._baseline.solve(as_built)
         pinned = self.page.solve_pinned(solution.design, self._overtaken())
         state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self.page.pin)
         last, self._state = self._state, state

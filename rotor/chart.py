@@ -308,7 +308,8 @@ def _drawn_series(series: Series, colour: str, digits: dict[str, int]) -> DrawnL
 
 
 def _rounded(values: Values, digits: int) -> list[float | None]:
-    return [round(value, digits) if math.isfinite(value) else None for value in values]
+    rounded: list[float] = np.round(np.asarray(values, dtype=np.float64), digits).tolist()
+    return [value if math.isfinite(value) else None for value in rounded]
 
 
 def scaled(value: float, log: bool) -> float:

@@ -43,11 +43,17 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 
 def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, Array]:
     """Negative and positive stall angle, and α [°], at the elements of one azimuth; NaN in reverse flow."""
-    disk = solution.disk
-    fields = (disk.pitch_of_alpha, disk.u_t, disk.u_p, *stall_angles(solution))
-    theta, u_t, u_p, lower, upper = (at_azimuth(solution, values, math.radians(azimuth_deg)) for values in fields)
-    outside, alpha = np.where(u_t > 0.0, 1.0, np.nan), theta - np.arctan2(u_p, u_t)
-    return outside * np.degrees(lower), outside * np.degrees(upper), outside * np.degrees(alpha)
+    alpha, psi = alpha_along(solution, azimuth_deg), math.radians(azimuth_deg)
+    limits = (np.degrees(at_azimuth(solution, values, psi)) for values in stall_angles(solution))
+    lower, upper = (np.where(np.isnan(alpha), np.nan, limit) for limit in limits)
+    return lower, upper, alpha
+
+
+def alpha_along(solution: Solution, azimuth_deg: float) -> Array:
+    """α [°] at the elements of one azimuth; NaN in reverse flow."""
+    fields = (solution.disk.pitch_of_alpha, solution.disk.u_t, solution.disk.u_p)
+    theta, u_t, u_p = (at_azimuth(solution, values, math.radians(azimuth_deg)) for values in fields)
+    return np.where(u_t > 0.0, np.degrees(theta - np.arctan2(u_p, u_t)), np.nan)
 
 
 def lift_along(solution: Solution, azimuth_deg: float) -> Array:
@@ -176,11 +182,12 @@ class PowerCurves:
     ) -> bool:
         """Sweep the curves of a design and its reference; False when abandoned half way.
 
-        `known`: called after each of the two.
+        `known`: called after each curve that was not known before.
         """
         patient = self.recent
         for family in dict.fromkeys((_family(design), _family(reference))):
-            if family not in self._curves or family in self._coarse:
+            swept = family not in self._curves or family in self._coarse
+            if swept:
                 values, coarse = self._swept(family, superseded, patient)
                 self._tried = time.monotonic()
                 if values is None:
@@ -191,7 +198,8 @@ class PowerCurves:
                 self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
             if family == _family(design):
                 self._last = family
-            known()
+            if swept:
+                known()
         return True
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:

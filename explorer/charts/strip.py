@@ -5,12 +5,13 @@ Each chart compares this design with its reference. Gaps are NaN.
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
+from explorer.charts.plots import SWEEP, PowerCurve, Range, alpha_along, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor import Design, Solution
 from rotor.arrays import Array
@@ -173,17 +174,12 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
     x, power = mus[known], curve.design[known]
     if len(x) < _LEAST_SWEPT:
         return chart, math.nan
-    walls, marks = [(float(x[-1]), "no trim")] if x[-1] < mus[-1] else [], list[tuple[float, str]]()
+    walls, marks = [(float(x[-1]), "no trim")] if x[-1] < mus[-1] else [], ()
     installed = design.aircraft.installed_power
     if installed is not None and math.isfinite(top := top_speed(mus, curve.design, installed / KILOWATT.size)):
         walls.append((top, "engines"))
     if design.vertical_speed == 0.0:
-        fine = np.linspace(max(float(x[0]), 0.02), float(x[-1]), 800)
-        total = CubicSpline(x, power)(fine)
-        for word, cost in (("endurance", total), ("range", total / fine)):
-            k = int(np.argmin(cost))
-            if 0 < k < len(fine) - 1:
-                marks.append((float(fine[k]), word))
+        marks = _economic_speeds(tuple(x.tolist()), tuple(power.tolist()))
     drawn = np.array(next(line.y for line in chart.series if isinstance(line, Line) and line.colour == SAVING))[known]
 
     def mark(mu: float, word: str) -> Points:
@@ -206,6 +202,21 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
     return chart, min((mu for mu, _ in walls), default=float(x[-1]))
 
 
+@lru_cache(maxsize=8)
+def _economic_speeds(mus: tuple[float, ...], power: tuple[float, ...]) -> tuple[tuple[float, str], ...]:
+    """µ of least power and of least power over speed, with what it is best for, where they lie within the curve.
+
+    Kept, because a curve stays the same while the speed is dragged.
+    """
+    fine, marks = np.linspace(max(mus[0], 0.02), mus[-1], 800), list[tuple[float, str]]()
+    total = CubicSpline(mus, power)(fine)
+    for word, cost in (("endurance", total), ("range", total / fine)):
+        k = int(np.argmin(cost))
+        if 0 < k < len(fine) - 1:
+            marks.append((float(fine[k]), word))
+    return tuple(marks)
+
+
 _ALONG = Axis("r/R", (0.1, 1.0), (0.1, 1.0), ("root", "tip"))
 
 
@@ -221,7 +232,7 @@ def alpha_chart(
     r = solution.disk.r
     lines, seen = list[Line](), [alpha]
     if reference is not None and reference.converged:
-        other = angles_along(reference, azimuth_deg)[2]
+        other = alpha_along(reference, azimuth_deg)
         lines.append(role_line(compared, reference.disk.r, other))
         seen.append(other)
     lines.append(role_line("this", r, alpha))

@@ -12,7 +12,7 @@ from explorer.model.units import UNITS, number
 from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion
 from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import Drawn, PolarGrid, Single, divergence_margin, polar_grid, refined, region_masks
+from explorer.picture.polar import Drawn, PolarGrid, Refined, Single, divergence_margin, polar_grid, region_masks
 from rotor import Solution
 from rotor.arrays import Array
 from rotor.chart import AZIMUTH, Axis, Chart, drawn_chart
@@ -45,7 +45,7 @@ def stall_segments(solution: Solution) -> Array:
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
     grid = polar_grid(solution.disk, *_OUTLINED)
-    left = refined(solution, grid).attached
+    left = Refined(solution, grid).attached
     return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
 
 
@@ -225,8 +225,8 @@ def _lines(segments: Array) -> list[list[list[float]]]:
 def _values(solution: Solution, field: Field) -> dict[str, PackedTable]:
     drawn, grid = Drawn(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
     tables = {name: FIELDS[title].sample(drawn, grid) for name, title in _READ.items()}
-    flow = drawn.flow(grid)
-    tables |= {"lower": np.degrees(flow.lower), "upper": np.degrees(flow.upper), "field": field.sample(drawn, grid)}
+    lower, upper = np.degrees(drawn.flow(grid).limits)
+    tables |= {"lower": lower, "upper": upper, "field": field.sample(drawn, grid)}
     return {name: _packed(values) for name, values in tables.items()}
 
 

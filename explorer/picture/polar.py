@@ -198,35 +198,6 @@ def _sections(blade: Blade, r: tuple[float, ...], per_metre: float) -> tuple[tup
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Refined:
-    """What pictures read of the flow on a polar grid, shape (radii, azimuths) each; not to be written into."""
-
-    u_t: Single
-    """U_T/ΩR; negative in reverse flow."""
-    alpha: Single
-    """Angle of attack [rad], from refined θ, U_T, U_P: these are smooth where α itself runs through ±180°.
-
-    Not wrapped: only reverse flow, where it is not shown, goes beyond half a turn.
-    """
-    lower: Single
-    """Negative stall angle [rad]."""
-    upper: Single
-    """Positive stall angle [rad]."""
-    separation: Single | None = None
-    """f″ of dynamic stall; None with steady sections."""
-
-    @property
-    def attached(self) -> Single:
-        """Negative where stalled: the margin, or with dynamic stall how far f″ is above that of static stall."""
-        return self.margin if self.separation is None else self.separation - np.float32(STALLED)
-
-    @property
-    def margin(self) -> Single:
-        """Angle left before stall [rad]; negative where stalled."""
-        return np.minimum(self.upper - self.alpha, self.alpha - self.lower)
-
-
 @_compile
 def angles_of_attack(theta: Single, u_t: Single, u_p: Single) -> Single:
     """α = θ − atan2(U_P, U_T) [rad], not wrapped, in the shape of all three."""
@@ -237,16 +208,46 @@ def angles_of_attack(theta: Single, u_t: Single, u_p: Single) -> Single:
     return alpha
 
 
-def refined(solution: Solution, grid: PolarGrid) -> Refined:
-    """The flow and the stall angles of a solution on a polar grid.
+class Refined:
+    """What pictures read of the flow of a solution on a polar grid, (radii, azimuths) each; not to be written into.
 
-    The margin itself falls by a radian within one element beside reverse flow; the stall angles do not.
+    All but U_T is worked out when it is first read.
     """
-    disk = solution.disk
-    lower, upper = stall_angles(solution)
-    theta, u_t, u_p, low, high = grid.refine_all((disk.pitch_of_alpha, disk.u_t, disk.u_p, lower, upper))
-    separation = None if disk.unsteady is None else grid.refine_all((disk.unsteady.separation,))[0]
-    return Refined(u_t, angles_of_attack(theta, u_t, u_p), low, high, separation)
+
+    def __init__(self, solution: Solution, grid: PolarGrid) -> None:
+        self._solution, self._grid, disk = solution, grid, solution.disk
+        self._pitch, self.u_t, self._u_p = grid.refine_all((disk.pitch_of_alpha, disk.u_t, disk.u_p))
+        """U_T/ΩR is negative in reverse flow."""
+
+    @cached_property
+    def alpha(self) -> Single:
+        """Angle of attack [rad], from refined θ, U_T, U_P: these are smooth where α itself runs through ±180°.
+
+        Not wrapped: only reverse flow, where it is not shown, goes beyond half a turn.
+        """
+        return angles_of_attack(self._pitch, self.u_t, self._u_p)
+
+    @cached_property
+    def limits(self) -> Single:
+        """Negative and positive stall angle [rad], (2, radii, azimuths)."""
+        return self._grid.refine_all(stall_angles(self._solution))
+
+    @cached_property
+    def attached(self) -> Single:
+        """Negative where stalled: the margin, or with dynamic stall how far f″ is above that of static stall."""
+        unsteady = self._solution.disk.unsteady
+        if unsteady is None:
+            return self.margin
+        return self._grid.refine_all((unsteady.separation,))[0] - np.float32(STALLED)
+
+    @cached_property
+    def margin(self) -> Single:
+        """Angle left before stall [rad]; negative where stalled.
+
+        It falls by a radian within one element beside reverse flow; the stall angles do not.
+        """
+        lower, upper = self.limits
+        return np.minimum(upper - self.alpha, self.alpha - lower)
 
 
 class Drawn:
@@ -258,7 +259,7 @@ class Drawn:
 
     def flow(self, grid: PolarGrid) -> Refined:
         if grid not in self._flows:
-            self._flows[grid] = refined(self.solution, grid)
+            self._flows[grid] = Refined(self.solution, grid)
         return self._flows[grid]
 
 

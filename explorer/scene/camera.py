@@ -9,6 +9,7 @@ from functools import partial
 import viser
 
 from explorer.hosting.browser import call
+from explorer.hosting.viser_compat import aim
 from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
 
 _MOST_COVERED = 0.75
@@ -142,8 +143,7 @@ class FittedCamera:
                 call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
                 return
             with self._client.atomic():
-                camera.position = target.position
-                camera.look_at = target.look_at
+                aim(camera, target.position, target.look_at)
 
     @property
     def _reshaped(self) -> bool:

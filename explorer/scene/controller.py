@@ -237,9 +237,9 @@ class SceneController:
             self._page.form(self.scene.rotor.forms(picture.blades) | other)
             self._page.paint(solution, field, colour_range, view)
             self._page.move(solution)
+            self._show_range(field, colour_range, False, _WITHIN)
+            self.camera.follow(solution.controls.shaft_tilt)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
-        self._show_range(field, colour_range, False, _WITHIN)
-        self.camera.follow(solution.controls.shaft_tilt)
         self._drawn, self._rested = wanted, False
 
     def draw_at_rest(self) -> None:

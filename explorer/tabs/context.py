@@ -90,7 +90,7 @@ class TabContext:
 
     @property
     def units(self) -> Units:
-        return units_of(self.display.view().units, self.controls.inputs().aircraft)
+        return units_of(self.display.view().units, self.controls.aircraft)
 
     def pin(self, inputs: Inputs | None) -> None:
         """Pin these inputs as A, whatever is on the sliders; None removes the pin."""

@@ -32,6 +32,7 @@ from explorer.text import readout
 from explorer.text.glossary import hint
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
+from rotor.design.aircraft import Aircraft
 from rotor.design.quantities import OPTIONS
 from rotor.markup import Markup, tag
 
@@ -96,6 +97,11 @@ class DesignControls:
             if self._own is not None:
                 return self._own
             return replace(self._special, stand=self.stand.stand, **self._form.values())
+
+    @property
+    def aircraft(self) -> Aircraft:
+        """That of the inputs."""
+        return (self._own or self._special).aircraft
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""

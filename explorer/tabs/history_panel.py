@@ -169,9 +169,9 @@ class HistoryPanel(Tab):
     def _draw(self, solution: Solution | None) -> None:
         with self._lock:
             kept, units = tuple(self._kept), self._context.units
-            if self._drawn == (kept, solution, units):
+            if self._drawn == (drawn := (kept, solution if kept else None, units)):
                 return
-            self._drawn = (kept, solution, units)
+            self._drawn = drawn
         self._rows.content = tag("div.rx", kept_rows(kept, solution, units))
 
     def _move(self, inputs: Inputs | None) -> None:

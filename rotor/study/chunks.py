@@ -21,9 +21,10 @@ from typing import Any
 from rotor.assets import package_version
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import preset_models
-from rotor.study.point import Row, WarmStarts, evaluate
+from rotor.study.point import Row, WarmStarts, evaluate, trims_in_step
 from rotor.study.study import QUANTITIES, Study, Value, columns_of
 from rotor.study.study_file import StudyFile
+from rotor.trim.many import BESIDE
 from rotor.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
@@ -60,10 +61,16 @@ class VersionMismatch(ValueError):
 
 
 def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
-    """Rows of the points first … last − 1; each starts from the results of those before."""
-    warm = WarmStarts(study.points.ranges)
-    points = enumerate(study.values(first, last), start=first)
-    return [{"point": number, **evaluate(values, study, warm)} for number, values in points]
+    """Rows of the points first … last − 1; each starts from the results of those before.
+
+    Points one after another that differ in their twist alone are trimmed in step.
+    """
+    warm, rows, values = WarmStarts(study.points.ranges), list[Row](), study.values(first, last)
+    while len(rows) < len(values):
+        left = values[len(rows) : len(rows) + BESIDE]
+        trims = trims_in_step(left, study)
+        rows += [evaluate(point, study, warm, trim) for point, trim in zip(left, trims, strict=False)]
+    return [{"point": number, **row} for number, row in enumerate(rows, start=first)]
 
 
 @one_blas_thread()

@@ -11,7 +11,8 @@ one from the quadratic with the derivatives of the nearest trim 7.3 (80 of 10⁵
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -35,7 +36,9 @@ from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.trim.analysis import Analysis
 from rotor.trim.export import solution_record
+from rotor.trim.forward import as_built
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.many import analyse_in_step
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
@@ -196,8 +199,31 @@ def check_point(values: Values, study: Study) -> None:
         _search(design, values, study.optimum, WarmStarts({}))
 
 
-def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
-    """The row of one point, started from earlier points; its trim and optimum are kept for later ones."""
+def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis | None]:
+    """Trims of the first point and of those after it that differ from it in their twist alone; at least one.
+
+    None where a point has to be trimmed by itself.
+    """
+    designs = list[Design]()
+    with suppress(Exception):  # The row of the point that means no design tells of it.
+        for values in points if study.optimum is None else ():
+            design = trim_of(values, study)
+            if design.hovering or (designs and as_built(design) != as_built(designs[0])):
+                break
+            designs.append(design)
+    if len(designs) < 2:
+        return [None]
+    try:
+        return analyse_in_step(designs, [None] * len(designs))
+    except Exception:  # The row of the point that it comes from tells of it.
+        return [None] * len(designs)
+
+
+def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis | None = None) -> Row:
+    """The row of one point, started from earlier points; its trim and optimum are kept for later ones.
+
+    in_step: its trim, where it is known.
+    """
     begin = time.perf_counter()
     row: Row = {name: value for name, value in values.items() if not isinstance(value, bool)}
     try:
@@ -205,7 +231,7 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
         row = _condition(design) | row
         if study.optimum is None:
             design = _bladed(design, values)
-            trim = analyse(design, warm.guess(values, hovering=design.hovering))
+            trim = in_step or analyse(design, warm.guess(values, hovering=design.hovering))
             solution = trim.solution
             row |= {"status": solution.status.value, "message": solution.message}
         else:
@@ -228,7 +254,8 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
         row |= {"status": "bad-input", "message": str(error)}
     except Exception as error:  # An unexpected error of one point must not stop its chunk.
         row |= {"status": "error", "message": f"{type(error).__name__}: {error}"}
-    row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin)
+    together = 0.0 if in_step is None else in_step.solution.elapsed
+    row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin + together)
     return row
 
 

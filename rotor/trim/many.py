@@ -18,7 +18,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions, newton_together
 from rotor.trim.solution import Solution
 from rotor.trim.solve import Start, analyse, doubtful, guess_of
 
-_BESIDE = 32
+BESIDE = 32
 """Designs in one step: their fields then stay in the processor's cache. Our choice."""
 
 
@@ -55,10 +55,10 @@ def analyse_many(
     for k, design in enumerate(designs):
         groups.setdefault(as_built(require_design(design)), []).append(k)
     for group in groups.values():
-        for first in range(0, len(group), _BESIDE):
-            some = group[first : first + _BESIDE]
+        for first in range(0, len(group), BESIDE):
+            some = group[first : first + BESIDE]
             if len(some) > 1 and not options.asked_to_stop:
-                found = _in_step([designs[k] for k in some], [starts[k] for k in some], options)
+                found = analyse_in_step([designs[k] for k in some], [starts[k] for k in some], options)
                 trims |= {k: trim for k, trim in zip(some, found, strict=True) if trim is not None}
             for k in some:
                 if k not in trims:
@@ -67,15 +67,17 @@ def analyse_many(
 
 
 @one_blas_thread()
-def _in_step(designs: Sequence[Design], starts: Sequence[Start], options: SolverOptions) -> Sequence[Analysis | None]:
+def analyse_in_step(
+    designs: Sequence[Design], starts: Sequence[Start], options: SolverOptions = DEFAULT_OPTIONS
+) -> Sequence[Analysis | None]:
     """Trims of designs that differ in their twist alone; None for those that have to be trimmed by themselves."""
     begin, one = time.perf_counter(), designs[0]
     if one.hovering or one.condition.stand is not None or vortex_ring(one):
         return [None] * len(designs)
-    problems = [trim_problem(design) for design in designs]
-    built = start_as_built(problems[0])
+    built = start_as_built(trim_problem(one))
     if built is None:
         return [None] * len(designs)
+    problems = [trim_problem(design) for design in designs]
     guesses = [guess_of(design, start) or built for design, start in zip(designs, starts, strict=True)]
     if guesses[0].factors is None:
         guesses[0] = replace(guesses[0], factors=built.factors, structure=built.structure)

@@ -24,9 +24,9 @@ from explorer.picture.polar import (
     Drawn,
     MarkedRegion,
     Marks,
+    Refined,
     mark_line,
     polar_grid,
-    refined,
     region_codes,
     region_masks,
 )
@@ -68,7 +68,7 @@ class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
         codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (refined(fast, grid).attached < 0.0)
+        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (Refined(fast, grid).attached < 0.0)
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
         assert share == pytest.approx(fast.stalled_area, abs=0.02)
@@ -97,7 +97,7 @@ class TestHatch:
         regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
         plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = refined(fast, grid).attached < -0.02
+        stalled = Refined(fast, grid).attached < -0.02
         row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
         x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
         y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)
@@ -115,7 +115,7 @@ class TestDynamicStall:
         assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
         assert 0.02 < vortex.max() < 1.0
         grid = polar_grid(solution.disk, 80, 240)
-        masks, flow = region_masks(Drawn(solution), grid), refined(solution, grid)
+        masks, flow = region_masks(Drawn(solution), grid), Refined(solution, grid)
         stalled = masks["stall"]
         assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05
         assert len(stall_segments(solution)) > 10

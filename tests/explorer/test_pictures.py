@@ -15,7 +15,7 @@ from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cover, View, fit
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_picture, rotate, tip_path_pose
-from explorer.picture.polar import Drawn, PolarGrid, polar_grid, refined
+from explorer.picture.polar import Drawn, PolarGrid, Refined, polar_grid
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
@@ -114,7 +114,7 @@ class TestFields:
         """On the solver's own points, outside reverse flow, to rounding in single precision."""
         solution = solve(make_design(preset=preset, mu=0.3))
         disk = solution.disk
-        same = refined(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
+        same = Refined(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
 

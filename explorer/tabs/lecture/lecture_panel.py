@@ -330,7 +330,7 @@ class LecturePanel(Tab):
 
     def _name_case(self, inputs: Inputs) -> None:
         """The menu names a case for as long as the sliders hold it."""
-        held = (title for title, case in CASES.items() if self._kept(case) == inputs)
+        held = (title for title, case in CASES.items() if replace(case, own_rotor=inputs.own_rotor) == inputs)
         self._case.value = next(held, _NO_CASE)
 
     def _kept(self, inputs: Inputs) -> Inputs:

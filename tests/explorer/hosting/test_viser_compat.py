@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from importlib.metadata import requires, version
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -133,6 +134,26 @@ def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
     assert len(queued) == 4
     way[0] = 9.0  # What was sent is nobody else's.
     assert other.position[0] == 1.0
+
+
+def test_a_camera_is_aimed_as_its_setters_aim_it():
+    """It sends the messages of the setters, and none for what stays."""
+    queued: list[Any] = []
+    connection = SimpleNamespace(queue_message=lambda message: queued.append((type(message), vars(message))))
+    one, other = (viser.CameraHandle(cast(Any, SimpleNamespace(_websock_connection=connection))) for _ in range(2))
+    for camera in (one, other):
+        state = camera._state
+        state.update_timestamp, state.up_direction, state.look_at = 1.0, np.array([0.0, 0.0, 1.0]), np.ones(3)
+    position, target = np.array([5.0, -4.0, 3.0]), np.array([1.0, 0.5, 0.0])
+    one.position, one.look_at = position, target
+    theirs = dict(queued)  # Of each kind the last one counts.
+    queued.clear()
+    viser_compat.aim(other, position, target)
+    assert dict(queued) == theirs
+    assert (other.position == position).all()
+    assert (other.look_at == target).all()
+    viser_compat.aim(other, position.copy(), target.copy())
+    assert len(queued) == 2
 
 
 def test_a_callback_that_fails_is_logged_and_not_printed(

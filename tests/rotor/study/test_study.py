@@ -16,18 +16,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor import hub_loads
+from rotor import Design, hub_loads
 from rotor.__main__ import main
 from rotor.assets import asset_path
 from rotor.command.common import interruptible
 from rotor.files.make_design import make_design
+from rotor.study import point as study_point
 from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, effects, read_results, robust_best
 from rotor.study.study import QUANTITIES, Sample, StudyAxis, StudyPoints, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
+from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim.solve import analyse, solve
 
 WHENCE = StudyProvenance("0.0", None, "0")
 COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
@@ -133,6 +135,29 @@ def test_rows_agree_with_single_trims():
         assert (row["status"], row["twist"]) == ("converged", design.twist.spec())
         assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
         assert_allclose(row["collective_deg"], math.degrees(alone.controls.collective), rtol=1e-7)
+
+
+def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(monkeypatch: pytest.MonkeyPatch):
+    """One that does not trim, or that fails, leaves the others."""
+    text = '[axes]\nmu = [0.2, 0.3]\nrate_deg = [-18, -8, 90, -14]\n[fixed]\nconcept = "linear"\n'
+    study = parse_study(text)
+    alone = [study_point.evaluate(values, study, WarmStarts({})) for values in study.values(0, study.count)]
+    by_themselves = list[str]()
+
+    def recorded(design: Design, *rest: Any) -> Analysis:
+        by_themselves.append(design.twist.spec())
+        return analyse(design, *rest)
+
+    monkeypatch.setattr(study_point, "analyse", recorded)
+    rows = evaluate_points(study, 0, study.count)
+    assert by_themselves == ["linear:90"] * 2
+    assert {row["status"] for row in rows} == {"converged", "not-converged"}
+    for row, one in zip(rows, alone, strict=True):
+        del row["elapsed_ms"], one["elapsed_ms"]
+        assert row.pop("point") in range(8)
+        assert row == {
+            name: pytest.approx(x, rel=1e-11, abs=1e-11) if isinstance(x, float) else x for name, x in one.items()
+        }
 
 
 def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
