@@ -37,6 +37,10 @@ def spoken(watched: Watched) -> list[tuple[str, str]]:
     return [(role, name) for role, name in found if role in CONTROLS]
 
 
+def nameless(watched: Watched) -> list[str]:
+    return watched.at_rest(lambda: [role for role, name in spoken(watched) if not name])
+
+
 @pytest.mark.slow
 def test_every_control_has_a_spoken_name(watched: Watched):
     expected = {
@@ -50,15 +54,13 @@ def test_every_control_has_a_spoken_name(watched: Watched):
             watched.unfold(one[1])
         watched.answered()
         watched.until(lambda one=one: one in spoken(watched))
-        listed = spoken(watched)
-        assert [role for role, name in listed if not name] == [], mode
+        assert nameless(watched) == [], mode
     watched.mode("explore")
     for drawer in ("open", "share", "settings", "probe", "lecture"):
         watched.drawer(drawer)
         watched.answered()
         watched.until(lambda: ("button", "Close") in spoken(watched))
-        listed = spoken(watched)
-        assert [role for role, name in listed if not name] == [], drawer
+        assert nameless(watched) == [], drawer
 
 
 @pytest.mark.slow
@@ -134,33 +136,25 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
     def outer() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
 
-    def middle_of(selector: Any) -> tuple[float, float]:
-        box = selector.bounding_box()
-        assert box is not None
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-    watched.answered()
     for part in ("total-power", "status"):
-        box = page.locator(f'[data-explorer="{part}"]').first.bounding_box()
-        assert box is not None
+        box = watched.box(page.locator(f'[data-explorer="{part}"]').first)
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 390
     begun = outer()
     slider.scroll_into_view_if_needed()
-    swipe(session, watched, middle_of(slider), (30.0, 2.0))
+    swipe(session, watched, watched.middle(slider), (30.0, 2.0))
     watched.until_changed(outer, begun)
     by_slider = watched.at_rest(outer)
     assert 3.0 < by_slider < 12.0
     knot = page.locator('[data-knot="2"]')
     knot.scroll_into_view_if_needed()
-    watched.answered()
-    swipe(session, watched, middle_of(knot), (0.0, 12.0))
+    swipe(session, watched, watched.middle(knot), (0.0, 12.0))
     watched.until_changed(outer, by_slider)
     by_curve = watched.at_rest(outer)
     assert -20.0 <= by_curve < by_slider - 2.0
     camera: Any = watched.at_rest(lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
-    x, y = page.evaluate(ON_SCREEN, 7.2)
+    x, y = watched.at_rest(lambda: page.evaluate(ON_SCREEN, 7.2))
     swipe(session, watched, (x, y), (0.0, 30.0))  # Seen from the tip, the trailing edge goes down: nose up.
     watched.until_changed(outer, by_curve)
     by_blade = watched.at_rest(outer)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import expect
 from watched import Watched, opened, window
 
 from explorer.app import App
@@ -78,8 +79,7 @@ def foreign(asked: list[str]) -> list[str]:
 @pytest.mark.slow
 def test_the_view_is_a_picture_of_the_scene_between_the_cards(watched: Watched, app: App, tmp_path: Path):
     with Image.open(saved(watched, "Picture", tmp_path)) as picture:
-        size = watched.page.locator("canvas").first.bounding_box()
-        assert size is not None
+        size = watched.box(watched.page.locator("canvas").first)
         assert picture.width == 1920
         # Title and scale stand above and below; what cards cover is not in it.
         above, below = app.sessions[-1].page.scene.camera.covered
@@ -174,12 +174,12 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
     assert figures.all_inner_texts() == ["?", "?", "?"]
     page.locator("section[data-step='1'] .rxs-guess button").first.click()
     power = solve(steps[0].begin().design()).power.total
-    assert figures.first.inner_text() == f"{power / 1e3:.0f}\u00a0kW"
+    expect(figures.first).to_have_text(f"{power / 1e3:.0f}\u00a0kW")
     slider = page.locator("section[data-step='1'] [data-stop]")
     slider.press("Home")
     page.wait_for_function("() => document.querySelector('section[data-step=\"1\"] output').textContent === 'hover'")
     hover = solve(make_design(mu=0.0)).power.total
-    assert figures.first.inner_text() == f"{hover / 1e3:,.0f}\u00a0kW".replace(",", "\u00a0")
+    expect(figures.first).to_have_text(f"{hover / 1e3:,.0f}\u00a0kW".replace(",", "\u00a0"))
     page.keyboard.press("PageDown")
     page.wait_for_selector('.rxs-column[data-step="2"]')
     page.wait_for_selector(".rxs-wipe", state="visible")
@@ -195,7 +195,7 @@ def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser"
     # Elastic twist follows the azimuth: blades of one rotor differ too.
     Watched(page).until(lambda: apart("/rotor/blade_0", "/rotor/blade_1") > 1e-3)
     page.get_by_role("slider", name="Between A, left, and B, right").press("ArrowLeft")
-    assert page.evaluate("() => rotorWipe.at") == pytest.approx(0.45)
+    page.wait_for_function("() => Math.abs(rotorWipe.at - 0.45) < 1e-6")
     assert wrong == []
     assert foreign(asked) == []
     page.close()

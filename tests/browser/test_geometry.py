@@ -87,6 +87,7 @@ def test_a_sentence_is_not_cut_and_moves_nothing(sized: Watched, size: tuple[int
     if size[0] <= 700:  # A telephone has no room for the sentence.
         return
     watched, page = sized, sized.page
+    watched.answered(wholly=True)  # No answer of the background may write over the sentence.
     stands: list[object] = []
     for value, why in (("−1 kW", _WHY[0]), ("−9.2 kW", _WHY[1]), ("+128 kW", _WHY[2])):
         page.evaluate("([moved, why]) => RX.set({power: {...RX.state.power, moved, why}})", [value, why])

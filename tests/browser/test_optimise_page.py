@@ -198,8 +198,7 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     watched.until(lambda: session.page.controls.inputs() != START)
     (across, up), exact = place_on(first, session.page.controls.inputs().design().twist)
     assert exact
-    box = watched.at_rest(watched.page.locator("[data-map]").bounding_box)  # The map is drawn anew with its dot.
-    assert box is not None
+    box = watched.box("[data-map]")
     assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
     watched.until(lambda: session.page.map.map is not first and not session.page.map.running)

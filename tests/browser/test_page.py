@@ -24,26 +24,22 @@ def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     def mu() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
 
-    def dot() -> tuple[float, float]:
-        box = page.locator("[data-speed]").bounding_box()
-        assert box
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
     fastest = page.evaluate("() => RX.state.strip[0].speeds.fastest")
-    x, y = watched.at_rest(dot)
+    x, y = watched.middle("[data-speed]")
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 200, y, steps=8)  # Beyond the end of the axis.
     watched.until(lambda: mu() == pytest.approx(fastest))
-    assert page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]").inner_text() == "limit: engines"
+    head = page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]")
+    watched.until(lambda: head.inner_text() == "limit: engines")
     page.mouse.up()
-    page.mouse.move(*watched.at_rest(dot))
+    page.mouse.move(*watched.middle("[data-speed]"))
     page.mouse.down()
     page.mouse.move(x - 100, y, steps=4)
     page.mouse.up()
     watched.until(lambda: mu() < 0.9 * fastest)
     watched.answered(wholly=True)
-    page.mouse.dblclick(*watched.at_rest(dot))
+    page.mouse.dblclick(*watched.middle("[data-speed]"))
     watched.until(lambda: mu() == pytest.approx(fastest))
 
 
@@ -83,11 +79,8 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
             look();
         }"""
     )
-    slider = watched.row("Adv. ratio").get_by_role("slider")
-    slider.scroll_into_view_if_needed()
-    thumb = slider.bounding_box()
-    assert thumb is not None
-    x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
+    watched.row("Adv. ratio").get_by_role("slider").scroll_into_view_if_needed()
+    x, y = watched.thumb("Adv. ratio")
     page.mouse.move(x, y)
     page.mouse.down()
     seen_while_down, steps = 0, 0

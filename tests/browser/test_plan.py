@@ -23,11 +23,9 @@ _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').ha
 
 
 def _point(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
-    box = watched.page.locator(".rxf-plan").bounding_box()
-    assert box is not None
-    x, y, radius = watched.page.evaluate(
-        "() => ['cx', 'cy', 'r'].map(name => +document.querySelector('.rxf-plan svg circle').getAttribute(name))"
-    )
+    circle = "['cx', 'cy', 'r'].map(name => +document.querySelector('.rxf-plan svg circle').getAttribute(name))"
+    x, y, radius = watched.at_rest(lambda: watched.page.evaluate(circle))
+    box = watched.box(".rxf-plan")
     psi = math.radians(psi_deg)
     return box["x"] + x + r * radius * math.sin(psi), box["y"] + y + r * radius * math.cos(psi)
 
@@ -50,7 +48,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     )
     assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
     assert float(shown["C_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
-    assert f"{r:.2f} R" in page.locator("[data-explorer=around]").inner_text()
+    watched.reads("around", f"{r:.2f} R")
     # A click opens its section; the pinned card stays when the drawer moves the stage, and goes by its own button.
     page.mouse.down()
     page.mouse.up()
@@ -61,13 +59,13 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) == place)
     assert page.locator("[data-pin] b").inner_text() == place
     page.get_by_role("button", name="Unpin this reading").click()
-    assert page.locator("[data-pin]").count() == 0
+    page.locator("[data-pin]").wait_for(state="detached")
     # By key, and spoken.
     page.locator(".rxf-plan").focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Enter")
     page.locator("[data-pin]").wait_for(state="visible")
-    assert "R · ψ" in page.locator(".rxf-said").inner_text()
+    watched.until(lambda: "R · ψ" in page.locator(".rxf-said").inner_text())
     # Another design's values follow; and the scene comes back.
     before = page.evaluate("() => RX.state.plan.values.alpha.data")
     watched.press("Mass [t]", "ArrowRight", 5)

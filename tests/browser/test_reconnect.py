@@ -169,9 +169,8 @@ def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy:
     """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
     page, watched = twisted, Watched(twisted)
     field = watched.row("Δ inboard").locator("input:not([type=hidden])").last
-    thumb = watched.row("Δ inboard").get_by_role("slider").bounding_box()
-    assert thumb is not None
-    page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
+    x, y = watched.thumb("Δ inboard")
+    page.mouse.move(x, y)
     page.mouse.down()  # The drag that is under way ends with the connection.
     page.wait_for_function("() => location.search.includes(':-8,')")
     proxy.cut()
@@ -179,9 +178,9 @@ def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy:
     said = page.locator("#rx-gone").inner_text()
     assert "Nothing can be changed meanwhile" in said
     before = field.input_value()
-    page.mouse.move(thumb["x"] + 90, thumb["y"])
+    page.mouse.move(x + 83, y)
     page.mouse.up()
-    page.mouse.click(thumb["x"] + 60, thumb["y"] + 4)
+    page.mouse.click(x + 53, y)
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowRight")

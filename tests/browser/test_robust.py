@@ -86,7 +86,7 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         second.screenshot(path=artefacts / "full-house.png")
         first.close()
         second.wait_for_function(OPEN)
-        assert second.locator("[data-explorer=lobby]").count() == 0
+        second.locator("[data-explorer=lobby]").wait_for(state="detached")
         second.locator("[role=slider]:visible").first.wait_for()
     finally:
         app.stop()

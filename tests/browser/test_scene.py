@@ -61,7 +61,8 @@ AZIMUTH = """() => {
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    assert [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
+    begun = [-14.0, -8.0, 0.5]
+    shared.until(lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == begun)
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert shared.complaints == []
@@ -141,7 +142,7 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     watched.until(lambda: value(watched, "Outboard") > -3.0)
     for _ in range(20):
         page.keyboard.press("Shift+ArrowUp")
-    assert "limit of Outboard" in page.evaluate("() => RX.part('rubber').textContent")
+    page.wait_for_function("() => RX.part('rubber').textContent.includes('limit of Outboard')")
     watched.until(lambda: value(watched, "Outboard") == 10.0)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)

@@ -182,9 +182,21 @@ class Watched:
             self.page.wait_for_timeout(100)
             self.drawn()
             before, now = now, read()
-            if now == before:
+            if now == before is not None:  # None: not drawn at this moment.
                 return now
         raise AssertionError(f"never at rest: {now!r:.200}")
+
+    def box(self, of: "Locator | str") -> dict[str, float]:
+        """Where something is once it rests: cards and charts are drawn anew with each answer."""
+        return self.at_rest((self.page.locator(of) if isinstance(of, str) else of).bounding_box)
+
+    def middle(self, of: "Locator | str") -> tuple[float, float]:
+        box = self.box(of)
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def thumb(self, label: str) -> tuple[float, float]:
+        """Middle of a slider's thumb."""
+        return self.middle(self.row(label).get_by_role("slider"))
 
     def node(self, name: str) -> str:
         """A digest of what is drawn of a scene node: a blade's vertices or the numbers on a disk."""
