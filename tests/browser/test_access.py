@@ -1,15 +1,13 @@
 """Screen readers, the keyboard alone, and fingers: the page as used without a mouse."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser, CDPSession
 from watched import ON_SCREEN, Watched
 
 from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, CDPSession
 
 pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
@@ -114,7 +112,7 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
     page.wait_for_function("() => document.activeElement.dataset.value === 'share'")
 
 
-def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
+def swipe(session: CDPSession, watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
     """A finger set down, moved and lifted."""
     for k in range(13):
         point = {"x": start[0] + way[0] * k / 12, "y": start[1] + way[1] * k / 12}
@@ -125,7 +123,7 @@ def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], w
 
 
 @pytest.mark.slow
-def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", app: App):
+def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app: App):
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())

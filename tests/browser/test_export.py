@@ -5,12 +5,11 @@ import zipfile
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import expect
+from playwright.sync_api import Browser, Page, expect
 from watched import Watched, opened, window
 
 from explorer.app import App
@@ -23,16 +22,13 @@ from explorer.story.story_file import story_html
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
-
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 """A design with a caveat."""
 
 
 @pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+def shared(browser: Browser, app: App) -> Iterator[Watched]:
     watched = opened(browser, app.address)
     watched.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     watched.drawer("share")
@@ -64,7 +60,7 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
     return path
 
 
-def requests_of(page: "Page") -> list[str]:
+def requests_of(page: Page) -> list[str]:
     """Addresses that a page asks for, as it does so."""
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
@@ -122,7 +118,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
 
 
 @pytest.mark.parametrize("width", [900, 1500])
-def test_no_report_is_wider_than_its_page_and_its_title_is_a_line(browser: "Browser", tmp_path: Path, width: int):
+def test_no_report_is_wider_than_its_page_and_its_title_is_a_line(browser: Browser, tmp_path: Path, width: int):
     plain = make_design(inflow="drees", elements=16, azimuths=36)
     rates, breaks = ",".join(["-9.25"] * 40), ",".join(f"{k / 40:g}" for k in range(1, 40))
     named = replace(plain, rotor=replace(plain.rotor, name="A rotor of one's own with a name that has no end at all"))
@@ -156,7 +152,7 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 
 
 @pytest.mark.slow
-def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: "Browser", tmp_path: Path):
+def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: Browser, tmp_path: Path):
     """Opened as a file: guess, answer, control and handle act, numbers are the solver's, nothing is asked of a host."""
     steps = [step for step in STEPS if step.name in ("trim", "responding_wake")]
     done = list[int]()

@@ -1,16 +1,11 @@
 """The lecture and the presenter on the real page."""
 
-from typing import TYPE_CHECKING
-
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Locator, Page, expect
 from test_session_page import design_in_address, shown_kw
 from watched import COARSE, Visit, Watched
 
 from explorer.story.steps import STEPS
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Locator, Page
 
 pytestmark = pytest.mark.browser
 
@@ -20,13 +15,13 @@ LONG = 600_000
 """[ms] for the numbers of a step on a machine where much else runs."""
 
 
-def stands_at(page: "Page", step: int) -> None:
+def stands_at(page: Page, step: int) -> None:
     """A step stands, and its numbers have come."""
     page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
     page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=LONG)
 
 
-def section(page: "Page", step: int) -> "Locator":
+def section(page: Page, step: int) -> Locator:
     return page.locator(f'.rxs-list > [data-step="{step}"]')
 
 

@@ -1,15 +1,13 @@
 """What a person with weak eyes needs: no text below 12 px, and contrast by WCAG 2.1 AA (1.4.3) wherever it is known."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import pytest
-from watched import Visit, Watched, painted
+from playwright.sync_api import Browser
+from watched import Visit, Watched, opened
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
-    from explorer.app import App
+from explorer.app import App
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -27,8 +25,8 @@ def found(watched: Watched) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_text_is_large_and_dark_enough(browser: "Browser", app: "App", scheme: Literal["light", "dark"]):
-    watched = painted(browser, app.address, scheme)
+def test_text_is_large_and_dark_enough(browser: Browser, app: App, scheme: Literal["light", "dark"]):
+    watched = opened(browser, app.address, scheme=scheme)
     page = watched.page
     sizes = ((1920, 1080), (1500, 940), (1280, 720), (768, 1024), (390, 844))
     for wide, high in sizes if scheme == "light" else sizes[1::3]:  # A dark page has other colours, not other sizes.

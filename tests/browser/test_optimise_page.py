@@ -2,9 +2,10 @@
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from playwright.sync_api import Browser
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
@@ -13,16 +14,13 @@ from explorer.session import Session
 from explorer.tabs.optimise.power_map import place_on
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs()
 SLOW = "Three segments, free breaks"
 """It takes many times as long as a test waits before it presses Stop."""
 
 
-def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
+def arrive(browser: Browser, app: App) -> tuple[Watched, Session]:
     known = app.sessions
     watched = opened(browser, app.address, size=(1280, 900))
     (new,) = (session for session in app.sessions if session not in known)
@@ -30,7 +28,7 @@ def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
 
 
 @pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
+def shared(browser: Browser, app: App) -> "Iterator[tuple[Watched, Session]]":
     watched, session = arrive(browser, app)
     yield watched, session
     watched.close()
@@ -139,7 +137,7 @@ def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(
 
 @pytest.mark.slow
 def test_the_optimiser_is_beaten_by_hand_and_its_blade_is_in_the_link(
-    page: tuple[Watched, Session], browser: "Browser", app: App
+    page: tuple[Watched, Session], browser: Browser, app: App
 ):
     watched, session = page
     watched.choose("Concept", "Two segments")

@@ -2,11 +2,11 @@
 
 import math
 from io import BytesIO
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import Browser
 from watched import MEDIUM, Watched, opened
 
 from explorer.app import App
@@ -14,9 +14,6 @@ from explorer.model.inputs import OPENING
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from rotor.trim.solve import solve
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
@@ -30,7 +27,7 @@ def _point(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
     return box["x"] + x + r * radius * math.sin(psi), box["y"] + y + r * radius * math.cos(psi)
 
 
-def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
+def test_read_pin_and_go_round_the_disk(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     page.get_by_role("button", name="Disk").click()
@@ -76,7 +73,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     watched.close()
 
 
-def test_the_plan_has_the_colours_that_files_have(browser: "Browser", app: App):
+def test_the_plan_has_the_colours_that_files_have(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     watched.show("Mach number")

@@ -4,11 +4,12 @@ import math
 from collections.abc import Iterator
 from io import BytesIO
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import Browser
 from watched import Watched
 
 from explorer.app import App
@@ -17,9 +18,6 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.picture.wake import tip_vortices
 from rotor.trim.solve import solve
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
@@ -188,7 +186,7 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
 
 
 @pytest.mark.slow
-def test_the_disk_has_the_colours_that_files_have(browser: "Browser", app: App):
+def test_the_disk_has_the_colours_that_files_have(browser: Browser, app: App):
     """What the page's shader draws, at full opacity and without marks, against the picture of an export."""
     page = browser.new_page(viewport={"width": 900, "height": 700})
     try:

@@ -167,7 +167,6 @@ def test_no_task_takes_the_answer_of_one_that_was_given_up():
         begin, reply = time.monotonic(), None
         while reply is None and time.monotonic() < begin + PATIENCE:
             reply = process.receive(0.1)
-        assert reply is not None
         assert reply.value == "second"
     finally:
         process.close()

@@ -19,16 +19,9 @@ BLADE = "/rotor/blade_0"
 BRIDGE = "frame"
 """Label of the text widget that takes the messages of the page's own scripts."""
 _CAMERA = {
-    "wxyz": (1.0, 0.0, 0.0, 0.0),
-    "position": (20.0, 0.0, 20.0),
-    "fov": 0.5,
-    "near": 1.0,
-    "far": 1000.0,
-    "image_height": 940,
-    "image_width": 840,
-    "look_at": (0.0, 0.0, 0.0),
-    "up_direction": (0.0, 0.0, 1.0),
-}
+    "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (20.0, 0.0, 20.0), "fov": 0.5, "near": 1.0, "far": 1000.0,
+    "image_height": 940, "image_width": 840, "look_at": (0.0, 0.0, 0.0), "up_direction": (0.0, 0.0, 1.0),
+}  # fmt: skip
 _SHOWN = r'data-explorer="{}"([^>]*)>([^<]*)'
 _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
 _FORMS = re.compile(r"rotorDisk\.form\((\{.*\})\)", re.DOTALL)

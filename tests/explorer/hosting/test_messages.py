@@ -23,52 +23,17 @@ from tests.tools import wire
 from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
 
 GOOD: dict[str, list[Any]] = {
-    "azimuth": [65, 0.5],
-    "fly": [1.25],
-    "speed": [0.2, "0.165"],
-    "hold": [True],
-    "stop": [3, "3"],
-    "guess": ["0"],
+    "azimuth": [65, 0.5], "fly": [1.25], "speed": [0.2, "0.165"], "hold": [True], "stop": [3, "3"], "guess": ["0"],
     "drawer": ["", "share"],
     "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]],
-    "idle": [[7, False]],
-    "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]],
-    "covered": [[0.1, 0.2]],
-    "undo": [None, 5],
-    "view": ["disk"],
-    "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
-}
+    "idle": [[7, False]], "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]],
+    "undo": [None, 5], "view": ["disk"], "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
+}  # fmt: skip
 HOSTILE: list[Any] = [
-    math.nan,
-    math.inf,
-    -math.inf,
-    1e308,
-    -1e300,
-    10**400,
-    "",
-    "x" * 200,
-    "NaN",
-    "１",
-    "nowhere",
-    None,
-    True,
-    [],
-    {},
-    ["1", [None, math.nan]],
-    ["1", [math.inf, 0.0]],
-    [math.nan, "start"],
-    [3, [math.nan, 0.0]],
-    [1e9, [1.0, 1.0]],
-    [[]],
-    [3, []],
-    [math.nan, math.nan],
-    {"a": 1},
-    -1,
-    1e6,
-    "\ud800",
-    [1, True, 2],
-    "-1",
-]
+    math.nan, math.inf, -math.inf, 1e308, -1e300, 10**400, "", "x" * 200, "NaN", "１", "nowhere", None, True, [], {},
+    ["1", [None, math.nan]], ["1", [math.inf, 0.0]], [math.nan, "start"], [3, [math.nan, 0.0]], [1e9, [1.0, 1.0]],
+    [[]], [3, []], [math.nan, math.nan], {"a": 1}, -1, 1e6, "\ud800", [1, True, 2], "-1",
+]  # fmt: skip
 FLOATS = [(name, value) for name, value in _CAMERA.items() if not isinstance(value, int)]
 
 
@@ -109,7 +74,6 @@ def test_every_press_has_a_row_an_action_and_a_sender():
 def test_what_the_page_sends_passes(name: str):
     for value in GOOD[name]:
         checked = checked_press(press(name, value))
-        assert checked is not None
         assert checked[0] == name
 
 
@@ -166,17 +130,10 @@ TRANSFER = {"source_component_uuid": "a", "transfer_uuid": "t"}
 UPLOAD = {**TRANSFER, "filename": "a.json", "mime_type": "", "part_count": 1, "size_bytes": 9}
 PART = {**TRANSFER, "part_index": 0, "content": b"x" * 10**6}
 DRAG = {
-    "phase": "start",
-    "name": "/rotor/blade_0",
-    "instance_index": None,
-    "start_position": [0, 1.5, 2],
-    "start_screen_pos": [0.1, 0.2],
-    "end_position": [0.0, 1.5, 2.0],
-    "end_screen_pos": [0.1, 0.2],
-    "button": "left",
-    "modifier": "shift",
-    "owner": "",
-}
+    "phase": "start", "name": "/rotor/blade_0", "instance_index": None, "start_position": [0, 1.5, 2],
+    "start_screen_pos": [0.1, 0.2], "end_position": [0.0, 1.5, 2.0], "end_screen_pos": [0.1, 0.2], "button": "left",
+    "modifier": "shift", "owner": "",
+}  # fmt: skip
 CLICK = {
     "event_type": "click",
     "ray_origin": [0.0, 1.0, 2.0],

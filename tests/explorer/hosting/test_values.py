@@ -25,18 +25,11 @@ DIGITS = "9" * 400
 @pytest.mark.parametrize(
     ("value", "current", "limits"),
     [
-        (math.nan, 1.0, {}),
-        (True, 1.0, {}),
-        ({}, 1, {}),
-        (int(DIGITS), 1.0, {}),
-        ("c", "a", {"choices": ("a", "b")}),
-        ("x", True, {}),
-        ([1, 2], UploadedFile("", b""), {}),
-        (1.0, (1.0, 2.0), {}),
-        ("x" * (LONGEST_TEXT + 1), "a", {}),
-        ((1.0, math.nan), (1.0, 2.0), {}),
+        (math.nan, 1.0, {}), (True, 1.0, {}), ({}, 1, {}), (int(DIGITS), 1.0, {}),
+        ("c", "a", {"choices": ("a", "b")}), ("x", True, {}), ([1, 2], UploadedFile("", b""), {}),
+        (1.0, (1.0, 2.0), {}), ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0, math.nan), (1.0, 2.0), {}),
     ],
-)
+)  # fmt: skip
 def test_a_value_that_a_widget_cannot_hold_is_refused(value: Any, current: Any, limits: dict[str, Any]):
     with pytest.raises(ValueError, match="cannot hold") as refusal:
         accepted_value(value, current, **limits)
@@ -52,16 +45,10 @@ def test_values_that_a_widget_can_hold_pass():
 
 
 LINKS = [
-    "1;linear:-8;mass=" + DIGITS,
-    "1;linear:-8;mass=" + "9" * 5000,
-    "1;linear:-8;rotor=" + "[" * 1500,
-    '1;linear:-8;rotor={"main":{}}',
-    "1;linear:-8;active_twist=" + DIGITS,
-    "1;" + "+".join(["ideal"] * 250),
-    "1;" + "x" * 7000,
-    "1;linear:-8;\0=1",
-    "own",
-]
+    "1;linear:-8;mass=" + DIGITS, "1;linear:-8;mass=" + "9" * 5000, "1;linear:-8;rotor=" + "[" * 1500,
+    '1;linear:-8;rotor={"main":{}}', "1;linear:-8;active_twist=" + DIGITS, "1;" + "+".join(["ideal"] * 250),
+    "1;" + "x" * 7000, "1;linear:-8;\0=1", "own",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("code", LINKS, ids=lambda code: code[:24])
