@@ -56,7 +56,8 @@ def grid_powers(design: Design, concept_name: str, *axes: np.ndarray) -> np.ndar
     out = np.full([len(axis) for axis in axes], np.inf)
     start = None
     for place in np.ndindex(out.shape):
-        solution = solve(concept.apply(design, np.array([axis[k] for axis, k in zip(axes, place, strict=True)])), start)
+        values = np.array([axis[k] for axis, k in zip(axes, place, strict=True)])
+        solution = solve(concept.apply(design, values), start, SolverOptions(remedy=False))
         if solution.converged:
             out[place], start = solution.power.total, solution
     return out
