@@ -23,14 +23,6 @@ def watched(shared: Watched) -> Iterator[Watched]:
     assert shared.complaints == []
 
 
-def unfold(watched: Watched, title: str) -> None:
-    """Open a part of the rail, unless it is open."""
-    part = watched.page.locator(".mantine-Paper-root[data-with-border]", has_text=title).last
-    if part.evaluate("part => part.offsetHeight < 90"):
-        watched.page.get_by_text(title, exact=True).click()
-        watched.until(lambda: part.evaluate("part => part.offsetHeight > 90"))
-
-
 def seen(watched: Watched, name: str) -> bool:
     return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 

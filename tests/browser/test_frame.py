@@ -105,12 +105,6 @@ def test_one_drag_of_a_slider_with_pauses_is_one_undo(watched: Watched):
     watched.until(lambda: kilowatts(watched, "total-power") == before)
 
 
-def test_why_names_the_cause(watched: Watched):
-    watched.press("Δ inboard", "PageUp", 3)
-    watched.reads("why", r"^Lift (moved|hardly moved)")
-    watched.reads("why", r"induced [+−]\d")
-
-
 @pytest.mark.slow
 def test_less_motion_is_respected(watched: Watched):
     watched.page.emulate_media(reduced_motion="reduce")

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.model.inputs import Inputs
 
@@ -56,18 +56,6 @@ def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
         before = watched.until_changed(lambda: button.get_attribute("aria-pressed"), before)
 
 
-@pytest.mark.slow
-def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
-    disk = watched.node("/rotor/disk/field")
-    for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
-        watched.type(label, value)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
-    assert "Not trimmed" in watched.reads("problem", "last converged solution")
-    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
-    watched.reset()
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]')
-
-
 def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     """The disk follows while the button is still down, and the last answer is that of the last position."""
     page = watched.page
@@ -101,16 +89,3 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         watched.press("Adv. ratio", key)
         watched.answered()
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
-
-
-@pytest.mark.slow
-def test_the_card_says_how_sure_the_change_is(watched: Watched):
-    """Beside the power its band; that of the change, and what they consist of, under *How far to trust this*."""
-    page = watched.page
-    watched.press("Δ outboard", "ArrowLeft", 5)
-    watched.until(lambda: re.fullmatch(r"± \d+", watched.text("within")))
-    watched.drawer("trust")
-    page.locator(".rx-doubt tr").first.wait_for()
-    assert page.locator(".rx-doubt tr").count() >= 5
-    assert "section" in page.locator(".rx-doubt").inner_text()
-    page.get_by_text("With another model: inflow pitt-peters").wait_for(timeout=2 * WAIT)

@@ -70,18 +70,6 @@ def value(watched: Watched, label: str) -> float:
     return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
 
 
-def drag(watched: Watched, start: tuple[float, float], end: tuple[float, float]) -> None:
-    """Press, move in steps as a hand does, and stay pressed."""
-    mouse = watched.page.mouse
-    mouse.move(*start)
-    watched.page.wait_for_timeout(300)
-    mouse.down()
-    for k in range(1, 11):
-        mouse.move(*(a + (b - a) * k / 10 for a, b in zip(start, end, strict=True)))
-        watched.page.wait_for_timeout(40)
-    watched.answered()
-
-
 # Height [px] of the held trailing edge, where the blade is seen from the tip.
 EDGE = "() => Number(RX.part('rubber').querySelector('circle').getAttribute('cy'))"
 # Boxes of the live disk, of the blade with its words, and of the card of power.
@@ -207,16 +195,3 @@ def test_the_disk_has_the_colours_that_files_have(browser: Browser, app: App):
     for (r, psi), colour in zip(places, seen, strict=True):
         across, down = (480 + 479 * r * of(math.radians(psi)) for of in (math.sin, math.cos))
         np.testing.assert_allclose(colour, image[int(down), int(across)], atol=6.0, err_msg=f"{r} R at {psi}°")
-
-
-def test_the_scene_dresses_its_surfaces(watched: Watched):
-    """Gloss on the head, and flat pictures that do not hide what lies behind their corners."""
-    watched.page.wait_for_function(
-        """() => {
-            const node = name => window.__viserMutable.nodeRefFromName[name];
-            let head = null, field = null;
-            node('/rotor/head').traverse(part => { if (part.isMesh) head = part.material; });
-            node('/rotor/disk/field').traverse(part => { if (part.isMesh) field = part.material; });
-            return head?.metalness === 0.55 && field?.depthWrite === false;
-        }"""
-    )

@@ -187,11 +187,6 @@ def test_modes_stand_beside_those_of_the_blade_with_its_actuator(verdict: Verdic
     assert "no torsion here" in actuator_words.modes_panel("no torsion here")
 
 
-def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
-    assert actuator_words.problem_panel(verdict) == ""
-    assert "no such blade" in actuator_words.problem_panel("no such blade")
-
-
 def asked(name: str) -> Call:
     """A task that the pool of the test keeps, or fails."""
     return Call(str, (f"{name} of this test",))

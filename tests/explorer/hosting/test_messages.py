@@ -93,19 +93,12 @@ def test_no_number_that_is_not_finite_passes(name: str):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[", "1", "[1, 2]", "[" * 200, press("x" * 400, 1), press("undo", None, math.nan), 5]
-)
-def test_what_is_no_press_is_dropped_with_one_line(text: Any, caplog: pytest.LogCaptureFixture):
-    with caplog.at_level(logging.WARNING):
-        assert checked_press(text) is None
-    (record,) = caplog.records
-    assert record.exc_info is None
-    assert len(record.getMessage()) < 400
-
-
-@pytest.mark.parametrize(
     ("text", "said"),
     [
+        *(
+            (text, "")
+            for text in ("", "[", "1", "[1, 2]", "[" * 200, press("x" * 400, 1), press("undo", None, math.nan), 5)
+        ),
         (press("azimuth", 1e9), "Expected `float` <= 3600.0"),
         (
             press("view", "nowhere"),
@@ -118,12 +111,16 @@ def test_what_is_no_press_is_dropped_with_one_line(text: Any, caplog: pytest.Log
         (press("azimuth", "x" * 400), "at most 300 characters"),
     ],
 )
-def test_the_log_names_press_value_and_what_is_allowed(text: str, said: str, caplog: pytest.LogCaptureFixture):
+def test_what_is_no_press_is_dropped_with_one_line_that_says_what_is_allowed(
+    text: Any, said: str, caplog: pytest.LogCaptureFixture
+):
     with caplog.at_level(logging.WARNING):
         assert checked_press(text) is None
     (record,) = caplog.records
+    assert record.exc_info is None
+    assert len(record.getMessage()) < 400
     assert said in record.getMessage()
-    assert text[:20] in record.getMessage()
+    assert not said or text[:20] in record.getMessage()
 
 
 TRANSFER = {"source_component_uuid": "a", "transfer_uuid": "t"}

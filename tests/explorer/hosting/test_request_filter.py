@@ -79,12 +79,6 @@ def test_the_veil_comes_before_the_script_and_the_script_before_the_root():
     assert html.count("<body>") == html.count("</head>") == 1
 
 
-def test_the_client_is_built_as_expected():
-    """What viser ships: when this fails, the pin may not move."""
-    html = with_loading_screen(viser_compat.client_html()).html.decode()
-    assert html.index('id="rx-veil"') < 10_000 < html.index('id="root"')
-
-
 @pytest.mark.parametrize(
     "client", ["", "<html></html>", CLIENT.replace("<title>", "<t>"), CLIENT.replace("<body>", "")]
 )
@@ -183,11 +177,6 @@ class TestAllowedHosts:
     def test_our_own_page_and_clients_without_origin_connect(self, app: App):
         assert ran(lambda: handshake(app, Origin=app.address)) == 101
         assert ran(lambda: handshake(app)) == 101
-
-    def test_a_foreign_host_name_is_not_served(self, app: App):
-        status, text, _ = fetch(app.address, Host="evil.example")
-        assert status == 403
-        assert "--allow-host evil.example" in text.decode()
 
     def test_headers_forbid_foreign_frames_and_referrers(self, app: App):
         status, _, headers = fetch(app.address)
