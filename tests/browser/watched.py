@@ -105,7 +105,7 @@ class Watched:
         """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
         x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))  # The camera goes where the cards leave room.
         self.page.mouse.move(x, y)
-        self.page.wait_for_timeout(300)  # viser looks for what is below the pointer.
+        self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")  # viser has seen it.
         self.page.mouse.down()
         self.page.mouse.move(x, y + 12, steps=4)
         self.page.wait_for_function("() => RX.state.rubber")
