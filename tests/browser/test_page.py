@@ -84,6 +84,23 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
+@pytest.mark.slow
+def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
+    watched.type("Adv. ratio", 0.3)
+    watched.answered()
+    before, flapping = watched.text("total-power"), watched.row("Flapping").locator("input[type=checkbox]")
+    watched.page.get_by_text("Model", exact=True).click()
+    flapping.click()
+    watched.until(lambda: kilowatts(watched.text("total-power")) > kilowatts(before) + 30.0)
+    status = watched.page.wait_for_function(
+        "() => (words => words.includes('Switched off') && words)(RX.state.power.status.title)"
+    ).json_value()
+    assert "Switched off: flapping. The result is for teaching, not for the aircraft." in status
+    assert re.search(r"the hub carries 1\d\d kN m rolling to the retreating side", status)
+    flapping.click()
+    watched.says("total-power", before)
+
+
 def test_no_number_on_screen_is_not_a_number(watched: Watched):
     for key in ("Home", "End"):
         watched.press("Adv. ratio", key)

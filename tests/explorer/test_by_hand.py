@@ -14,7 +14,7 @@ from explorer.page import Page
 from explorer.parts.presses import PRESSES
 from explorer.sharing.presentation import follow_name
 from explorer.sharing.share import code_of
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 SENT: dict[str, Any] = {
     "along": False, "hold": True, "field": "Lift", "region": "stall", "mode": "actuate", "drawer": "open",
@@ -40,9 +40,7 @@ def visited(app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]],
     """Do this on a page of the server."""
 
     async def visit() -> None:
-        visitor = Visitor(query=query)
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address, query=query)
         await visitor.idle(wholly=False)
         try:
             await act(visitor, app.sessions[-1].page)

@@ -185,6 +185,14 @@ class Visitor:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
 
 
+async def arrived(address: str, **options: Any) -> Visitor:
+    """A page that shows its first trim."""
+    visitor = Visitor(**options)
+    await visitor.open(address)
+    await visitor.until(lambda: visitor.text("status") == "converged")
+    return visitor
+
+
 def ran(work: Callable[[], Coroutine[Any, Any, Result]], patience: float = 240.0) -> Result:
     """The outcome of visitors' work, on a thread of its own: where a browser is open, this one has a loop already.
 

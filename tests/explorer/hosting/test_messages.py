@@ -20,7 +20,7 @@ from explorer.hosting.messages import LONGEST_TEXT, PageFacts, Sent, checked_pre
 from explorer.parts.presses import PRESSES
 from explorer.session import Session
 from tests.tools import wire
-from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
+from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, arrived, ran
 
 GOOD: dict[str, list[Any]] = {
     "azimuth": [65, 0.5], "fly": [1.25], "speed": [0.2, "0.165"], "hold": [True], "stop": [3, "3"], "guess": ["0"],
@@ -240,9 +240,7 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
     names = sorted(PRESSES.keys() - {"dial_bend"})  # Blades that bend, whatever is sent with it.
 
     async def visit() -> tuple[str, str]:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address)
         power = visitor.text("total-power")
         # These three once gave tracebacks.
         await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))

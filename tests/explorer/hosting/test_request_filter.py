@@ -25,7 +25,7 @@ from explorer.model.inputs import OPENING
 from explorer.model.units import number
 from rotor import make_design, solve
 from tests.tools import wire
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 OUTER = "Δ outboard [°/R]"
 CLIENT = (
@@ -39,13 +39,6 @@ def app() -> Iterator[App]:
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=2))
     yield app
     app.stop()
-
-
-async def arrive(app: App) -> Visitor:
-    visitor = Visitor()
-    await visitor.open(app.address)
-    await visitor.until(lambda: visitor.text("status") == "converged")
-    return visitor
 
 
 async def handshake(app: App, **headers: str) -> int:
@@ -219,7 +212,7 @@ class TestStrangers:
         self, app: App, monkeypatch: pytest.MonkeyPatch
     ):
         async def work() -> None:
-            other = await arrive(app)
+            other = await arrived(app.address)
             monkeypatch.setattr(
                 request_filter,
                 "RateLimiter",
@@ -246,7 +239,7 @@ class TestUploads:
         design = json.dumps({"twist": "linear:-9"}).encode()
 
         async def work() -> None:
-            visitor = await arrive(app)
+            visitor = await arrived(app.address)
             for name, size, parts, sentence in (
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
                 ("large.json", gate.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
@@ -369,10 +362,7 @@ class TestMessagesThatNeverEnd:
     @staticmethod
     def others_are_served(app: App) -> None:
         async def visit() -> None:
-            visitor = Visitor()
-            await visitor.open(app.address)
-            await visitor.until(lambda: visitor.text("status") == "converged")
-            await visitor.close()
+            await (await arrived(app.address)).close()
 
         ran(visit)
 

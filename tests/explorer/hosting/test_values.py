@@ -17,7 +17,7 @@ from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.share import Address, view_from
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import arrived, ran
 
 DIGITS = "9" * 400
 
@@ -98,9 +98,7 @@ def test_a_path_that_no_file_can_have_is_not_found(app: App, path: str):
 
 def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
     async def drag() -> list[Any]:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address)
         (session,) = app.sessions
         buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
         push = buffer.push

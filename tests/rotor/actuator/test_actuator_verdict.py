@@ -186,9 +186,10 @@ def without_band(sentence: str) -> str:
         ({"share": 0.3}, "this ply does not pay.", ["can supply"]),  # A softer blade: optima lie 4.6° apart.
         ({"id": "extension_twist"}, "this laminate does not pay.", ["rotor-speed"]),
         ({"id": "SMA_tube"}, "this tube does not pay.", ["(2 tubes, new blade"]),
-        ({"id": "SMA_tube", "concept": "two-segment"}, "this tube does not pay.", ["(2 tubes a segment, new blade"]),
+        pytest.param({"id": "SMA_tube", "concept": "two-segment"}, "this tube does not pay.",
+                     ["(2 tubes a segment, new blade"], marks=pytest.mark.slow),
     ],
-)
+)  # fmt: skip
 def test_the_sentence_agrees_with_the_numbers(choice: dict[str, Any], ending: str, details: list[str]):
     judged = verdict(**choice)
     assert not judged.pays

@@ -160,7 +160,7 @@ def test_a_set_that_is_not_known(capsys: pytest.CaptureFixture[str]):
     "name",
     [
         "knight-hefner-3", "caradonna-tung-lift", "castles-gray-twist-effect", "xv15-forward-15deg", *FIELDS[1:],
-        "glasgow-loops", "uh60a-constants", "theory",
+        "uh60a-constants", "theory",
     ],
 )  # fmt: skip
 def test_rows_of_the_trust_page(name: str):
