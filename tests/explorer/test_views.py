@@ -164,6 +164,7 @@ def test_axes_hold_while_the_data_fit():
 def test_the_card_has_the_change_from_the_reference_and_why():
     card = power_card(now_at(CHANGED))["power"]
     assert card.moved.startswith(card.change[0])
+    assert card.why.startswith("Lift moved")
     assert card.rest == ""
     rest = power_card(now_at(OPENING))["power"]
     assert (rest.moved, rest.rest) == ("", "as built")
