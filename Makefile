@@ -50,7 +50,6 @@ nightly: setup-dev browser $(WARM) ## run every test at its longest: many random
 	NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=Nehalem $(BIN)/python -m pytest $(ARGS)
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 	$(BIN)/python -m tests.tools.mutation
-	$(BIN)/python -m tests.tools.mutants
 	$(BIN)/python -m tests.tools.lowest
 
 check-all: lint docs test slow ## everything CI checks

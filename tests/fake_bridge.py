@@ -21,7 +21,6 @@ class Bridge:
     def press(self, name: str, value: Any) -> None:
         """As a script sends it."""
         press = checked_press(json.dumps([0, name, value]))
-        assert press is not None
         self.actions[name](press[1])
 
     def set(self, **parts: Any) -> None:

@@ -54,7 +54,6 @@ def patch_sections(name: str, amount: float, patch: Patch) -> None:
     @lru_cache(maxsize=16)
     def load(section: str) -> SectionTable:
         table = _loaded(section)
-        assert table.moment_coefficients is not None
         cells, moment = table.coefficients.copy(), table.moment_coefficients.copy()
         match name:
             case "section_drag_percent":

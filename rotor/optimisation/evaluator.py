@@ -164,7 +164,7 @@ class Evaluator:
     def baseline(self) -> Measured:
         """Evaluation of the design as given; its trim is where the first start begins."""
         self._check()
-        return self._trim(self.design).measured
+        return self._trim(self.design, remedy=True).measured
 
     def __call__(self, x: Array) -> Evaluation:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
@@ -183,7 +183,7 @@ class Evaluator:
             self._watch(self._progress(record, values))
         return record
 
-    def _trim(self, design: Design) -> TrimmedBlade:
+    def _trim(self, design: Design, *, remedy: bool = False) -> TrimmedBlade:
         """Trim a design from the nearest one trimmed before; the design itself need not be trimmed again."""
         pitch = design.twist(self.r)
         known = self.trimmed.known(design.rotor, pitch)
@@ -192,7 +192,8 @@ class Evaluator:
         if known is not None:
             self._ahead = [blade for blade in self._ahead if blade is not known]
             return known
-        measured = measure(self.objective, design, self.trimmed.starts(pitch, self.r), limits=self.limits)
+        starts, options = self.trimmed.starts(pitch, self.r), SolverOptions(remedy=remedy)
+        measured = measure(self.objective, design, starts, limits=self.limits, options=options)
         return self.trimmed.add(design.rotor, pitch, measured)
 
     def trim_ahead(self, points: Iterable[Array]) -> None:
@@ -200,7 +201,7 @@ class Evaluator:
         self._check()
         every = [self.concept.apply(self.design, self.values(x)) for x in points]
         designs = [design for design in every if self.trimmed.known(design.rotor, design.twist(self.r)) is None]
-        starts, options = [self.starts_for(each) for each in designs], SolverOptions(stop=self._stop)
+        starts, options = [self.starts_for(each) for each in designs], SolverOptions(stop=self._stop, remedy=False)
         found = measure_many(self.objective, designs, starts, limits=self.limits, options=options)
         self._check()
         for design, measured in zip(designs, found, strict=True):

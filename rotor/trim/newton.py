@@ -43,6 +43,8 @@ class SolverOptions(SystemTolerances):
     """Asked between two runs of Newton's method; True ends a solve that has not converged."""
     smallest_continuation_step: float = 1.0 / 128.0
     """Step, as a part of the whole way, below which continuation gives up."""
+    remedy: bool = True
+    """Whether a refusal names the largest mass and speed that trim. To find them takes longer than the trim."""
 
     @property
     def asked_to_stop(self) -> bool:

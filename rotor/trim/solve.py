@@ -63,7 +63,8 @@ def analyse(
     if not solution.converged or design.hovering or solution.stalled_thrust <= stall_limit(found.linear.problem):
         return found
     # Stalled sections carry more of the thrust than on rotors that were measured.
-    sentence = stalled_sentence(design, solution.stalled_thrust, *largest(solution, options))
+    ends = largest(solution, options) if options.remedy else (None, None)
+    sentence = stalled_sentence(design, solution.stalled_thrust, *ends)
     refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
     return Analysis(refused, found.linear)
 

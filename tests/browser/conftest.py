@@ -1,16 +1,14 @@
 """What the browser tests share: one server for a process, since another costs more than a test; a page for a file."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import pytest
+from playwright.sync_api import Browser
 from watched import COARSE, SMALL, Visit, Watched, opened
 
 from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 
 @pytest.fixture(scope="session")
@@ -29,7 +27,7 @@ def app(request: pytest.FixtureRequest, server: App) -> App:
 
 
 @pytest.fixture(scope="module")
-def shared(request: pytest.FixtureRequest, browser: "Browser", app: App) -> Iterator[Watched]:
+def shared(request: pytest.FixtureRequest, browser: Browser, app: App) -> Iterator[Watched]:
     """One page for all tests of a file that leave it usable, of the file's `SIZE`."""
     watched = opened(browser, app.address, size=getattr(request.module, "SIZE", SMALL))
     watched.quiet()
@@ -38,15 +36,16 @@ def shared(request: pytest.FixtureRequest, browser: "Browser", app: App) -> Iter
 
 
 @pytest.fixture
-def watched(shared: Watched) -> Iterator[Watched]:
-    """That page with the design it began with."""
-    shared.reset()
+def watched(request: pytest.FixtureRequest, shared: Watched) -> Iterator[Watched]:
+    """That page with the design it began with; where the file says `AS_LEFT`, as the test before left it."""
+    if not getattr(request.module, "AS_LEFT", False):
+        shared.reset()
     yield shared
     assert shared.complaints == []
 
 
 @pytest.fixture
-def visit(browser: "Browser", app: App) -> Iterator[Visit]:
+def visit(browser: Browser, app: App) -> Iterator[Visit]:
     """Opens a page, as `opened` does; after the test it is closed, and must not have complained."""
     pages: list[Watched] = []
 

@@ -1,15 +1,13 @@
 """Screen readers, the keyboard alone, and fingers: the page as used without a mouse."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser, CDPSession
 from watched import ON_SCREEN, Watched
 
 from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, CDPSession
 
 pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
@@ -37,6 +35,10 @@ def spoken(watched: Watched) -> list[tuple[str, str]]:
     return [(role, name) for role, name in found if role in CONTROLS]
 
 
+def nameless(watched: Watched) -> list[str]:
+    return watched.at_rest(lambda: [role for role, name in spoken(watched) if not name])
+
+
 @pytest.mark.slow
 def test_every_control_has_a_spoken_name(watched: Watched):
     expected = {
@@ -50,15 +52,13 @@ def test_every_control_has_a_spoken_name(watched: Watched):
             watched.unfold(one[1])
         watched.answered()
         watched.until(lambda one=one: one in spoken(watched))
-        listed = spoken(watched)
-        assert [role for role, name in listed if not name] == [], mode
+        assert nameless(watched) == [], mode
     watched.mode("explore")
     for drawer in ("open", "share", "settings", "probe", "lecture"):
         watched.drawer(drawer)
         watched.answered()
         watched.until(lambda: ("button", "Close") in spoken(watched))
-        listed = spoken(watched)
-        assert [role for role, name in listed if not name] == [], drawer
+        assert nameless(watched) == [], drawer
 
 
 @pytest.mark.slow
@@ -112,7 +112,7 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
     page.wait_for_function("() => document.activeElement.dataset.value === 'share'")
 
 
-def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
+def swipe(session: CDPSession, watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
     """A finger set down, moved and lifted."""
     for k in range(13):
         point = {"x": start[0] + way[0] * k / 12, "y": start[1] + way[1] * k / 12}
@@ -123,7 +123,7 @@ def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], w
 
 
 @pytest.mark.slow
-def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", app: App):
+def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app: App):
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
@@ -134,33 +134,25 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
     def outer() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
 
-    def middle_of(selector: Any) -> tuple[float, float]:
-        box = selector.bounding_box()
-        assert box is not None
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-    watched.answered()
     for part in ("total-power", "status"):
-        box = page.locator(f'[data-explorer="{part}"]').first.bounding_box()
-        assert box is not None
+        box = watched.box(page.locator(f'[data-explorer="{part}"]').first)
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 390
     begun = outer()
     slider.scroll_into_view_if_needed()
-    swipe(session, watched, middle_of(slider), (30.0, 2.0))
+    swipe(session, watched, watched.middle(slider), (30.0, 2.0))
     watched.until_changed(outer, begun)
     by_slider = watched.at_rest(outer)
     assert 3.0 < by_slider < 12.0
     knot = page.locator('[data-knot="2"]')
     knot.scroll_into_view_if_needed()
-    watched.answered()
-    swipe(session, watched, middle_of(knot), (0.0, 12.0))
+    swipe(session, watched, watched.middle(knot), (0.0, 12.0))
     watched.until_changed(outer, by_slider)
     by_curve = watched.at_rest(outer)
     assert -20.0 <= by_curve < by_slider - 2.0
     camera: Any = watched.at_rest(lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
-    x, y = page.evaluate(ON_SCREEN, 7.2)
+    x, y = watched.at_rest(lambda: page.evaluate(ON_SCREEN, 7.2))
     swipe(session, watched, (x, y), (0.0, 30.0))  # Seen from the tip, the trailing edge goes down: nose up.
     watched.until_changed(outer, by_curve)
     by_blade = watched.at_rest(outer)

@@ -23,14 +23,6 @@ def watched(shared: Watched) -> Iterator[Watched]:
     assert shared.complaints == []
 
 
-def unfold(watched: Watched, title: str) -> None:
-    """Open a part of the rail, unless it is open."""
-    part = watched.page.locator(".mantine-Paper-root[data-with-border]", has_text=title).last
-    if part.evaluate("part => part.offsetHeight < 90"):
-        watched.page.get_by_text(title, exact=True).click()
-        watched.until(lambda: part.evaluate("part => part.offsetHeight > 90"))
-
-
 def seen(watched: Watched, name: str) -> bool:
     return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 
@@ -88,8 +80,8 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     page = watched.page
     watched.until(lambda: seen(watched, "/lifted"))
     assert seen(watched, "/airframe")  # It flies on.
-    assert not seen(watched, "/rotor/disk/words")
-    assert not page.locator(".rxf-strip").first.is_visible()
+    watched.until(lambda: not seen(watched, "/rotor/disk/words"))
+    page.locator(".rxf-strip").first.wait_for(state="hidden")
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     labels, bar = page.locator('[data-explorer="labels"]'), page.locator(".rxf-fly-bar input")
     labels.get_by_text("kg of electronics").wait_for(timeout=VERDICT)
@@ -100,8 +92,7 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     twist = page.evaluate("() => RX.state.flight.chart.series.find(one => one.label === 'reached').y.at(-1)")
     tip = watched.text("tip-twist")
     assert float(tip.rstrip("°").replace("−", "-")) == pytest.approx(twist, abs=0.006)
-    assert f"{tip} at the tip" in labels.inner_text()
-    assert tip in watched.text("actuator-twist")
+    watched.until(lambda: f"{tip} at the tip" in labels.inner_text() and tip in watched.text("actuator-twist"))
     # Magnified eight times; the blade as flown twists a little otherwise than at rest.
     assert angle(watched) - rest == pytest.approx(8.0 * twist, rel=0.25)
     assert "mu=0.33" in page.url
@@ -111,10 +102,10 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     watched.mode("explore")
     watched.until(lambda: not seen(watched, "/lifted"))
     watched.answered()
-    assert labels.inner_text() == ""
-    assert seen(watched, "/rotor/disk/words")
-    assert page.locator(".rxf-strip").first.is_visible()
-    assert not page.locator('[data-explorer="flight"]').is_visible()
+    watched.says("labels", "")
+    watched.until(lambda: seen(watched, "/rotor/disk/words"))
+    page.locator(".rxf-strip").first.wait_for(state="visible")
+    page.locator('[data-explorer="flight"]').wait_for(state="hidden")
     assert page.evaluate("() => RX.state.flight === null && RX.state.earns === null")
     watched.mode("actuate")
     watched.reads("actuator-now", "at rest")  # What the flight drove is at rest again.
@@ -131,10 +122,8 @@ def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched
 
     def twist() -> str:
         """What bar, blade and rail say."""
-        watched.answered()
-        tip = watched.text("tip-twist")
-        assert f"{tip} at the tip" in labels.inner_text()
-        assert tip == watched.text("actuator-twist")
+        tip = watched.at_rest(lambda: watched.text("tip-twist"))
+        watched.until(lambda: f"{tip} at the tip" in labels.inner_text() and tip == watched.text("actuator-twist"))
         return tip
 
     watched.type("Voltage", 77)
@@ -143,8 +132,8 @@ def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched
     stops.click()
     expect(stops).to_have_attribute("aria-pressed", "true")
     assert twist() == frozen
-    box = watched.at_rest(bar.bounding_box)
-    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+    box = watched.box(bar)
+    x, y = watched.middle(bar)
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 0.48 * box["width"], y, steps=6)
@@ -168,8 +157,7 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
     dot = page.locator("[data-supposed]")
     expect(dot).to_have_attribute("data-kind", "loss", timeout=VERDICT)
-    box = watched.at_rest(dot.bounding_box)  # The chart is drawn anew with its dot.
-    chart = watched.at_rest(page.locator(".rxf-earns svg").bounding_box)
+    box, chart = watched.box(dot), watched.box(".rxf-earns svg")
     page.mouse.move(box["x"] + 10.0, box["y"] + 10.0)
     page.mouse.down()
     page.mouse.move(chart["x"] + 0.6 * chart["width"], chart["y"] + 0.66 * chart["height"], steps=8)

@@ -28,10 +28,9 @@ def send(watched: Watched, *message: Any) -> None:
 def found(watched: Watched, view: str) -> list[str]:
     """What is wrong in this state."""
     watched.page.mouse.move(1, 1)  # Where it pressed last it would bring the hint of what stands there now.
-    faults: list[str] = watched.at_rest(lambda: watched.page.evaluate(COLLIDE))
+    look = f"view => [...({COLLIDE})(), ...(view && ({FRAME})(view)), ({CAMERA})()]"
+    *faults, stands = watched.at_rest(lambda: watched.page.evaluate(look, view))
     if view:
-        faults += watched.at_rest(lambda: watched.page.evaluate(FRAME, view))
-        stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
         send(watched, "aim")
         framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
         if max(abs(now - then) for now, then in zip(framed, stands, strict=True)) > FAR:

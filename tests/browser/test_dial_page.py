@@ -22,8 +22,7 @@ def centre(watched: Watched) -> tuple[float, float, float]:
     """Middle of the dial and its radius [px]."""
     place = watched.page.locator("[data-dial] .rxd-round").first
     place.scroll_into_view_if_needed()
-    box = place.bounding_box()
-    assert box is not None
+    box = watched.box(place)
     return box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"], 0.5 * box["width"] - 22.0
 
 

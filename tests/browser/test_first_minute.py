@@ -1,7 +1,5 @@
 """A stranger's first minute, as a person would play it: each step is seen before the next begins."""
 
-from typing import Any
-
 import pytest
 from watched import Visit
 
@@ -46,14 +44,13 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
     watched.ready()
     watched.until(lambda: kilowatts() == twisted)
     guest = visit(query="?" + page.url.partition("?")[2], size=SIZE)
-    assert guest.text("total-power") == watched.text("total-power")
+    watched.until(lambda: guest.text("total-power") == watched.text("total-power"))
     # Disk: what the section does below the pointer.
     page.get_by_role("button", name="Disk", exact=True).click()
     page.wait_for_function("() => RX.state.plan?.values")
-    circle: Any = page.locator(".rxf-plan svg circle").first.bounding_box()
+    circle = watched.box(page.locator(".rxf-plan svg circle").first)
     page.mouse.move(circle["x"] + 0.8 * circle["width"], circle["y"] + 0.5 * circle["height"])
-    page.locator(".rxf-reading").first.wait_for()
-    assert "R · ψ" in page.locator(".rxf-reading").first.inner_text()
+    watched.until(lambda: "R · ψ" in page.locator(".rxf-reading").first.inner_text())
     page.get_by_role("button", name="Aircraft").click()
     # Hover flight and back.
     watched.press("Adv. ratio", "Home")

@@ -13,12 +13,6 @@ pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
 
 
-def middle(watched: Watched, selector: str) -> tuple[float, float]:
-    box = watched.page.locator(selector).bounding_box()
-    assert box is not None
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-
 def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit):
     watched = visit(size=SIZE)
     for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("moved", "as built")):
@@ -37,7 +31,7 @@ def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watche
     page = watched.page
     for name, title in DRAWERS.items():
         watched.drawer(name)
-        assert page.locator('[data-explorer="drawer"]').inner_text().startswith(title)
+        watched.until(lambda title=title: watched.text("drawer").startswith(title))
         page.wait_for_function("() => document.querySelector('canvas').getBoundingClientRect().left > 300")
         page.keyboard.press("Escape")
         page.wait_for_selector('[data-explorer="drawer"]', state="detached")
@@ -53,8 +47,7 @@ def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watche
 
 def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     page = watched.page
-    watched.answered()
-    x, y = middle(watched, '[data-knot="2"]')
+    x, y = watched.middle('[data-knot="2"]')
     before = watched.text("total-power")
     page.mouse.move(x, y)
     page.mouse.down()
@@ -69,14 +62,13 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
     assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
     watched.reads("moved", r"^[+−]\d+ kW$")
-    watched.answered()
-    x, y = middle(watched, '[data-knot="1"]')
+    x, y = watched.middle('[data-knot="1"]')
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 40, y, steps=6)
     page.mouse.up()
     division = watched.row("Break point").locator("input:not([type=hidden])").last
-    watched.until_changed(lambda: float(division.input_value()) > 0.55, False)
+    watched.until(lambda: float(division.input_value()) > 0.55)
 
 
 def kilowatts(watched: Watched, part: str) -> int:
@@ -98,9 +90,7 @@ def test_one_drag_of_a_slider_with_pauses_is_one_undo(watched: Watched):
     page = watched.page
     watched.answered()
     before = kilowatts(watched, "total-power")
-    thumb = watched.row("Adv. ratio").get_by_role("slider").bounding_box()
-    assert thumb is not None
-    x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
+    x, y = watched.thumb("Adv. ratio")
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x - 40, y, steps=5)
@@ -113,12 +103,6 @@ def test_one_drag_of_a_slider_with_pauses_is_one_undo(watched: Watched):
     assert kilowatts(watched, "total-power") > before
     page.get_by_role("button", name="Undo").click()
     watched.until(lambda: kilowatts(watched, "total-power") == before)
-
-
-def test_why_names_the_cause(watched: Watched):
-    watched.press("Δ inboard", "PageUp", 3)
-    watched.reads("why", r"^Lift (moved|hardly moved)")
-    watched.reads("why", r"induced [+−]\d")
 
 
 @pytest.mark.slow

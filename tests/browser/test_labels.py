@@ -73,12 +73,11 @@ def faults(watched: Watched) -> dict[str, list[str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("pinned", [False, True])
-def test_every_mode_and_drawer(watched: Watched, pinned: bool):
+def test_every_mode_and_drawer(watched: Watched):
+    """With a pinned design, whose rows stand beside the others."""
     page = watched.page
-    if pinned:
-        page.get_by_role("button", name="Pin A").click()
-        page.wait_for_function("() => RX.state.bar.pinned")
+    page.get_by_role("button", name="Pin A").click()
+    page.wait_for_function("() => RX.state.bar.pinned")
     assert faults(watched) == {}
     # The test sees what it looks for.
     page.evaluate(
@@ -86,7 +85,3 @@ def test_every_mode_and_drawer(watched: Watched, pinned: bool):
             label.append(' and many more words than fit'); }"""
     )
     assert any("more than one line" in fault for fault in page.evaluate(_FAULTS))
-    page.evaluate(
-        """() => { for (const label of document.querySelectorAll('label'))
-            if (label.lastChild?.data === ' and many more words than fit') label.lastChild.remove(); }"""
-    )

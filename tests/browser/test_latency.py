@@ -2,16 +2,13 @@
 
 import statistics
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser
 from watched import Watched
 
 from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.nightly]
 
@@ -33,7 +30,7 @@ _WATCH = """
 
 
 @pytest.mark.parametrize("label", ["Adv. ratio", "Rate"])
-def test_slider_to_frame(browser: "Browser", artefacts: Path, label: str):
+def test_slider_to_frame(browser: Browser, artefacts: Path, label: str):
     app = App("127.0.0.1", 0)
     context = browser.new_context(viewport={"width": 1500, "height": 940})
     context.add_init_script(DRAW_NOTHING)

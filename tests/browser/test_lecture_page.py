@@ -1,15 +1,11 @@
 """The lecture and the presenter on the real page."""
 
-from typing import TYPE_CHECKING
-
 import pytest
+from playwright.sync_api import Locator, Page, expect
 from test_session_page import design_in_address, shown_kw
 from watched import COARSE, Visit, Watched
 
 from explorer.story.steps import STEPS
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Locator, Page
 
 pytestmark = pytest.mark.browser
 
@@ -19,13 +15,13 @@ LONG = 600_000
 """[ms] for the numbers of a step on a machine where much else runs."""
 
 
-def stands_at(page: "Page", step: int) -> None:
+def stands_at(page: Page, step: int) -> None:
     """A step stands, and its numbers have come."""
     page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
     page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=LONG)
 
 
-def section(page: "Page", step: int) -> "Locator":
+def section(page: Page, step: int) -> Locator:
     return page.locator(f'.rxs-list > [data-step="{step}"]')
 
 
@@ -73,14 +69,14 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     stands_at(page, 1)
     page.keyboard.press("PageDown")
     stands_at(page, 2)
-    assert section(page, 2).locator("[data-chosen]").count() == 1  # A guess is made once.
+    expect(section(page, 2).locator("[data-chosen]")).to_have_count(1)  # A guess is made once.
     page.evaluate("k => RX.send('story', k)", len(STEPS) - 1)
     page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.
-    assert page.evaluate("() => RX.state.bar.mode") == "explore"
-    assert not page.locator('[data-explorer="figures"]').is_visible()
+    page.wait_for_function("() => RX.state.bar.mode === 'explore'")
+    page.locator('[data-explorer="figures"]').wait_for(state="hidden")
     watched.drawer("settings")
     page.get_by_label("Big type").check()
     page.wait_for_function(
@@ -109,7 +105,7 @@ def test_a_scroll_by_hand_is_a_step_and_a_new_layout_none(visit: Visit):
         page.set_viewport_size({"width": size[0], "height": size[1]})
         page.wait_for_function(f"wide => innerWidth === wide && ({at_its_place})()", arg=size[0])
         watched.answered()
-        assert page.evaluate(at_its_place)
+        page.wait_for_function(at_its_place)
     # What scrolls the column by itself, as a focus does, asks for no step and does not last.
     page.evaluate("() => { document.querySelector('.rxs-list').scrollTop = 0; }")
     page.wait_for_function(at_its_place)
@@ -130,8 +126,12 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
         stands_at(page, k)
         stands_at(other, k)
         moved = section(other, k).locator("[data-stop], .rxs-guess button")
-        assert all(one.is_disabled() for one in (*moved.all(), *other.locator(".rxs-dots button").all()))
-        assert not other.get_by_role("button", name="Next", exact=True).is_visible()
+        follower.until(
+            lambda moved=moved: all(
+                one.is_disabled() for one in (*moved.all(), *other.locator(".rxs-dots button").all())
+            )
+        )
+        other.get_by_role("button", name="Next", exact=True).wait_for(state="hidden")
         section(page, k).locator(".rxs-guess button").last.click()
         other.wait_for_function("() => RX.state.lecture.answer")
         presenter.answered()

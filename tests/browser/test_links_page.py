@@ -1,17 +1,14 @@
 """A design survives F5, a link and the back button of a real browser, which rewrites the address at each connection."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pytest
+from playwright.sync_api import expect
 from watched import COARSE, Visit, Watched
 
 from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
 from explorer.sharing.share import code_of
-
-if TYPE_CHECKING:
-    pass
 
 pytestmark = pytest.mark.browser
 
@@ -41,10 +38,8 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     page.reload()
     watched.ready()
     watched.until(lambda: holds(app, watched, BUILT))
-    shown = [
-        watched.row(label).get_by_role("textbox").input_value() for label in ("Δ inboard [°/R]", "Break point [r/R]")
-    ]
-    assert shown == ["-2.0", "0.79"], "rounded, while the design is exact"
+    for label, shown in (("Δ inboard [°/R]", "-2.0"), ("Break point [r/R]", "0.79")):  # Rounded; the design is exact.
+        expect(watched.row(label).get_by_role("textbox")).to_have_value(shown)
     page.keyboard.press("r")
     watched.until(lambda: holds(app, watched, OPENING))
     page.get_by_role("button", name="Undo").click()

@@ -7,9 +7,9 @@ reads them again; the other opens the link of the changed design, and has shown 
 import gc
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import pytest
+from playwright.sync_api import Browser
 from watched import COARSE, LARGE, Watched, opened
 
 from explorer.app import App
@@ -17,9 +17,6 @@ from explorer.model import actuator_inputs
 from explorer.model.inputs import Inputs
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.layout import DRAWERS
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="two", preset="thesis")
@@ -115,7 +112,7 @@ def monkeypatch() -> Iterator[pytest.MonkeyPatch]:
 
 @pytest.fixture(scope="module")
 def readings(
-    browser: "Browser", app: App, monkeypatch: pytest.MonkeyPatch
+    browser: Browser, app: App, monkeypatch: pytest.MonkeyPatch
 ) -> tuple[Readings, Readings, Readings, Readings]:
     """Before, after a change and back, after the change; of the page that opened with the change."""
     monkeypatch.setattr(actuator_inputs, "actuators", tuple)  # The chosen one alone is judged.

@@ -1,10 +1,11 @@
-"""The optimiser in a real browser: to the end and applied, stopped, two at once, a worker killed; map and schedule."""
+"""The optimiser in a real browser: to the end and applied, beaten by hand, and the map of power."""
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from playwright.sync_api import Browser
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
@@ -13,16 +14,11 @@ from explorer.session import Session
 from explorer.tabs.optimise.power_map import place_on
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 START = Inputs()
-SLOW = "Three segments, free breaks"
-"""It takes many times as long as a test waits before it presses Stop."""
 
 
-def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
+def arrive(browser: Browser, app: App) -> tuple[Watched, Session]:
     known = app.sessions
     watched = opened(browser, app.address, size=(1280, 900))
     (new,) = (session for session in app.sessions if session not in known)
@@ -30,7 +26,7 @@ def arrive(browser: "Browser", app: App) -> tuple[Watched, Session]:
 
 
 @pytest.fixture(scope="module")
-def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
+def shared(browser: Browser, app: App) -> "Iterator[tuple[Watched, Session]]":
     watched, session = arrive(browser, app)
     yield watched, session
     watched.close()
@@ -108,38 +104,8 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
 
 
 @pytest.mark.slow
-def test_a_replay_goes_back_to_the_start_and_discard_or_reset_leave_the_sliders(page: tuple[Watched, Session]):
-    watched, session = page
-    inputs = session.page.controls.inputs()
-    before = watched.text("total-power")
-    watched.choose("Concept", "Linear")
-    optimise(watched, session)
-    until(watched, "done")
-    watched.until_changed(lambda: watched.text("total-power"), before)
-    ghost = "() => window.__viserSceneTree.getState()['/rotor/blade_0/ghost'].message.props"
-    assert watched.page.evaluate(ghost)
-    watched.press("Replay", "Home")
-    watched.page.wait_for_function(
-        """power => document.querySelector('[data-explorer="total-power"]').innerText === power
-            && document.querySelector('[data-explorer="frame"]').innerText.includes('starting design')""",
-        arg=before,
-    )
-    press(watched, "Discard")
-    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached")
-    watched.says("total-power", before)
-    assert session.page.controls.inputs() == inputs
-    optimise(watched, session)
-    until(watched, "done")
-    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
-    watched.reset()
-    watched.page.wait_for_function("() => RX.state.notice === null")
-    watched.says("total-power", before)
-    assert session.page.controls.inputs() == START
-
-
-@pytest.mark.slow
 def test_the_optimiser_is_beaten_by_hand_and_its_blade_is_in_the_link(
-    page: tuple[Watched, Session], browser: "Browser", app: App
+    page: tuple[Watched, Session], browser: Browser, app: App
 ):
     watched, session = page
     watched.choose("Concept", "Two segments")
@@ -198,8 +164,7 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     watched.until(lambda: session.page.controls.inputs() != START)
     (across, up), exact = place_on(first, session.page.controls.inputs().design().twist)
     assert exact
-    box = watched.at_rest(watched.page.locator("[data-map]").bounding_box)  # The map is drawn anew with its dot.
-    assert box is not None
+    box = watched.box("[data-map]")
     assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
     watched.until(lambda: session.page.map.map is not first and not session.page.map.running)

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from watched import WAIT, Watched
+from watched import Watched
 
 from explorer.model.inputs import Inputs
 
@@ -24,26 +24,22 @@ def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     def mu() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
 
-    def dot() -> tuple[float, float]:
-        box = page.locator("[data-speed]").bounding_box()
-        assert box
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
     fastest = page.evaluate("() => RX.state.strip[0].speeds.fastest")
-    x, y = watched.at_rest(dot)
+    x, y = watched.middle("[data-speed]")
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 200, y, steps=8)  # Beyond the end of the axis.
     watched.until(lambda: mu() == pytest.approx(fastest))
-    assert page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]").inner_text() == "limit: engines"
+    head = page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]")
+    watched.until(lambda: head.inner_text() == "limit: engines")
     page.mouse.up()
-    page.mouse.move(*watched.at_rest(dot))
+    page.mouse.move(*watched.middle("[data-speed]"))
     page.mouse.down()
     page.mouse.move(x - 100, y, steps=4)
     page.mouse.up()
     watched.until(lambda: mu() < 0.9 * fastest)
     watched.answered(wholly=True)
-    page.mouse.dblclick(*watched.at_rest(dot))
+    page.mouse.dblclick(*watched.middle("[data-speed]"))
     watched.until(lambda: mu() == pytest.approx(fastest))
 
 
@@ -60,18 +56,6 @@ def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
         before = watched.until_changed(lambda: button.get_attribute("aria-pressed"), before)
 
 
-@pytest.mark.slow
-def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
-    disk = watched.node("/rotor/disk/field")
-    for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
-        watched.type(label, value)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
-    assert "Not trimmed" in watched.reads("problem", "last converged solution")
-    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
-    watched.reset()
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]')
-
-
 def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     """The disk follows while the button is still down, and the last answer is that of the last position."""
     page = watched.page
@@ -83,11 +67,8 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
             look();
         }"""
     )
-    slider = watched.row("Adv. ratio").get_by_role("slider")
-    slider.scroll_into_view_if_needed()
-    thumb = slider.bounding_box()
-    assert thumb is not None
-    x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
+    watched.row("Adv. ratio").get_by_role("slider").scroll_into_view_if_needed()
+    x, y = watched.thumb("Adv. ratio")
     page.mouse.move(x, y)
     page.mouse.down()
     seen_while_down, steps = 0, 0
@@ -103,21 +84,25 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 
+@pytest.mark.slow
+def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
+    watched.type("Adv. ratio", 0.3)
+    watched.answered()
+    before, flapping = watched.text("total-power"), watched.row("Flapping").locator("input[type=checkbox]")
+    watched.page.get_by_text("Model", exact=True).click()
+    flapping.click()
+    watched.until(lambda: kilowatts(watched.text("total-power")) > kilowatts(before) + 30.0)
+    status = watched.page.wait_for_function(
+        "() => (words => words.includes('Switched off') && words)(RX.state.power.status.title)"
+    ).json_value()
+    assert "Switched off: flapping. The result is for teaching, not for the aircraft." in status
+    assert re.search(r"the hub carries 1\d\d kN m rolling to the retreating side", status)
+    flapping.click()
+    watched.says("total-power", before)
+
+
 def test_no_number_on_screen_is_not_a_number(watched: Watched):
     for key in ("Home", "End"):
         watched.press("Adv. ratio", key)
         watched.answered()
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
-
-
-@pytest.mark.slow
-def test_the_card_says_how_sure_the_change_is(watched: Watched):
-    """Beside the power its band; that of the change, and what they consist of, under *How far to trust this*."""
-    page = watched.page
-    watched.press("Δ outboard", "ArrowLeft", 5)
-    watched.until(lambda: re.fullmatch(r"± \d+", watched.text("within")))
-    watched.drawer("trust")
-    page.locator(".rx-doubt tr").first.wait_for()
-    assert page.locator(".rx-doubt tr").count() >= 5
-    assert "section" in page.locator(".rx-doubt").inner_text()
-    page.get_by_text("With another model: inflow pitt-peters").wait_for(timeout=2 * WAIT)

@@ -2,11 +2,11 @@
 
 import math
 from io import BytesIO
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import Browser
 from watched import MEDIUM, Watched, opened
 
 from explorer.app import App
@@ -15,24 +15,19 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from rotor.trim.solve import solve
 
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
-
 pytestmark = pytest.mark.browser
 _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
 
 
 def _point(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
-    box = watched.page.locator(".rxf-plan").bounding_box()
-    assert box is not None
-    x, y, radius = watched.page.evaluate(
-        "() => ['cx', 'cy', 'r'].map(name => +document.querySelector('.rxf-plan svg circle').getAttribute(name))"
-    )
+    circle = "['cx', 'cy', 'r'].map(name => +document.querySelector('.rxf-plan svg circle').getAttribute(name))"
+    x, y, radius = watched.at_rest(lambda: watched.page.evaluate(circle))
+    box = watched.box(".rxf-plan")
     psi = math.radians(psi_deg)
     return box["x"] + x + r * radius * math.sin(psi), box["y"] + y + r * radius * math.cos(psi)
 
 
-def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
+def test_read_pin_and_go_round_the_disk(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     page.get_by_role("button", name="Disk").click()
@@ -50,7 +45,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     )
     assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
     assert float(shown["C_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
-    assert f"{r:.2f} R" in page.locator("[data-explorer=around]").inner_text()
+    watched.reads("around", f"{r:.2f} R")
     # A click opens its section; the pinned card stays when the drawer moves the stage, and goes by its own button.
     page.mouse.down()
     page.mouse.up()
@@ -61,13 +56,13 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) == place)
     assert page.locator("[data-pin] b").inner_text() == place
     page.get_by_role("button", name="Unpin this reading").click()
-    assert page.locator("[data-pin]").count() == 0
+    page.locator("[data-pin]").wait_for(state="detached")
     # By key, and spoken.
     page.locator(".rxf-plan").focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Enter")
     page.locator("[data-pin]").wait_for(state="visible")
-    assert "R · ψ" in page.locator(".rxf-said").inner_text()
+    watched.until(lambda: "R · ψ" in page.locator(".rxf-said").inner_text())
     # Another design's values follow; and the scene comes back.
     before = page.evaluate("() => RX.state.plan.values.alpha.data")
     watched.press("Mass [t]", "ArrowRight", 5)
@@ -78,7 +73,7 @@ def test_read_pin_and_go_round_the_disk(browser: "Browser", app: App):
     watched.close()
 
 
-def test_the_plan_has_the_colours_that_files_have(browser: "Browser", app: App):
+def test_the_plan_has_the_colours_that_files_have(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     watched.show("Mach number")

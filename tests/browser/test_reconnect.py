@@ -5,17 +5,14 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import pytest
 from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser, Page
 from watched import COARSE, OPEN, WAIT, Watched
 
 from explorer.app import App
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
 
 pytestmark = [
     pytest.mark.browser,
@@ -104,7 +101,7 @@ def proxy(app: App) -> Iterator[Proxy]:
 
 
 @pytest.fixture
-def page(browser: "Browser") -> "Iterator[Page]":
+def page(browser: Browser) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1280, "height": 720})
     context.add_init_script(DRAW_NOTHING)
     context.set_default_timeout(WAIT)
@@ -112,13 +109,13 @@ def page(browser: "Browser") -> "Iterator[Page]":
     context.close()
 
 
-def set_inboard(page: "Page", value: float) -> None:
+def set_inboard(page: Page, value: float) -> None:
     Watched(page).type("Δ inboard", value)
     page.wait_for_function(f"() => location.search.includes('{value}')")
 
 
 @pytest.fixture
-def twisted(page: "Page", proxy: Proxy) -> "Page":
+def twisted(page: Page, proxy: Proxy) -> Page:
     """Connected, with a twist that its address tells."""
     page.goto(proxy.address + COARSE)
     page.wait_for_function(OPEN)
@@ -127,7 +124,7 @@ def twisted(page: "Page", proxy: Proxy) -> "Page":
 
 
 @pytest.mark.parametrize("delay", [0.3, 1.6, 5.5])
-def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", proxy: Proxy, delay: float):
+def test_connects_and_reconnects_however_long_the_handshake_takes(page: Page, proxy: Proxy, delay: float):
     """viser's client alone tries again every second, closing the socket that connects, and gives up after five."""
     proxy.delay = delay
     page.goto(proxy.address + COARSE)
@@ -143,14 +140,14 @@ def test_connects_and_reconnects_however_long_the_handshake_takes(page: "Page", 
     assert time.monotonic() - begin < delay + 30.0
 
 
-def test_is_served_in_a_folder(page: "Page", proxy: Proxy):
+def test_is_served_in_a_folder(page: Page, proxy: Proxy):
     proxy.folder = "/rotor"
     page.goto(f"{proxy.address}/rotor/{COARSE}")
     page.wait_for_function(OPEN)
     set_inboard(page, -7.9)
 
 
-def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: "Page", proxy: Proxy):
+def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: Page, proxy: Proxy):
     """For up to 2.5 s presses went to the session that had gone, and `RX.idle` never returned."""
     page = twisted
     proxy.cut()
@@ -165,13 +162,12 @@ def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: "Pa
     assert "-7.9" in page.url
 
 
-def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy: Proxy):
+def test_nothing_can_be_changed_while_the_server_is_away(twisted: Page, proxy: Proxy):
     """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
     page, watched = twisted, Watched(twisted)
     field = watched.row("Δ inboard").locator("input:not([type=hidden])").last
-    thumb = watched.row("Δ inboard").get_by_role("slider").bounding_box()
-    assert thumb is not None
-    page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
+    x, y = watched.thumb("Δ inboard")
+    page.mouse.move(x, y)
     page.mouse.down()  # The drag that is under way ends with the connection.
     page.wait_for_function("() => location.search.includes(':-8,')")
     proxy.cut()
@@ -179,9 +175,9 @@ def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy:
     said = page.locator("#rx-gone").inner_text()
     assert "Nothing can be changed meanwhile" in said
     before = field.input_value()
-    page.mouse.move(thumb["x"] + 90, thumb["y"])
+    page.mouse.move(x + 83, y)
     page.mouse.up()
-    page.mouse.click(thumb["x"] + 60, thumb["y"] + 4)
+    page.mouse.click(x + 53, y)
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowRight")
@@ -194,7 +190,7 @@ def test_nothing_can_be_changed_while_the_server_is_away(twisted: "Page", proxy:
     set_inboard(page, -7.3)
 
 
-def test_a_change_that_did_not_arrive_is_named(twisted: "Page", proxy: Proxy):
+def test_a_change_that_did_not_arrive_is_named(twisted: Page, proxy: Proxy):
     """Sent in the moment in which the connection breaks."""
     page, watched = twisted, Watched(twisted)
     proxy.deaf = True  # What the browser sends goes nowhere.
@@ -209,7 +205,7 @@ def test_a_change_that_did_not_arrive_is_named(twisted: "Page", proxy: Proxy):
     page.wait_for_selector("#rx-lost", state="detached")
 
 
-def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: "Page", proxy: Proxy):
+def test_a_tab_that_slept_for_a_day_comes_back_with_its_design(page: Page, proxy: Proxy):
     """The machine sleeps, its connection ends without a word, and the clocks of page and day have gone on."""
     page.clock.install()
     page.goto(proxy.address + COARSE)
@@ -235,7 +231,7 @@ FAST = "const now = performance.now.bind(performance); performance.now = () => 1
 
 
 @pytest.mark.parametrize("way", ["no WebSocket", "messages lost"])
-def test_a_page_without_a_connection_does_not_go_on_solving(page: "Page", proxy: Proxy, way: str):
+def test_a_page_without_a_connection_does_not_go_on_solving(page: Page, proxy: Proxy, way: str):
     """As behind a proxy that passes no WebSockets: the frame is served with the page, the first trim comes after it."""
     page.add_init_script(FAST)
     proxy.delay, proxy.deaf = (1e4, False) if way == "no WebSocket" else (0.0, True)
@@ -246,7 +242,7 @@ def test_a_page_without_a_connection_does_not_go_on_solving(page: "Page", proxy:
         assert "The server does not answer" in page.inner_text("[data-explorer=power-card]")
 
 
-def test_a_clock_set_back_by_a_day_stops_nothing(twisted: "Page", monkeypatch: pytest.MonkeyPatch):
+def test_a_clock_set_back_by_a_day_stops_nothing(twisted: Page, monkeypatch: pytest.MonkeyPatch):
     """viser's frames carry the time of day, by which its client smooths their arrival."""
     clock = time.time
     for hours, value in ((-24, -7.3), (0, -6.5)):  # Back, and forward again.

@@ -8,18 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser, BrowserContext
 from watched import OPEN, WAIT, Watched
 
 from explorer import web
 from explorer.app import App
 from explorer.hosting.gate import ServerLimits
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext
 
 pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parent.parent.parent
@@ -37,7 +34,7 @@ requestAnimationFrame(look);
 
 
 @pytest.fixture
-def context(browser: "Browser") -> "Iterator[BrowserContext]":
+def context(browser: Browser) -> Iterator[BrowserContext]:
     context = browser.new_context(viewport={"width": 1280, "height": 720})
     context.add_init_script(DRAW_NOTHING)
     context.add_init_script(_WATCH)
@@ -46,7 +43,7 @@ def context(browser: "Browser") -> "Iterator[BrowserContext]":
     context.close()
 
 
-def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App, artefacts: Path):
+def test_opens_whole_and_then_nothing_jumps(context: BrowserContext, app: App, artefacts: Path):
     page = context.new_page()
     page.goto(app.address)
     page.wait_for_function(OPEN)  # Warms the server: the figures are those of the next page.
@@ -72,7 +69,7 @@ def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", app: App,
 
 
 @pytest.mark.slow
-def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserContext", artefacts: Path):
+def test_a_full_server_seats_the_next_page_when_one_leaves(context: BrowserContext, artefacts: Path):
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1))
     try:
         first, second = context.new_page(), context.new_page()
@@ -86,14 +83,14 @@ def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserCont
         second.screenshot(path=artefacts / "full-house.png")
         first.close()
         second.wait_for_function(OPEN)
-        assert second.locator("[data-explorer=lobby]").count() == 0
+        second.locator("[data-explorer=lobby]").wait_for(state="detached")
         second.locator("[role=slider]:visible").first.wait_for()
     finally:
         app.stop()
 
 
 @pytest.mark.slow
-def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
+def test_outlives_its_server(context: BrowserContext, artefacts: Path):
     """A real restart on the same port: the page says so, comes back by itself, and shows the same design."""
     port, page = free_port(), context.new_page()
     with served(port) as address:
@@ -142,7 +139,6 @@ def served(port: int) -> Iterator[str]:
     """A server of its own process, ended as a service manager ends it."""
     command = [sys.executable, "-m", "explorer", "--port", str(port), "--no-browser"]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as server:
-        assert server.stdout is not None
         try:
             while "http://" not in server.stdout.readline():
                 assert server.poll() is None

@@ -4,11 +4,12 @@ import math
 from collections.abc import Iterator
 from io import BytesIO
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import Browser
 from watched import Watched
 
 from explorer.app import App
@@ -17,9 +18,6 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.picture.wake import tip_vortices
 from rotor.trim.solve import solve
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
@@ -61,7 +59,8 @@ AZIMUTH = """() => {
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    assert [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
+    begun = [-14.0, -8.0, 0.5]
+    shared.until(lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == begun)
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert shared.complaints == []
@@ -69,18 +68,6 @@ def watched(shared: Watched) -> Iterator[Watched]:
 
 def value(watched: Watched, label: str) -> float:
     return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
-
-
-def drag(watched: Watched, start: tuple[float, float], end: tuple[float, float]) -> None:
-    """Press, move in steps as a hand does, and stay pressed."""
-    mouse = watched.page.mouse
-    mouse.move(*start)
-    watched.page.wait_for_timeout(300)
-    mouse.down()
-    for k in range(1, 11):
-        mouse.move(*(a + (b - a) * k / 10 for a, b in zip(start, end, strict=True)))
-        watched.page.wait_for_timeout(40)
-    watched.answered()
 
 
 # Height [px] of the held trailing edge, where the blade is seen from the tip.
@@ -141,7 +128,7 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     watched.until(lambda: value(watched, "Outboard") > -3.0)
     for _ in range(20):
         page.keyboard.press("Shift+ArrowUp")
-    assert "limit of Outboard" in page.evaluate("() => RX.part('rubber').textContent")
+    page.wait_for_function("() => RX.part('rubber').textContent.includes('limit of Outboard')")
     watched.until(lambda: value(watched, "Outboard") == 10.0)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)
@@ -187,7 +174,7 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
 
 
 @pytest.mark.slow
-def test_the_disk_has_the_colours_that_files_have(browser: "Browser", app: App):
+def test_the_disk_has_the_colours_that_files_have(browser: Browser, app: App):
     """What the page's shader draws, at full opacity and without marks, against the picture of an export."""
     page = browser.new_page(viewport={"width": 900, "height": 700})
     try:
@@ -208,16 +195,3 @@ def test_the_disk_has_the_colours_that_files_have(browser: "Browser", app: App):
     for (r, psi), colour in zip(places, seen, strict=True):
         across, down = (480 + 479 * r * of(math.radians(psi)) for of in (math.sin, math.cos))
         np.testing.assert_allclose(colour, image[int(down), int(across)], atol=6.0, err_msg=f"{r} R at {psi}°")
-
-
-def test_the_scene_dresses_its_surfaces(watched: Watched):
-    """Gloss on the head, and flat pictures that do not hide what lies behind their corners."""
-    watched.page.wait_for_function(
-        """() => {
-            const node = name => window.__viserMutable.nodeRefFromName[name];
-            let head = null, field = null;
-            node('/rotor/head').traverse(part => { if (part.isMesh) head = part.material; });
-            node('/rotor/disk/field').traverse(part => { if (part.isMesh) field = part.material; });
-            return head?.metalness === 0.55 && field?.depthWrite === false;
-        }"""
-    )

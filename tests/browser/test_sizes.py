@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from playwright.sync_api import expect
 from watched import LARGE, ON_SCREEN, Visit, Watched
 
 pytestmark = pytest.mark.browser
@@ -73,9 +74,9 @@ def has_room(watched: Watched, subject: str, height: int) -> None:
     free, narrow, clean = watched.at_rest(
         lambda: watched.page.evaluate(f"() => {{ const all = ({MEASURE})(); return [all.free, all.narrow, all.hit]; }}")
     )
+    left, right, top, bottom = watched.at_rest(lambda: watched.page.evaluate(SUBJECT, subject))
     assert free["bottom"] - free["top"] >= 0.45 * height
     assert (narrow, clean) == ([], [])
-    left, right, top, bottom = watched.page.evaluate(SUBJECT, subject)
     assert free["left"] - 2 <= left < right <= free["right"] + 2
     assert free["top"] - 2 <= top < bottom <= free["bottom"] + 2
 
@@ -105,13 +106,12 @@ def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit, size: tuple[int, 
         "() => RX.state.hand && document.documentElement.style.getPropertyValue('--rx-shown') === '1'"
     )
     watched.until(lambda: page.evaluate("() => RX.state.power.total") != power)
-    assert "second finger" in page.evaluate("() => RX.part('rubber').textContent")
-    shown, words, blade, disk = page.evaluate(
-        """() => [[...document.querySelectorAll('.rxf-stage > *')]
+    page.wait_for_function("() => RX.part('rubber').textContent.includes('second finger')")
+    stage = """() => [[...document.querySelectorAll('.rxf-stage > *')]
             .filter(e => e.checkVisibility({opacityProperty: true, visibilityProperty: true}) && e.innerHTML.trim())
             .map(e => e.dataset.part), document.querySelectorAll('.rxf-plan text').length,
             ...['.rxf-rubber', '.rxf-plan circle'].map(name => document.querySelector(name).getBoundingClientRect())]"""
-    )
+    shown, words, blade, disk = watched.at_rest(lambda: page.evaluate(stage))
     assert (shown, words) == (["plan", "rubber"], 0)
     assert (blade["width"], blade["height"]) == size  # Over the bar and the sheet.
     assert disk["height"] >= 0.4 * min(width, height)
@@ -127,31 +127,30 @@ def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
     page, grip, tab = watched.page, watched.page.locator(".rxf-grip"), watched.page.locator("[data-page=controls]")
     sheet = "() => innerHeight - document.querySelector('.rxf-grip').getBoundingClientRect().bottom"
     canvas = "() => document.querySelector('canvas').getBoundingClientRect().height"
+    box = watched.box(grip)
     half, high = page.evaluate(sheet), page.evaluate(canvas)
-    box = grip.bounding_box()
-    assert box is not None
     x, y = box["x"] + 150, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x, y - 120, steps=4)
-    assert page.evaluate(sheet) == pytest.approx(half + 120, abs=3)
+    pulled = pytest.approx(half + 120, abs=3)
+    watched.until(lambda: page.evaluate(sheet) == pulled)
     assert page.evaluate(canvas) == pytest.approx(high, abs=1)  # Of another size only once it is let go.
     page.mouse.up()
     page.wait_for_function(f"high => ({canvas})() < high - 100", arg=high)
-    assert tab.get_attribute("aria-expanded") == "true"
+    expect(tab).to_have_attribute("aria-expanded", "true")
     tab.click()
     page.wait_for_function(f"() => ({sheet})() === 0")
-    assert tab.get_attribute("aria-expanded") == "false"
+    expect(tab).to_have_attribute("aria-expanded", "false")
     watched.mode("optimise")
     page.get_by_role("button", name="Optimise", exact=True).last.wait_for(state="visible")
-    assert page.evaluate(sheet) == pytest.approx(half + 120, abs=3)  # As high as it was pulled.
+    watched.until(lambda: page.evaluate(sheet) == pulled)  # As high as it was pulled.
 
 
 def test_on_a_tablet_optimise_shows_its_controls_and_its_search(visit: Visit):
     watched = visit(size=(820, 1180))
     watched.mode("optimise")
     begin = watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True)
-    assert begin.is_visible()
     begin.click()
     watched.page.locator("[data-explorer=notice]").wait_for(state="visible")
     assert found(watched)[0] == CLEAN

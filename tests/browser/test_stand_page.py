@@ -1,6 +1,7 @@
 """The test stand on the real page: a measured rotor in its tests and flights, and points over the curve."""
 
 import pytest
+from playwright.sync_api import expect
 from watched import WAIT, Watched
 
 from explorer.model.inputs import Inputs
@@ -20,8 +21,8 @@ def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.until(lambda: watched.page.locator("[data-name=power] [data-band]").count() == 1)
     watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
     until(watched, f"() => {power}?.value.startsWith('FC2: ')")
-    assert "FC2" in watched.row("Point").locator("input").first.input_value()
-    assert watched.row("Altitude").locator("input:not([type=hidden])").last.input_value() == "1521"
+    watched.until(lambda: "FC2" in watched.row("Point").locator("input").first.input_value())
+    expect(watched.row("Altitude").locator("input:not([type=hidden])").last).to_have_value("1521")
     watched.page.locator("[data-name=power] [data-value=FC4]").click()
     until(watched, f"() => {power}?.value.startsWith('FC4: ')")
     watched.drawer("probe")

@@ -3,12 +3,10 @@
 import re
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from chromium import DRAW_NOTHING
-
-if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext, Locator, Page
+from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 SMALL, MEDIUM, LARGE = (1180, 640), (1280, 720), (1500, 940)
 WAIT = 90_000
@@ -33,7 +31,7 @@ ON_SCREEN = """r => {
 class Watched:
     """A page and everything it complained about, except of what viser does itself."""
 
-    def __init__(self, page: "Page") -> None:
+    def __init__(self, page: Page) -> None:
         self.page = page
         page.set_default_timeout(WAIT)
         self.complaints: list[str] = []
@@ -55,7 +53,7 @@ class Watched:
     def close(self) -> None:
         self.page.close()
 
-    def row(self, label: str) -> "Locator":
+    def row(self, label: str) -> Locator:
         named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
         return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
 
@@ -107,7 +105,7 @@ class Watched:
         """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
         x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))  # The camera goes where the cards leave room.
         self.page.mouse.move(x, y)
-        self.page.wait_for_timeout(300)  # viser looks for what is below the pointer.
+        self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")  # viser has seen it.
         self.page.mouse.down()
         self.page.mouse.move(x, y + 12, steps=4)
         self.page.wait_for_function("() => RX.state.rubber")
@@ -182,9 +180,21 @@ class Watched:
             self.page.wait_for_timeout(100)
             self.drawn()
             before, now = now, read()
-            if now == before:
+            if now == before is not None:  # None: not drawn at this moment.
                 return now
         raise AssertionError(f"never at rest: {now!r:.200}")
+
+    def box(self, of: Locator | str) -> dict[str, float]:
+        """Where something is once it rests: cards and charts are drawn anew with each answer."""
+        return self.at_rest((self.page.locator(of) if isinstance(of, str) else of).bounding_box)
+
+    def middle(self, of: Locator | str) -> tuple[float, float]:
+        box = self.box(of)
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def thumb(self, label: str) -> tuple[float, float]:
+        """Middle of a slider's thumb."""
+        return self.middle(self.row(label).get_by_role("slider"))
 
     def node(self, name: str) -> str:
         """A digest of what is drawn of a scene node: a blade's vertices or the numbers on a disk."""
@@ -213,24 +223,18 @@ Visit = Callable[..., Watched]
 
 
 @cache
-def window(browser: "Browser") -> "BrowserContext":
+def window(browser: Browser, scheme: Any = None) -> BrowserContext:
     """One for all pages in which nothing is painted: what a test reads needs no pixels."""
-    context = browser.new_context()
+    context = browser.new_context(color_scheme=scheme)
     context.add_init_script(DRAW_NOTHING)
     return context
 
 
-def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
+def opened(
+    browser: Browser, address: str, query: str = COARSE, size: tuple[int, int] = SMALL, scheme: Any = None
+) -> Watched:
     """A page in which nothing is painted."""
-    watched = Watched(window(browser).new_page())
+    watched = Watched(window(browser, scheme).new_page())
     watched.page.set_viewport_size({"width": size[0], "height": size[1]})
     watched.open(address, query)
-    return watched
-
-
-def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int] = LARGE) -> Watched:
-    """A window of its own as a person sees it, for pictures."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
-    watched = Watched(context.new_page())
-    watched.open(address, query="")
     return watched

@@ -68,7 +68,6 @@ class TestButtons:
 
     def test_swap_exchanges_the_two_in_the_flight_that_is_compared(self, a: Solution, b: Solution):
         after = act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, True)
-        assert after.pinned is not None
         assert (after.pinned.inputs, after.pinned.solution) == (B_INPUTS, b)
         assert after.inputs == replace(A_INPUTS, advance_ratio=0.3, mass_t=7.5)
         assert act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, False).inputs == A_INPUTS
@@ -93,9 +92,7 @@ class TestButtons:
     def test_the_ghost_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
         pinned = Pinned(A_INPUTS, a)
         of_a, of_search = ghost_of(None, pinned), ghost_of(b.design, pinned)
-        assert of_a is not None
         assert (of_a.twist, of_a.colour) == (a.design.twist, PINNED_GHOST)
-        assert of_search is not None
         assert (of_search.twist, of_search.colour) == (b.design.twist, None)
         assert ghost_of(None, None) is None
 
@@ -118,7 +115,6 @@ class TestPinboard:
         board.along = True
         assert board.solve(a.design) is a
         answer = board.solve(b.design)
-        assert answer is not None
         assert answer.design.condition == b.design.condition
         assert answer.design.twist == a.design.twist
         assert_allclose(answer.power.total, along.power.total, rtol=1e-7)
@@ -127,18 +123,15 @@ class TestPinboard:
     def test_no_trim_there_is_an_answer_too_and_is_survived(self, board: Pinboard, a: Solution):
         heavy = quick(replace(A_INPUTS, mass_t=11.0, altitude_m=4000.0, advance_ratio=0.44))
         answer = board.solve(heavy)
-        assert answer is not None
         assert not answer.converged
         assert board.solve(a.design, hurried=True) is answer
         back = board.solve(a.design)
-        assert back is not None
         assert back.converged
 
     def test_what_follows_a_swap_waits_until_the_sliders_have_moved(self, board: Pinboard, a: Solution, b: Solution):
         board.ask("swap")
         board.ask("unpin")
         outcome = board.act(B_INPUTS, b)
-        assert outcome is not None
         assert outcome.inputs is not None
         assert board.pinned is not None
         assert board.act(outcome.inputs, a) is not None
@@ -220,13 +213,11 @@ class TestDisk:
         short = solve(replace(along.design, rotor=replace(rotor, blade=blade)))
         grid = polar_grid(b.disk, 60, 90)
         void = difference(FIELDS["Mach number"], short).void(Drawn(b), grid)
-        assert void is not None
         assert void[grid.r < 0.299].all()
         assert not void[grid.r > 0.301].any()
         slow = solve(replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1)))
         alpha = difference(FIELDS["Angle of attack"], slow).void(Drawn(b), grid)
         other_way = difference(FIELDS["Angle of attack"], b).void(Drawn(slow), grid)
-        assert alpha is not None
         assert other_way is not None
         assert alpha.any()
         assert (alpha == other_way).all()

@@ -48,7 +48,6 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
 def answers(session: Session) -> tuple[float, float]:
     """Relative difference of the page's power and of its gradient from those of the same design solved alone."""
     state = session._state
-    assert state is not None
     alone = solve(state.solution.design).require()
     here, there = power_gradient(state.solution).by_element, power_gradient(alone).by_element
     power = abs(state.solution.power.total / alone.power.total - 1.0)

@@ -14,47 +14,17 @@ from explorer.page import Page
 from explorer.parts.presses import PRESSES
 from explorer.sharing.presentation import follow_name
 from explorer.sharing.share import code_of
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 SENT: dict[str, Any] = {
-    "along": False,
-    "hold": True,
-    "field": "Lift",
-    "region": "stall",
-    "mode": "actuate",
-    "drawer": "open",
-    "task": "Map",
-    "opened": "History",
-    "rotor": "r22",
-    "flown": "dnw",
-    "default": "Δ inboard [°/R]",
-    "story": 2,
-    "guess": 0,
-    "stop": 1,
-    "dial_front": 2,
-    "grab_at": 1.0,
-    "twist_by_hand": 1.0,
-    "speed": 0.3,
-    "difference": "on",
-    "more": "on",
-    "ride": [0.8, 90.0],
-    "azimuth": 30.0,
-    "fly": 1.5,
-    "suppose": "on",
-    "balance": "here",
-    "against": "best-fixed",
-    "fails": "on",
-    "section": [0.8, 90.0],
-    "map_at": [0.2, 0.8],
-    "pull": 0.5,
-    "wiped": 0.4,
-    "covered": [0.1, 0.2],
-    "view": "disk",
-    "colours": "Rescale",
-    "lecture": "next",
-    "knot": ["2", [None, -5.0]],
+    "along": False, "hold": True, "field": "Lift", "region": "stall", "mode": "actuate", "drawer": "open",
+    "task": "Map", "opened": "History", "rotor": "r22", "flown": "dnw", "default": "Δ inboard [°/R]", "story": 2,
+    "guess": 0, "stop": 1, "dial_front": 2, "grab_at": 1.0, "twist_by_hand": 1.0, "speed": 0.3, "difference": "on",
+    "more": "on", "ride": [0.8, 90.0], "azimuth": 30.0, "fly": 1.5, "suppose": "on", "balance": "here",
+    "against": "best-fixed", "fails": "on", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5, "wiped": 0.4,
+    "covered": [0.1, 0.2], "view": "disk", "colours": "Rescale", "lecture": "next", "knot": ["2", [None, -5.0]],
     "dial": [[3, 1.0, 60.0]],
-}
+}  # fmt: skip
 """A value for each press that has one."""
 BEGUN = "Δ inboard [°/R]"
 
@@ -70,9 +40,7 @@ def visited(app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]],
     """Do this on a page of the server."""
 
     async def visit() -> None:
-        visitor = Visitor(query=query)
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address, query=query)
         await visitor.idle(wholly=False)
         try:
             await act(visitor, app.sessions[-1].page)
@@ -170,7 +138,6 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
         for a, b in ((-3.0, 0.0), (0.0, -3.0)):
             await visitor.press("swap")
             await visitor.idle()
-            assert page.pin is not None
             assert (page.pin.inputs.built_inner, page.controls.inputs().built_inner) == (a, b)
 
     visited(app, swap)

@@ -194,7 +194,6 @@ class TestAirLines:
         """Also in another process, which gets no equations: x and y to rounding, height as straight lines allow."""
         solution: Solution = pickle.loads(pickle.dumps(with_inflow("lifting-line", mu)))
         course, rotor, controls = solution.wake_course, solution.design.rotor, solution.controls
-        assert course is not None
         for psi in np.linspace(0.0, 2.0 * math.pi, 25):
             points, share = tip_vortices(solution, [psi])
             drawn, age = points[:, 1] / rotor.radius, 2.0 * math.pi * 0.8 * share[:, 1]

@@ -24,7 +24,6 @@ NEW = ("gazelle", "bo105", "hart2", "uh60a")
 
 def at_test(rotor: str, case: str) -> Inputs:
     condition = condition_of(rotor, case)
-    assert condition is not None
     return replace(with_rotor(OPENING, rotor), **condition.inputs)
 
 
@@ -43,11 +42,9 @@ def test_every_flight_and_test_survives_a_link_exactly(name: str):
 
 def test_hart_2_begins_with_its_baseline_and_its_other_case_has_pitch_at_3_per_rev():
     first = first_condition("hart2")
-    assert first is not None
     assert first.label == "Baseline"
     minimum_noise = at_test("hart2", "MN")
     assert [wave.per_rev for wave in minimum_noise.pitch_per_rev] == [3]
-    assert minimum_noise.stand is not None
     assert minimum_noise.stand.value == 3300.0
 
 
@@ -55,7 +52,6 @@ class TestFlights:
     def test_points_are_those_of_the_report_and_ours_that_of_a_solve(self):
         solution, flown, drawn = solve(FC1.design()), FlownPowers(), list[bool]()
         before = flown.marks(solution, SI)
-        assert before is not None
         assert before.x == (0.14, 0.362, 0.2599, 0.3441)
         assert before.y == pytest.approx((172.5, 441.9, 221.4, 442.6))
         assert before.faint == [False, True, True, True]
@@ -69,7 +65,6 @@ class TestFlights:
         ends = between_drag_areas(other)
         assert ends is not None
         after = flown.marks(solution, SI)
-        assert after is not None
         words = after.words[1]
         for one in (other, *ends):
             assert f"{one.power.main_rotor / 1e3:.1f} kW" in words
@@ -162,7 +157,6 @@ class TestAirloads:
     def test_the_correlation_is_that_of_the_waves_without_the_mean(self):
         psi = np.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
         beside = beside_measured(solve(FC1.design()), 0.75)
-        assert beside is not None
         measured = MeasuredCurve(beside.case, "cl_u2", 0.75, psi, 0.3 + np.cos(psi) + 5.0 * np.cos(20.0 * psi))
         assert correlation(measured, psi, 7.0 + 2.0 * np.cos(psi)) == pytest.approx(1.0)
         assert correlation(measured, psi, np.cos(psi - math.pi / 3.0)) == pytest.approx(0.5)

@@ -62,7 +62,6 @@ class TestBlades:
         shape = blade_shape(fast.design.rotor)
         tips = [ring_angles(form.vertices(shape))[-1] for form in blades.forms]
         elastic = fast.disk.elastic_twist
-        assert elastic is not None
         outermost = np.interp((math.pi / 2, math.pi, 1.5 * math.pi), fast.disk.psi, elastic[-1])
         assert np.ptp(outermost) > math.radians(0.5)
         assert_allclose(np.subtract(tips[1:3], tips[0]), outermost[1:] - outermost[0], atol=2e-4)
@@ -100,7 +99,6 @@ class TestCurves:
         r = fast.disk.r
         band = flown_band(fast, r)
         assert band is not None
-        assert fast.elastic is not None
         mean, low, high = band
         assert_allclose(mean - shown_twist(fast.design)(r), np.degrees(fast.elastic.along_blade), atol=1e-9)
         assert (low < mean).all()
@@ -114,13 +112,11 @@ class TestField:
         low, high = fitted_range(FIELD, values)
         assert low == -high
         assert high >= np.quantile(np.abs(values), 0.99)
-        assert fast.elastic is not None
         assert np.abs(values).max() == pytest.approx(math.degrees(np.abs(fast.elastic.tip).max()), abs=0.15)
 
     def test_a_rigid_blade_has_none(self, rigid: Solution):
         grid = polar_grid(rigid.disk, 40, 120)
         void = FIELD.void(Drawn(rigid), grid)
-        assert void is not None
         assert void.all()
         assert flown_twist(rigid, 1.0) == rigid.design.twist
         assert probe(rigid, 0.8, 1.0).elastic is None
@@ -140,7 +136,6 @@ class TestNumbers:
 
     def test_the_trim_lists_tip_twist_and_pitch_link_load(self, fast: Solution):
         elastic = fast.elastic
-        assert elastic is not None
         text = re.sub(r"<[^>]*>", " ", trim_panel(fast)).replace("−", "-")
         for angle in (elastic.tip.mean(), elastic.first_harmonic):
             assert f"{math.degrees(angle):.2f}°" in text
@@ -149,6 +144,5 @@ class TestNumbers:
             assert f"{force / 1e3:.2f} kN" in text
 
     def test_both_designs_list_them(self, fast: Solution, rigid: Solution):
-        assert fast.elastic is not None
         text = both_panel(fast, rigid).replace("−", "-")
         assert f"<span>–</span><span>{math.degrees(fast.elastic.tip.mean()):.2f}</span>" in text

@@ -27,16 +27,10 @@ from rotor.files.make_design import make_design
 START = Inputs()
 LONG = 5.0
 VIEWS = st.builds(
-    ViewState,
-    field=st.sampled_from(tuple(FIELDS)),
-    exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
-    difference=st.booleans(),
-    reverse_flow=st.booleans(),
-    stall=st.booleans(),
-    drag_divergence=st.booleans(),
-    units=st.sampled_from(tuple(UNITS)),
-    wake=st.booleans(),
-)
+    ViewState, field=st.sampled_from(tuple(FIELDS)), exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
+    difference=st.booleans(), reverse_flow=st.booleans(), stall=st.booleans(), drag_divergence=st.booleans(),
+    units=st.sampled_from(tuple(UNITS)), wake=st.booleans(),
+)  # fmt: skip
 FIRST = Inputs(law="linear", linear=-8.0)
 DRAG = 0.05
 """[s] between two movements of a drag."""

@@ -206,8 +206,6 @@ class TestAnswers:
         a, b = solved(stop.against), solved(stop.inputs)
         assert b.power.total / a.power.total - 1.0 == pytest.approx(powers[-1], abs=1e-6)
         loads_a, loads_b = hub_loads(a), hub_loads(b)
-        assert loads_a is not None
-        assert loads_b is not None
         assert loads_b.index / loads_a.index - 1.0 == pytest.approx(line.y[-1], abs=1e-4)
 
     @pytest.mark.slow
@@ -223,7 +221,6 @@ class TestAnswers:
     def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, Facts]):
         step = BY_TITLE["What two segments add"]
         best = optimise(step.begin().design(), "two-segment-free")
-        assert best.best is not None
         assert solved(step.begin()).power.total < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
 
 
@@ -298,7 +295,6 @@ class TestBeside:
     def test_the_other_wake_is_compared_with_itself(self):
         step = BY_TITLE["A wake that responds to loading"]
         against = beside(step.against, step.inputs, replace(step.inputs, inflow="local-momentum", linear=-17.0))
-        assert against is not None
         assert against.design() == replace(step.against or Inputs(), inflow="local-momentum").design()
 
     def test_the_twist_and_the_flight_are_the_users(self):
@@ -310,7 +306,6 @@ class TestBeside:
     def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, Facts]):
         stop = facts["power_or_vibration"].stops[0]
         against = beside(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))
-        assert against is not None
         assert against.twist_per_rev == ()
         assert against.advance_ratio == 0.25
 

@@ -42,30 +42,15 @@ def random_inputs(chance: random.Random) -> Inputs:
 
     inputs = Inputs(
         law=chance.choice(("builtin", "builtin", "linear", "quadratic", "two", "three", "ideal", "given")),
-        built_inner=chance.choice((0.0, rate())),
-        built_outer=rate(),
-        built_division=place(),
-        linear=rate(),
-        quadratic_curvature=chance.randint(-80, 80) / 2.0,
-        quadratic_difference=rate(),
-        two_inner=rate(),
-        two_outer=rate(),
-        two_division=place(),
-        three_inner=rate(),
-        three_middle=rate(),
-        three_outer=rate(),
-        three_first=place(20, 50),
-        three_second=place(55, 95),
-        advance_ratio=chance.randint(0, 90) / 200.0,
-        mass_t=chance.randint(100, 219) / 20.0,
-        altitude_m=chance.randint(0, 80) * 50.0,
+        built_inner=chance.choice((0.0, rate())), built_outer=rate(), built_division=place(), linear=rate(),
+        quadratic_curvature=chance.randint(-80, 80) / 2.0, quadratic_difference=rate(), two_inner=rate(),
+        two_outer=rate(), two_division=place(), three_inner=rate(), three_middle=rate(), three_outer=rate(),
+        three_first=place(20, 50), three_second=place(55, 95), advance_ratio=chance.randint(0, 90) / 200.0,
+        mass_t=chance.randint(100, 219) / 20.0, altitude_m=chance.randint(0, 80) * 50.0,
         climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
         inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "local-momentum", "lifting-line")),
-        hover_inflow=chance.choice(("annulus", "closed-form")),
-        preset=chance.choice(("flight", "flight", "thesis")),
-        tip_loss=chance.random() < 0.8,
-        elastic_twist=chance.random() < 0.8,
-        fuselage=chance.random() < 0.8,
+        hover_inflow=chance.choice(("annulus", "closed-form")), preset=chance.choice(("flight", "flight", "thesis")),
+        tip_loss=chance.random() < 0.8, elastic_twist=chance.random() < 0.8, fuselage=chance.random() < 0.8,
         bending=chance.random() < 0.3,
         rotor_speed_percent=chance.choice((100.0, chance.randint(70, 110))),
         load_factor=chance.choice((1.0, chance.randint(10, 16) / 10.0)),
@@ -73,7 +58,7 @@ def random_inputs(chance: random.Random) -> Inputs:
         dynamic_stall=chance.random() < 0.8,
         elements=chance.choice((None, None, 12, 48)),
         azimuths=chance.choice((None, None, 16, 48)),
-    )
+    )  # fmt: skip
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)
     if inputs.law == "given":

@@ -111,8 +111,6 @@ def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     elastic, pitched = (
         flown_band(solve(one.design()).require(), r) for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))
     )
-    assert elastic is not None
-    assert pitched is not None
     assert np.ptp([pitched[1][1], pitched[2][1]]) > np.ptp([elastic[1][1], elastic[2][1]]) + 1.0
 
 
@@ -243,7 +241,6 @@ def test_only_where_wakes_agree_in_sign_is_anything_best():
     labels = [one.label for one in front_chart((agreed, apart)).series if isinstance(one, Points)]
     assert labels[-2:] == ["front", "models disagree"]
     words = [one.words for one in front_chart((apart,)).series if isinstance(one, Points)][-1]
-    assert words is not None
     assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
 
 

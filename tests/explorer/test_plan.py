@@ -25,7 +25,6 @@ def solution(request: pytest.FixtureRequest) -> Solution:
 
 
 def table(packed: PackedTable | None) -> Array:
-    assert packed is not None
     steps = np.frombuffer(base64.b64decode(packed.data), "<u2").reshape(40, 120)
     return packed.low + packed.step * steps
 
@@ -42,7 +41,6 @@ def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Soluti
 
 def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
     shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), at_rest=True)
-    assert shown.values is not None
     grid = polar_grid(solution.disk, 40, 120)
     for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
         packed = shown.values[name]

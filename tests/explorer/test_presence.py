@@ -38,7 +38,6 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
     ran(visit)
     (kept,) = (script for script in scripts if script.startswith(f'RX.keep("{PRESENT}",'))
     secret = re.fullmatch(rf'RX\.keep\("{PRESENT}","([\w-]+)"\)', kept)
-    assert secret is not None
     shared = [script for script in scripts if script is not kept]
     assert any(f"?{FOLLOW}={follow_name(secret[1])}" in script for script in shared)
     assert not [script for script in shared if secret[1] in script]

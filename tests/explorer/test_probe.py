@@ -152,7 +152,6 @@ class TestPick:
         r = max(r, fast.design.rotor.blade.root_cutout)
         point = self.on_disk(fast, r, psi)
         found = pick(fast, eye, stretch * (point - np.array(eye)))
-        assert found is not None
         assert_allclose(found[0], min(r, 1.0), atol=1e-9)
         assert_allclose(math.remainder(found[1] - psi, math.tau), 0.0, atol=1e-9)
 
@@ -181,7 +180,6 @@ def test_a_ray_at_a_blade_finds_its_section_and_keeps_the_azimuth(psi_deg: float
             place = rotate(picture.rotor.wxyz, pose.position + rotate(pose.wxyz, top))
             eye = place + np.array([4.0, -3.0, 30.0])  # From where the upper side is seen at any pitch.
             found = pick_blade(solution, view, eye, place - eye)
-            assert found is not None
             assert_allclose(found[0], shape.r[ring], atol=0.003)
             assert found[1] == (psi_deg + 90.0 * k) % 360.0
     assert pick_blade(solution, view, (22.0, 33.0, 15.0), (0.0, 0.0, 1.0)) is None
@@ -252,18 +250,15 @@ def stalled() -> Solution:
 class TestDynamicStall:
     def test_the_region_is_what_the_section_does(self, stalled: Solution):
         unsteady, disk = stalled.disk.unsteady, stalled.disk
-        assert unsteady is not None
         differ = (unsteady.separation < 0.7) & (disk.stall_margin > 0.02) & (disk.u_t > 0.1)
         i, j = np.argwhere(differ)[0].tolist()  # Still separated, though the angle has come back.
         p = probe(stalled, float(disk.r[i]), float(disk.psi[j]))
         assert p.region is FlowRegion.STALLED
-        assert p.unsteady is not None
         assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)
 
     def test_the_loop_is_the_disks_own(self, stalled: Solution):
         disk = stalled.disk
         p = probe(stalled, disk.r[12], 1.0)
-        assert p.unsteady is not None
         assert_allclose(p.unsteady.loop[0], disk.alpha[12], atol=1e-9)
         assert_allclose(p.unsteady.loop[1], disk.cl[12], atol=1e-12)
 

@@ -84,11 +84,9 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
 def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
     call = effect_asked(now)
-    assert call is not None
     now = replace(now, answers={call: call.run()})
     driven, card, state = assessed(now), ASSESSED.view(now)["assessed"], now.state
     assert driven is not None
-    assert state is not None
     words, against, kind = on_board(driven, SI)
     assert (words, kind) == (card.here, "more")
     assert against == f"with {card.mass} on board, against the same blade without it"

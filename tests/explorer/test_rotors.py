@@ -119,7 +119,6 @@ class TestShelf:
         shelf = UploadedFiles()
         shelf.add("p.txt", polar_file(POLAR).replace("\n", "\r\n").encode())
         craft = shelf.add("my.toml", toml.encode("utf-8-sig")).aircraft
-        assert craft is not None
         assert len(craft.remarks) == 1
 
     @pytest.mark.parametrize(
@@ -181,9 +180,7 @@ def test_a_pinned_design_of_another_rotor_keeps_its_own_flight(r22: Solution):
     other = Inputs(law="builtin")
     board.pin(Pinned(other, solve(other.design()).require()))
     answer = board.solve(r22.design)
-    assert answer is not None
     assert answer.design.condition.mass == pytest.approx(8320.0)
-    assert board.pinned is not None
     assert board.pinned.sliders(R22, along=True) == other
 
 

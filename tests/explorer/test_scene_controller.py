@@ -128,7 +128,6 @@ class TestScale:
         page.controller.draw(fast, view, None, changed)
         page.controller.draw_at_rest()
         difference = page.controller.scale
-        assert difference is not None
         assert difference[0].note
         assert difference[1] == page.controller.held_range(difference[0]) != (field.low, field.high)
         page.controller.draw(fast, replace(view, wipe=True), None, changed)

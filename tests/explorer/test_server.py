@@ -82,7 +82,6 @@ class TestCommand:
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
         try:
-            assert process.stdout is not None
             printed = ""
             while "http://127.0.0.1:" not in printed.partition("Rotor explorer")[2]:
                 line = process.stdout.readline()

@@ -48,11 +48,6 @@ class TestInputs:
         assert ": closed form, eq. (3.3), " in model_words(replace(hover, hover_inflow="closed-form").design())
         assert model_words(Inputs(tip_loss=False).design()).endswith(": Lifting line, no tip loss")
 
-    def test_crossed_divisions_are_one_sentence(self):
-        with pytest.raises(ValueError, match=r"break points at 0\.8 and 0\.4 R are out of order") as caught:
-            Inputs(law="three", three_first=0.8, three_second=0.4).design()
-        assert "\n" not in str(caught.value)
-
     def test_baselines(self):
         assert baseline_of(Inputs(law="linear").design()).twist.spec() == "uh60a"
         assert baseline_of(Inputs(preset="thesis").design()).twist.spec() == "linear:-16"

@@ -26,7 +26,6 @@ INPUTS = Inputs(inflow="drees")
 def judged() -> Now:
     now = actuate(INPUTS)
     one = built(now)
-    assert one is not None
     return told(ACTUATOR, now, lean_verdict=lean_verdict(one.question))
 
 
@@ -82,11 +81,9 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: Now, li
 def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: Now):
     now = done(lined, place_it(lined, "on"))
     value, shown = assessed(now), PAY.view(now)["suppose"]
-    assert value is not None
     assert value.flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
     words = re.search(r"needs .* more", shown.words)
-    assert words is not None
     assert words[0] == ASSESSED.view(now)["assessed"].flight
     other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
     assert PAY.view(other)["suppose"] is None

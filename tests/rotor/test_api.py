@@ -123,7 +123,6 @@ def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
     def mean(twist: str) -> float:
         return sum(w * rotor.solve(made.at(mu=mu).with_twist(twist)).power.total for mu, w in weights.items()) / 4.0
 
-    assert found.best is not None
     assert_allclose(found.best.power, mean(found.best.twist), rtol=1e-7)
     assert found.best.power <= min(mean(f"linear:{rate}") for rate in (-9, -6, -3)) * (1 + 1e-9)
     at_design = [(made.at(mu=0.1), 1.0), (0.3, 3.0)]

@@ -169,7 +169,6 @@ def test_no_task_takes_the_answer_of_one_that_was_given_up():
         begin, reply = time.monotonic(), None
         while reply is None and time.monotonic() < begin + PATIENCE:
             reply = process.receive(0.1)
-        assert reply is not None
         assert reply.value == "second"
     finally:
         process.close()
@@ -338,7 +337,7 @@ def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Process
 @pytest.mark.slow
 def test_a_process_that_will_not_stop_is_not_waited_for(pool: Processes):
     least = PATIENCE
-    for _ in range(3):  # Each takes a process.
+    for _ in range(TRIES):  # Each takes a process.
         took, ended, _ = stopped(pool, Deaf())
         assert ended == JobEnded(None, stopped=True)
         least = min(least, took)

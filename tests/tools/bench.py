@@ -46,15 +46,9 @@ TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts"
 """Targets of the project [s], flight preset, one core for an optimum, two for the schedule."""
 
 TARGETS_MS = {
-    "evaluation": 0.25,
-    "rigid blade, warm": 4.0,
-    "bending blade, cold": 60.0,
-    "bending blade, warm": 6.0,
-    "cold": 40.0,
-    "warm": 4.0,
-    "gradient": 2.0,
-    "doubt": 8.0,
-}
+    "evaluation": 0.25, "rigid blade, warm": 4.0, "bending blade, cold": 60.0, "bending blade, warm": 6.0,
+    "cold": 40.0, "warm": 4.0, "gradient": 2.0, "doubt": 8.0,
+}  # fmt: skip
 """Targets of the project [ms], on the grid of each model, one core of an idle machine."""
 
 TARGETS_UNSTEADY = {"cold": 1.3, "warm": 1.3, "gradient": 1.4}

@@ -11,17 +11,9 @@ from rotor.user_input import csv_text
 SPEEDS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4)
 MASSES = (5000.0, 6500.0, 8322.4, 9600.0, 11000.0)
 COLUMNS = (
-    "mu",
-    "mass_kg",
-    "ct",
-    "lambda0",
-    "glauert_kw",
-    "any_circulation",
-    "lift_limited",
-    "steady_twist",
-    "linear_twist",
-    "linear_deg",
-)
+    "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist",
+    "linear_twist", "linear_deg",
+)  # fmt: skip
 HEADING = """\
 # Least induced power over C_T λ0 (momentum theory, glauert_kw) of the UH-60A at sea level: any circulation;
 # any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate in °/R. Lifting

@@ -108,7 +108,6 @@ def fetch_page(python: Path, cwd: Path) -> str:
     command = [python, "-m", "explorer", "--port", "0", "--no-browser"]
     with subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, text=True, **flags) as server:
         try:
-            assert server.stdout is not None
             address = re.search(r"http://\S+", server.stdout.readline())
             if address is None:
                 raise RuntimeError("the page did not print its address")

@@ -16,6 +16,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
 from rotor.files.make_design import make_design
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.tools.designs import draw
@@ -85,7 +86,7 @@ def sweep(design: Design, name: str, values: Sequence[float] | Array | None = No
         if k >= _ENOUGH and before is not None and not np.isfinite(power[k - _ENOUGH : k]).any():
             break
         at = design.with_twist(f"linear:{value}") if name == "twist" else CONDITION[name].put(design, value)
-        before = solve(at, before)
+        before = solve(at, before, SolverOptions(remedy=False))
         if before.converged:
             power[k] = 1e-3 * before.power.total
     return Sweep(name, values, power)

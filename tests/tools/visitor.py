@@ -19,16 +19,9 @@ BLADE = "/rotor/blade_0"
 BRIDGE = "frame"
 """Label of the text widget that takes the messages of the page's own scripts."""
 _CAMERA = {
-    "wxyz": (1.0, 0.0, 0.0, 0.0),
-    "position": (20.0, 0.0, 20.0),
-    "fov": 0.5,
-    "near": 1.0,
-    "far": 1000.0,
-    "image_height": 940,
-    "image_width": 840,
-    "look_at": (0.0, 0.0, 0.0),
-    "up_direction": (0.0, 0.0, 1.0),
-}
+    "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (20.0, 0.0, 20.0), "fov": 0.5, "near": 1.0, "far": 1000.0,
+    "image_height": 940, "image_width": 840, "look_at": (0.0, 0.0, 0.0), "up_direction": (0.0, 0.0, 1.0),
+}  # fmt: skip
 _SHOWN = r'data-explorer="{}"([^>]*)>([^<]*)'
 _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
 _FORMS = re.compile(r"rotorDisk\.form\((\{.*\})\)", re.DOTALL)
@@ -190,6 +183,14 @@ class Visitor:
                     self._keep(told[1], *json.loads(f"[{told[2]}]"))
             case _ if "props" in message and "uuid" in message:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
+
+
+async def arrived(address: str, **options: Any) -> Visitor:
+    """A page that shows its first trim."""
+    visitor = Visitor(**options)
+    await visitor.open(address)
+    await visitor.until(lambda: visitor.text("status") == "converged")
+    return visitor
 
 
 def ran(work: Callable[[], Coroutine[Any, Any, Result]], patience: float = 240.0) -> Result:

@@ -20,55 +20,20 @@ from explorer.hosting.messages import LONGEST_TEXT, PageFacts, Sent, checked_pre
 from explorer.parts.presses import PRESSES
 from explorer.session import Session
 from tests.tools import wire
-from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, ran
+from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, arrived, ran
 
 GOOD: dict[str, list[Any]] = {
-    "azimuth": [65, 0.5],
-    "fly": [1.25],
-    "speed": [0.2, "0.165"],
-    "hold": [True],
-    "stop": [3, "3"],
-    "guess": ["0"],
+    "azimuth": [65, 0.5], "fly": [1.25], "speed": [0.2, "0.165"], "hold": [True], "stop": [3, "3"], "guess": ["0"],
     "drawer": ["", "share"],
     "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]],
-    "idle": [[7, False]],
-    "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]],
-    "covered": [[0.1, 0.2]],
-    "undo": [None, 5],
-    "view": ["disk"],
-    "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
-}
+    "idle": [[7, False]], "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]],
+    "undo": [None, 5], "view": ["disk"], "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
+}  # fmt: skip
 HOSTILE: list[Any] = [
-    math.nan,
-    math.inf,
-    -math.inf,
-    1e308,
-    -1e300,
-    10**400,
-    "",
-    "x" * 200,
-    "NaN",
-    "１",
-    "nowhere",
-    None,
-    True,
-    [],
-    {},
-    ["1", [None, math.nan]],
-    ["1", [math.inf, 0.0]],
-    [math.nan, "start"],
-    [3, [math.nan, 0.0]],
-    [1e9, [1.0, 1.0]],
-    [[]],
-    [3, []],
-    [math.nan, math.nan],
-    {"a": 1},
-    -1,
-    1e6,
-    "\ud800",
-    [1, True, 2],
-    "-1",
-]
+    math.nan, math.inf, -math.inf, 1e308, -1e300, 10**400, "", "x" * 200, "NaN", "１", "nowhere", None, True, [], {},
+    ["1", [None, math.nan]], ["1", [math.inf, 0.0]], [math.nan, "start"], [3, [math.nan, 0.0]], [1e9, [1.0, 1.0]],
+    [[]], [3, []], [math.nan, math.nan], {"a": 1}, -1, 1e6, "\ud800", [1, True, 2], "-1",
+]  # fmt: skip
 FLOATS = [(name, value) for name, value in _CAMERA.items() if not isinstance(value, int)]
 
 
@@ -109,7 +74,6 @@ def test_every_press_has_a_row_an_action_and_a_sender():
 def test_what_the_page_sends_passes(name: str):
     for value in GOOD[name]:
         checked = checked_press(press(name, value))
-        assert checked is not None
         assert checked[0] == name
 
 
@@ -129,19 +93,12 @@ def test_no_number_that_is_not_finite_passes(name: str):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[", "1", "[1, 2]", "[" * 200, press("x" * 400, 1), press("undo", None, math.nan), 5]
-)
-def test_what_is_no_press_is_dropped_with_one_line(text: Any, caplog: pytest.LogCaptureFixture):
-    with caplog.at_level(logging.WARNING):
-        assert checked_press(text) is None
-    (record,) = caplog.records
-    assert record.exc_info is None
-    assert len(record.getMessage()) < 400
-
-
-@pytest.mark.parametrize(
     ("text", "said"),
     [
+        *(
+            (text, "")
+            for text in ("", "[", "1", "[1, 2]", "[" * 200, press("x" * 400, 1), press("undo", None, math.nan), 5)
+        ),
         (press("azimuth", 1e9), "Expected `float` <= 3600.0"),
         (
             press("view", "nowhere"),
@@ -154,29 +111,26 @@ def test_what_is_no_press_is_dropped_with_one_line(text: Any, caplog: pytest.Log
         (press("azimuth", "x" * 400), "at most 300 characters"),
     ],
 )
-def test_the_log_names_press_value_and_what_is_allowed(text: str, said: str, caplog: pytest.LogCaptureFixture):
+def test_what_is_no_press_is_dropped_with_one_line_that_says_what_is_allowed(
+    text: Any, said: str, caplog: pytest.LogCaptureFixture
+):
     with caplog.at_level(logging.WARNING):
         assert checked_press(text) is None
     (record,) = caplog.records
+    assert record.exc_info is None
+    assert len(record.getMessage()) < 400
     assert said in record.getMessage()
-    assert text[:20] in record.getMessage()
+    assert not said or text[:20] in record.getMessage()
 
 
 TRANSFER = {"source_component_uuid": "a", "transfer_uuid": "t"}
 UPLOAD = {**TRANSFER, "filename": "a.json", "mime_type": "", "part_count": 1, "size_bytes": 9}
 PART = {**TRANSFER, "part_index": 0, "content": b"x" * 10**6}
 DRAG = {
-    "phase": "start",
-    "name": "/rotor/blade_0",
-    "instance_index": None,
-    "start_position": [0, 1.5, 2],
-    "start_screen_pos": [0.1, 0.2],
-    "end_position": [0.0, 1.5, 2.0],
-    "end_screen_pos": [0.1, 0.2],
-    "button": "left",
-    "modifier": "shift",
-    "owner": "",
-}
+    "phase": "start", "name": "/rotor/blade_0", "instance_index": None, "start_position": [0, 1.5, 2],
+    "start_screen_pos": [0.1, 0.2], "end_position": [0.0, 1.5, 2.0], "end_screen_pos": [0.1, 0.2], "button": "left",
+    "modifier": "shift", "owner": "",
+}  # fmt: skip
 CLICK = {
     "event_type": "click",
     "ray_origin": [0.0, 1.0, 2.0],
@@ -286,9 +240,7 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
     names = sorted(PRESSES.keys() - {"dial_bend"})  # Blades that bend, whatever is sent with it.
 
     async def visit() -> tuple[str, str]:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address)
         power = visitor.text("total-power")
         # These three once gave tracebacks.
         await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))

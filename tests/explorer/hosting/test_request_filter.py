@@ -25,7 +25,7 @@ from explorer.model.inputs import OPENING
 from explorer.model.units import number
 from rotor import make_design, solve
 from tests.tools import wire
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 OUTER = "Δ outboard [°/R]"
 CLIENT = (
@@ -39,13 +39,6 @@ def app() -> Iterator[App]:
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=2))
     yield app
     app.stop()
-
-
-async def arrive(app: App) -> Visitor:
-    visitor = Visitor()
-    await visitor.open(app.address)
-    await visitor.until(lambda: visitor.text("status") == "converged")
-    return visitor
 
 
 async def handshake(app: App, **headers: str) -> int:
@@ -77,12 +70,6 @@ def test_the_veil_comes_before_the_script_and_the_script_before_the_root():
     parts = ("<title>Rotor explorer</title>", "</head>", 'id="rx-veil"', "data-p=x>go()", 'id="root"')
     assert [html.index(part) for part in parts] == sorted(html.index(part) for part in parts)
     assert html.count("<body>") == html.count("</head>") == 1
-
-
-def test_the_client_is_built_as_expected():
-    """What viser ships: when this fails, the pin may not move."""
-    html = with_loading_screen(viser_compat.client_html()).html.decode()
-    assert html.index('id="rx-veil"') < 10_000 < html.index('id="root"')
 
 
 @pytest.mark.parametrize(
@@ -184,11 +171,6 @@ class TestAllowedHosts:
         assert ran(lambda: handshake(app, Origin=app.address)) == 101
         assert ran(lambda: handshake(app)) == 101
 
-    def test_a_foreign_host_name_is_not_served(self, app: App):
-        status, text, _ = fetch(app.address, Host="evil.example")
-        assert status == 403
-        assert "--allow-host evil.example" in text.decode()
-
     def test_headers_forbid_foreign_frames_and_referrers(self, app: App):
         status, _, headers = fetch(app.address)
         assert status == 200
@@ -230,7 +212,7 @@ class TestStrangers:
         self, app: App, monkeypatch: pytest.MonkeyPatch
     ):
         async def work() -> None:
-            other = await arrive(app)
+            other = await arrived(app.address)
             monkeypatch.setattr(
                 request_filter,
                 "RateLimiter",
@@ -257,7 +239,7 @@ class TestUploads:
         design = json.dumps({"twist": "linear:-9"}).encode()
 
         async def work() -> None:
-            visitor = await arrive(app)
+            visitor = await arrived(app.address)
             for name, size, parts, sentence in (
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
                 ("large.json", gate.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
@@ -380,10 +362,7 @@ class TestMessagesThatNeverEnd:
     @staticmethod
     def others_are_served(app: App) -> None:
         async def visit() -> None:
-            visitor = Visitor()
-            await visitor.open(app.address)
-            await visitor.until(lambda: visitor.text("status") == "converged")
-            await visitor.close()
+            await (await arrived(app.address)).close()
 
         ran(visit)
 

@@ -17,7 +17,7 @@ from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.share import Address, view_from
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import arrived, ran
 
 DIGITS = "9" * 400
 
@@ -25,18 +25,11 @@ DIGITS = "9" * 400
 @pytest.mark.parametrize(
     ("value", "current", "limits"),
     [
-        (math.nan, 1.0, {}),
-        (True, 1.0, {}),
-        ({}, 1, {}),
-        (int(DIGITS), 1.0, {}),
-        ("c", "a", {"choices": ("a", "b")}),
-        ("x", True, {}),
-        ([1, 2], UploadedFile("", b""), {}),
-        (1.0, (1.0, 2.0), {}),
-        ("x" * (LONGEST_TEXT + 1), "a", {}),
-        ((1.0, math.nan), (1.0, 2.0), {}),
+        (math.nan, 1.0, {}), (True, 1.0, {}), ({}, 1, {}), (int(DIGITS), 1.0, {}),
+        ("c", "a", {"choices": ("a", "b")}), ("x", True, {}), ([1, 2], UploadedFile("", b""), {}),
+        (1.0, (1.0, 2.0), {}), ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0, math.nan), (1.0, 2.0), {}),
     ],
-)
+)  # fmt: skip
 def test_a_value_that_a_widget_cannot_hold_is_refused(value: Any, current: Any, limits: dict[str, Any]):
     with pytest.raises(ValueError, match="cannot hold") as refusal:
         accepted_value(value, current, **limits)
@@ -52,16 +45,10 @@ def test_values_that_a_widget_can_hold_pass():
 
 
 LINKS = [
-    "1;linear:-8;mass=" + DIGITS,
-    "1;linear:-8;mass=" + "9" * 5000,
-    "1;linear:-8;rotor=" + "[" * 1500,
-    '1;linear:-8;rotor={"main":{}}',
-    "1;linear:-8;active_twist=" + DIGITS,
-    "1;" + "+".join(["ideal"] * 250),
-    "1;" + "x" * 7000,
-    "1;linear:-8;\0=1",
-    "own",
-]
+    "1;linear:-8;mass=" + DIGITS, "1;linear:-8;mass=" + "9" * 5000, "1;linear:-8;rotor=" + "[" * 1500,
+    '1;linear:-8;rotor={"main":{}}', "1;linear:-8;active_twist=" + DIGITS, "1;" + "+".join(["ideal"] * 250),
+    "1;" + "x" * 7000, "1;linear:-8;\0=1", "own",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("code", LINKS, ids=lambda code: code[:24])
@@ -111,9 +98,7 @@ def test_a_path_that_no_file_can_have_is_not_found(app: App, path: str):
 
 def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
     async def drag() -> list[Any]:
-        visitor = Visitor()
-        await visitor.open(app.address)
-        await visitor.until(lambda: visitor.text("status") == "converged")
+        visitor = await arrived(app.address)
         (session,) = app.sessions
         buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
         push = buffer.push

@@ -21,10 +21,8 @@ import viser
 from PIL import Image
 from viser import _gui_api, _messages, _viser
 from viser._assignable_props_api import AssignablePropsBase
-from websockets import http11
-from websockets.streams import StreamReader
 
-from explorer.hosting import request_filter, viser_compat
+from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import ThreadedBuffer
 from explorer.picture import disk_image
 from explorer.picture.disk_image import encode_png
@@ -166,17 +164,6 @@ def test_a_callback_that_fails_is_logged_and_not_printed(
         cast(Any, module).print_threadpool_errors(failed)
     assert caplog.text.count("one over nothing") == 2
     assert capsys.readouterr() == ("", "")
-
-
-def test_a_long_address_is_answered():
-    """By websockets' own reader of lines, which looks the limit up at each line."""
-    assert http11.MAX_LINE_LENGTH == request_filter.LONGEST_HEAD > 8192
-    line = b"x" * 20_000
-    reader = StreamReader()
-    reader.feed_data(line + b"\r\n")
-    with pytest.raises(StopIteration) as answer:
-        next(http11.parse_line(reader.read_line))
-    assert answer.value.value == line
 
 
 def test_the_versions_are_those_that_the_changes_are_for():

@@ -27,29 +27,11 @@ from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 KEYS = [
-    "status",
-    "message",
-    "actuator",
-    "plies",
-    "concept",
-    "required_twist_deg",
-    "attainable_twist_deg",
-    "feasible",
-    "voltages_v",
-    "added_mass_kg",
-    "torsion_frequency_per_rev",
-    "against",
-    "ideal_saving_w",
-    "gross_saving_w",
-    "stiffness_cost_w",
-    "mass_cost_w",
-    "drive_cost_w",
-    "net_saving_w",
-    "net_saving_band_w",
-    "fuel_saving_kg_h",
-    "limits",
-    "caveats",
-]
+    "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg", "feasible",
+    "voltages_v", "added_mass_kg", "torsion_frequency_per_rev", "against", "ideal_saving_w", "gross_saving_w",
+    "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w", "net_saving_band_w", "fuel_saving_kg_h",
+    "limits", "caveats",
+]  # fmt: skip
 
 CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
@@ -74,7 +56,6 @@ def test_baseline_against_the_optimiser():
     base = baseline(pair(), find_concept("linear"))
     for design, best in zip(pair().designs(), base.best, strict=True):
         found = run_search(Search(design, find_concept("linear"), starts=2, band=False))
-        assert found.best is not None
         assert_allclose(best.power, found.best.power, rtol=1e-5)
 
 
@@ -119,8 +100,6 @@ def test_a_softer_blade_costs_power_with_no_voltage():
     assert judged.stiffness_cost > 1000.0
     assert f"the softer elastic blade costs {judged.stiffness_cost / 1e3:.1f} kW" in verdict_details(judged)
     wave = [trims[1].elastic for trims in (judged.baseline.fixed.solutions, judged.resting.solutions)]
-    assert wave[0] is not None
-    assert wave[1] is not None
     assert 1.5 < wave[1].first_harmonic / wave[0].first_harmonic < 2.5
 
 
@@ -166,7 +145,6 @@ def test_fuel_by_hand():
     """From a table of NASA TM-100991: T700 flows of 349.3, 476.3 and 775 lb/h at 552.6, 911.1 and 1683 hp."""
     judged = verdict()
     engines = engines_of(pair().design.aircraft)
-    assert engines is not None
     horse, pound = 745.699872, 0.45359237
     assert_allclose(3600.0 * engines.flow(2.0 * 552.6 * horse), 2.0 * 349.3 * pound, rtol=1e-9)
     assert all(2.0 * 552.6 * horse < power < 2.0 * 1683.0 * horse for power in judged.reference_powers)
@@ -208,9 +186,10 @@ def without_band(sentence: str) -> str:
         ({"share": 0.3}, "this ply does not pay.", ["can supply"]),  # A softer blade: optima lie 4.6° apart.
         ({"id": "extension_twist"}, "this laminate does not pay.", ["rotor-speed"]),
         ({"id": "SMA_tube"}, "this tube does not pay.", ["(2 tubes, new blade"]),
-        ({"id": "SMA_tube", "concept": "two-segment"}, "this tube does not pay.", ["(2 tubes a segment, new blade"]),
+        pytest.param({"id": "SMA_tube", "concept": "two-segment"}, "this tube does not pay.",
+                     ["(2 tubes a segment, new blade"], marks=pytest.mark.slow),
     ],
-)
+)  # fmt: skip
 def test_the_sentence_agrees_with_the_numbers(choice: dict[str, Any], ending: str, details: list[str]):
     judged = verdict(**choice)
     assert not judged.pays
@@ -242,7 +221,6 @@ def test_limit_for_the_optimiser():
     reference = find_concept("linear").twist([math.radians(-20.0)])
     limit = change_limit(judged.installed, reference)
     found = run_search(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
-    assert found.best is not None
     root = design.rotor.blade.root_cutout
     law = find_concept("linear").twist(found.best.parameters)
     change = float(np.diff(law([root, 1.0]) - reference([root, 1.0]))[0])

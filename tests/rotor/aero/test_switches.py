@@ -230,11 +230,9 @@ class TestWaterfall:
         design = small(0.3)
         found = waterfall(with_switches(design, ("fuselage",)))  # The design's own switches do not matter.
         for step in found.alone:
-            assert step.switch is not None
             assert [off.name for off in switched_off(step.solution.design.models)] == [step.switch.name]
             assert step.against is found.full
         by_drag = next(step for step in found.alone if step.switch and step.switch.name == "fuselage")
-        assert by_drag.change is not None
         assert_allclose(by_drag.change["parasite"], -found.full.power.parasite, rtol=1e-12)
 
     def test_a_step_that_does_not_trim_is_skipped(self):

@@ -171,9 +171,7 @@ def test_rates_of_a_trim_are_those_of_its_motion() -> None:
     """θ'' and the rates of U_T and U_P are the Fourier derivatives of the channels, but for the inflow in U_P."""
     design = make_design(mu=0.3, inflow="uniform", pitch_per_rev="3:1:60", off="tip-loss,hub-loss")
     e = analyse(design).linear
-    assert e is not None
     rates, waves = e.elements.rates, np.fft.rfftfreq(120, 1.0 / 120)
-    assert rates is not None
 
     def derivative(field: Array) -> Array:
         return np.fft.irfft(1j * waves * np.fft.rfft(field, axis=1), n=120, axis=1)

@@ -19,7 +19,6 @@ from rotor.files.make_design import make_design, uh60a_rotor
 def test_tables_3_1_and_3_2():
     """Thesis tables 3.1 (tail rotor) and 3.2 (main rotor)."""
     rotor, tail = uh60a_rotor("thesis"), make_design().tail_rotor
-    assert tail is not None
     assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (8.1788, 27.0, 0.5273, 4)
     assert_allclose(rotor.blade.mass / rotor.radius, 13.92, rtol=1e-12)
     assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (1.6764, 124.62, 0.2469, 4, 9.926)

@@ -104,18 +104,12 @@ def test_table_file(tmp_path: Path):
 @pytest.mark.parametrize(
     ("spec", "words"),
     [
-        ("linear:x", "'x'"),
-        ("linear:nan", "'nan'"),
-        ("linear:", "linear:-8"),
-        ("quadratic:3", "quadratic:6,-14"),
-        ("segments:-3,-4", "1 break"),
-        ("segments:-3,-4,-5@0.7,0.4", "ascend"),
-        ("segments:-3,-4@1.2", "between 0 and 1"),
-        ("wavy:3", "'wavy:3' is not known"),
-        ("table:nowhere.txt", "does not exist"),
-        ("", "is not known"),
+        ("linear:x", "'x'"), ("linear:nan", "'nan'"), ("linear:", "linear:-8"), ("quadratic:3", "quadratic:6,-14"),
+        ("segments:-3,-4", "1 break"), ("segments:-3,-4,-5@0.7,0.4", "ascend"),
+        ("segments:-3,-4@1.2", "between 0 and 1"), ("wavy:3", "'wavy:3' is not known"),
+        ("table:nowhere.txt", "does not exist"), ("", "is not known"),
     ],
-)
+)  # fmt: skip
 def test_bad_specs_are_one_sentence(spec: str, words: str):
     with pytest.raises(ValueError, match=re.escape(words)) as caught:
         parse(spec)

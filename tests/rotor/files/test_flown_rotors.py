@@ -57,7 +57,6 @@ def test_stops_of_the_uh60a_follow_from_its_mixer():
         return [-a1, -b1, root - 9.65]
 
     stops = shipped_aircraft("uh60a").controls
-    assert stops is not None
     for k, name in enumerate(("lateral", "longitudinal", "collective")):
         ends = sorted(pitch(**{name: end})[k] for end in (0.0, 1.0))
         assert_allclose(np.degrees(getattr(stops, name)), ends, atol=0.01)
@@ -106,7 +105,6 @@ def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
         return float(y[0])
 
     found = solve_ivp(swing, (0.0, 2.0), [1e-3, 0.0], events=crossing, rtol=1e-9, atol=1e-12)
-    assert found.t_events is not None
     period = 2.0 * float(np.diff(found.t_events[0]).mean())
     marched = 2.0 * math.pi / (period * speed)
     e = hinge / radius
@@ -137,7 +135,6 @@ def test_first_torsion_frequency_of_hart2():
     """β tan β = K L/GJ, ω² = (β/L)² GJ/I_θ + Ω² of a uniform rod on a spring; published 3.85/rev."""
     rotor = shipped_aircraft("hart2").rotor
     structure = rotor.blade.structure
-    assert structure is not None
     length, stiffness = rotor.radius - structure.clamp, structure.torsional_stiffness[0]
     held = structure.control_stiffness * length / stiffness
     beta = float(brentq(lambda b: b * math.tan(b) - held, 0.1, 1.57))
@@ -184,7 +181,6 @@ def test_power_between_the_drag_areas(name: str):
     solution = solve(make_design(rotor=name, mu=0.25)).require()
     ends, area = between_drag_areas(solution), solution.design.fuselage.drag_area_band
     assert ends is not None
-    assert area is not None
     low, high = (end.power.total for end in ends)
     assert low <= solution.power.total <= high
     work = 0.5 * solution.design.condition.density * solution.design.airspeed**3 * (area[1] - area[0])
@@ -248,7 +244,6 @@ def test_masses_agree_with_their_moments():
     assert first**2 / blade.mass <= second <= first * length
     assert_allclose(first / blade.mass, 0.5 * length, rtol=0.12)
     hart2 = shipped_aircraft("hart2").rotor
-    assert hart2.blade.structure is not None
     spanned = hart2.radius * (1.0 - hart2.blade.flap_hinge)
     assert_allclose(hart2.blade.mass, hart2.blade.structure.mass_per_length[0] * spanned, rtol=1e-3)
     # Lock number of the model beside that of the full-scale blade, 5.09 (Padfield): it was scaled to it.

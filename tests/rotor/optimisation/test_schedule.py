@@ -42,8 +42,6 @@ def made() -> Schedule:
 
 def power(schedule: Schedule, condition: int | None, name: str) -> float:
     found = schedule.at(condition, name)
-    assert found is not None
-    assert found.best is not None
     return found.best.power
 
 
@@ -54,11 +52,9 @@ def test_variable_twist_is_never_worse_than_the_best_fixed_blade(made: Schedule)
     assert [cell.condition for cell in made.cells] == [condition for condition in (0, 1, 2, None) for _ in NAMES]
     for name in NAMES:
         worth = made.in_flight_gain(name)
-        assert worth is not None
         assert worth.moving <= worth.fixed * (1 + 1e-7) <= worth.baseline * (1 + 1e-7)
         assert_allclose(worth.moving, np.dot([0.25, 0.5, 0.25], [power(made, k, name) for k in range(3)]), rtol=1e-12)
         fixed = made.at(None, name)
-        assert fixed is not None
         for condition in range(3):  # In every condition by itself, too.
             design = replace(fixed.design, condition=made.plan.conditions[condition].flight)
             assert power(made, condition, name) <= solve(design).power.total * (1 + 1e-6)
@@ -75,14 +71,11 @@ def test_concepts_with_more_parameters_are_never_worse(made: Schedule):
 def test_variable_twist_saves_nothing_with_one_condition():
     alone = run_plan(plan("linear", ratios=(0.2,), hours=(1.0,)))
     worth = alone.in_flight_gain("linear")
-    assert worth is not None
     assert_allclose(worth.share, 0.0, atol=2e-6)
 
 
 def same(a: Minimum | None, b: Minimum | None) -> None:
     """To rounding: what a process has computed before moves power by 3e-14 of itself."""
-    assert a is not None
-    assert b is not None
     assert (a.starts, a.active) == (b.starts, b.active)
     assert a.power == pytest.approx(b.power, rel=1e-12)
     assert a.parameters == pytest.approx(b.parameters, rel=1e-9)
@@ -136,7 +129,6 @@ def test_a_condition_that_cannot_trim_is_reported():
     assert not schedule.converged
     assert schedule.in_flight_gain("linear") is None
     bad = schedule.at(1, "linear")
-    assert bad is not None
     assert bad.status is SearchStatus.NOT_CONVERGED
 
 

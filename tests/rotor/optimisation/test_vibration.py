@@ -100,15 +100,12 @@ def test_front_of_active_twist():
     assert changes[-1][1] < -50.0
     assert_allclose(changes[-1], [100.0 * (getattr(front.points[-1], one) / getattr(front.start, one) - 1.0)
                                   for one in ("power", "index")])  # fmt: skip
-    assert front.preview_error is not None
     assert front.preview_error[0] < 0.35
     assert front.preview_error[1] < 3.0
     for one in front.points:
         solution = rotor.solve(one.design).require()
         assert_allclose((one.power, one.index), (solution.power.total, loads_of(solution).index), rtol=1e-5)
-        assert one.design.active_twist is not None
         assert all(wave.amplitude < math.radians(1.0001) for wave in one.design.active_twist.harmonics)
-        assert one.band is not None
         assert one.over_inflows is not None
         assert one.band[0] <= one.index <= one.band[1]
     # No phase of either harmonic alone saves more power than the front's first point.
@@ -120,11 +117,9 @@ def test_front_of_active_twist():
 
 def test_front_of_static_twist():
     """Its ends are the twists of least power and of least index; less twist has less vibration at speed."""
-    design = bent(LINEAR, 0.35)
+    design = bent(LINEAR, 0.3)
     front = rotor.vibration_front(design, "linear", points=3)
     least, calm = (rotor.optimise(design, "linear", quantity=one).best for one in ("total", "vibration"))
-    assert least is not None
-    assert calm is not None
     assert_allclose(front.points[0].power, least.power, rtol=1e-6)
     assert_allclose(front.points[-1].index, calm.index or 0.0, rtol=1e-4)
     for (power, index), (more, less) in pairwise(front.changes):

@@ -262,7 +262,6 @@ def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out()
 
     def guess(mu: float, mass: float) -> float:
         found = memory.guess({"mu": mu, "mass_kg": mass, "inflow": "uniform"}, hovering=False)
-        assert found is not None
         return found.state.collective
 
     assert_allclose(guess(0.4, 900.0), collective(0.4, 900.0), rtol=1e-5)
@@ -392,7 +391,6 @@ def test_best_and_robust_best_by_hand():
     results.columns["status"][7] = "not-converged"
     assert best_row(results, "power_total_w") == 6
     robust = robust_best(results, "power_total_w", ("mu",))
-    assert robust is not None
     assert (robust.least_worst.design, robust.least_worst.worst) == ({"kind": "c"}, 6.0)
     assert (robust.least_mean.design, robust.least_mean.mean) == ({"kind": "a"}, 5.0)
     assert (robust.designs, robust.dropped, robust.least_mean.cases) == (3, 1, 2)
@@ -436,7 +434,6 @@ def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
     assert "no-hub-loads" in slow["caveats"]
     design = make_design(twist="linear:-8", mu=0.3, inflow="pitt-peters", bending=True)
     loads = hub_loads(solve(design))
-    assert loads is not None
     assert_allclose((fast["index_percent"], fast["hub_fz_n"]), (loads.index, loads.amplitudes["fz"]), rtol=1e-4)
     assert 2.7 < slow["flap_2_per_rev"] < 2.9
     names = {column.name for column in columns_of(study)}

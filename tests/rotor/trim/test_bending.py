@@ -114,7 +114,6 @@ def test_the_tip_mass_couples_twist_and_bending_both_ways_alike() -> None:
     """Reciprocity: the load of twist does the same work on bending as the load of bending does on twist."""
     problem, point, b = _at(_solved(0.3, LINEAR))
     s, torsion = point.system.structure, problem.torsion
-    assert torsion is not None
     x, n = point.x.copy(), s.numbers
     x[[atom for name, atom in n.items() if isinstance(name, tuple) and str(name[0]).startswith("tip on")]] = 0.0
     load = point.residual - evaluate(point.system, point.grid, x).residual
@@ -262,8 +261,6 @@ def test_a_hingeless_root_with_a_spring_in_lag() -> None:
         found.append(rotor.solve(replace(design, rotor=replace(design.rotor, blade=other))).require())
     held, stiff, soft = found
     assert_allclose(stiff.power.main_rotor, held.power.main_rotor, rtol=1e-6)
-    assert held.blade_frequencies is not None
-    assert soft.blade_frequencies is not None
     assert_allclose(soft.blade_frequencies.flap[0], held.blade_frequencies.flap[0], rtol=0.02)
     assert soft.blade_frequencies.lag[0] < 0.97 * held.blade_frequencies.lag[0]
     problem, point, b = _at(soft)
@@ -301,7 +298,6 @@ def test_where_there_are_no_hub_loads() -> None:
         (rotor.make_design(rotor="r22", mu=0.25), "Robinson R22 blade in flap and lag is not known"),
     ):
         reason = why_no_hub_loads(design)
-        assert reason is not None
         assert words in reason.sentence
         assert hub_loads(rotor.solve(design)) is None
 
@@ -310,9 +306,6 @@ def test_solution_has_hub_loads_with_their_band() -> None:
     """A design whose blades do not bend has those of its twin whose blades do."""
     stiff, bent = rotor.solve(rotor.make_design(mu=0.3)), _solved(0.3, LINE)
     loads, frequencies = hub_loads(stiff), bent.blade_frequencies
-    assert loads is not None
-    assert frequencies is not None
-    assert loads.band is not None
     assert_allclose(loads.index, _loads(bent).index, rtol=1e-6)
     assert loads.band[0] < 0.6 * loads.index <= loads.index == loads.band[1]
     assert_allclose(frequencies.flap[:2], [1.035, 2.81], rtol=0.02)
@@ -328,7 +321,6 @@ class _March:
     def __init__(self, solution: Solution, steps: int) -> None:
         self.problem, self.point, self.b = _at(solution)
         p, b, structure, torsion = self.problem, self.b, self.point.system.structure, self.problem.torsion
-        assert torsion is not None
         self.torsion, self.steps, size = torsion, 2 * steps, len(b.mass)
         self.q, self.offset = coordinates_of(b, structure, self.point.z)
         self.phi = self.point.x[[structure.states["twist", k, h] for k in range(2) for h in range(17)]].reshape(2, 17)

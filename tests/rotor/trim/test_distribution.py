@@ -71,7 +71,6 @@ def test_lift_of_unsteady_flow_has_apparent_mass(flight: Solution):
     """But for what the axis of pitch is off the quarter chord, which `DiskFields.apparent` leaves out."""
     found, circulatory, gain = by_coefficients(flight)
     disk = flight.disk
-    assert disk.apparent is not None
     held = 1.0 + SLOWEST**2 / (disk.u_t**2 + disk.u_p**2)
     pushed = gain * held * disk.apparent[0] * np.cos(disk.theta)
     error = np.abs(found.lift - circulatory - pushed)

@@ -57,7 +57,6 @@ def test_a_stiff_blade_is_the_rigid_one(mu: float, unsteady: bool, near: float):
     """
     made = design(mu, unsteady=unsteady)
     structure = made.rotor.blade.structure
-    assert structure is not None
     stiff = with_structure(
         made,
         torsional_stiffness=tuple(1e8 * gj for gj in structure.torsional_stiffness),
@@ -82,9 +81,7 @@ def test_energy(inflow: str):
     rigid = solve(replace(made, models=replace(made.models, elastic_twist=False)), options=TIGHT).require()
     assert_allclose(rigid.power.shaft, rigid.power.main_rotor, rtol=1e-9)
     solution = solve(made, options=TIGHT).require()
-    assert solution.elastic is not None
     problem, point = Analysis(solution).linear.problem, Analysis(solution).linear.point
-    assert problem.torsion is not None
     air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
     taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
     assert abs(taken) * made.power_unit > 400.0
@@ -96,9 +93,7 @@ def test_static_twist_in_hover_by_integration():
     """(GJ_e φ')' = −m with K_θ at the root, in SI, m from the solution's own flow; straight tip."""
     made = design(0.0, swept_tip=False)
     solution = solve(made).require()
-    assert solution.elastic is not None
     structure, rotor, disk = made.rotor.blade.structure, made.rotor, solution.disk
-    assert structure is not None
     metres, speed = disk.r * rotor.radius, rotor.angular_speed
     flow = rotor.tip_speed * np.hypot(disk.u_t, disk.u_p)[:, 0]
     blade = rotor.blade
@@ -138,8 +133,6 @@ def test_harmonic_balance_against_a_time_march():
     result = newton(problem, first_guess(problem))
     assert result.converged
     elements, torsion, disk = result.linear.elements, problem.torsion, problem.disk
-    assert torsion is not None
-    assert elements.torsion is not None
     assert isinstance(problem.inflow, LinearInflow)
     state, model, modes = elements.state, problem.inflow, len(torsion.gain)
     tension, wake, data = torsion.tension @ problem.twist, elements.flow, problem.section_data()
@@ -184,7 +177,6 @@ def test_nose_down_in_the_second_quadrant_at_high_speed():
     second quadrant (T. H. Maier and W. G. Bousman, "An examination of the aerodynamic moment on rotor blade tips using
     flight test data and analysis", 18th European Rotorcraft Forum, 1992, abstract)."""
     elastic = solve(design(0.36)).require().elastic
-    assert elastic is not None
     first, second, third, fourth = (float(part.mean()) for part in np.split(elastic.tip, 4))
     assert second < min(first, third, fourth)
     quarter = len(elastic.tip) // 4  # At 75° it is as far nose-down once more.
@@ -198,8 +190,6 @@ def test_two_modes_suffice(patch: Patch):
     few = solve(design(0.35)).require()
     patch("rotor.aero.problem.TORSION_MODES", 6)
     many = solve(design(0.35)).require()
-    assert few.elastic is not None
-    assert many.elastic is not None
     assert few.power.total != many.power.total
     assert_allclose(few.power.total, many.power.total, rtol=3e-4)
     assert_allclose(few.elastic.tip, many.elastic.tip, atol=math.radians(0.1))
@@ -210,7 +200,6 @@ def test_more_inertia_of_the_tip_mass_lifts_the_nose():
     """Mass behind the axis of a coned blade is pulled down behind it: with a heavier swept tip the nose goes up."""
     light = design(0.0)
     structure = light.rotor.blade.structure
-    assert structure is not None
     outside = np.array(structure.stations) > 0.93 * structure.radius
     masses = tuple(np.where(outside, 2.0, 1.0) * np.array(structure.mass_per_length))
     heavy = with_structure(light, mass_per_length=masses, tension_gyration=0.0)
@@ -222,7 +211,6 @@ def test_tension_unwinds_a_twisted_blade():
     """k_A² of zero leaves the blade more nose-down at the tip, by ∫ F k_A² θ'/GJ dr to first order."""
     made = design(0.0)
     structure = made.rotor.blade.structure
-    assert structure is not None
     without = with_structure(made, tension_gyration=0.0)
     change = mean_tip(solve(made)) - mean_tip(solve(without))
     r = np.linspace(made.rotor.blade.root_cutout * made.rotor.radius, made.rotor.radius, 2000)
@@ -235,7 +223,6 @@ def test_tension_unwinds_a_twisted_blade():
 
 def mean_tip(solution: Solution) -> float:
     elastic = solution.require().elastic
-    assert elastic is not None
     return float(elastic.tip.mean())
 
 

@@ -176,7 +176,6 @@ def test_a_wake_has_one_circulation(mu: float):
     linear = analyse(line(mu)).linear
     point, disk = linear.point, linear.problem.disk
     nodes = point.system.nodes
-    assert nodes is not None
     weight = np.repeat(np.sqrt(disk.dr), disk.shape[1])
     wake = weight[:, None] * nodes.matrix / weight
     fall = np.where(point.channels[UT] > 0.0, 15.0 * disk.half_solidity[:, None], 1e-9).ravel()

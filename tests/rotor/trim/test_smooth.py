@@ -69,12 +69,10 @@ def test_power_begins_at_nought_with_pitch_at_n_per_rev(name: str, per_rev: int)
 def test_no_slider_beats_the_search(mass: float, mu: float):
     design = make_design(mu=mu, mass_kg=mass)
     linear = optimise(design, "linear", starts=2).best
-    assert linear is not None
     found = sweep(design, "twist", np.arange(-20.0, -4.9, 0.5))
     assert np.nanmin(found.power) >= 1e-3 * linear.power * (1.0 - TOLERANCE)
 
     concept, segments = find_concept("two-segment"), optimise(design, "two-segment", starts=3)
-    assert segments.best is not None
     assert segments.best.power <= linear.power * (1.0 + TOLERANCE)
     best = np.array(segments.best.parameters)
     steps = {"rad/R": math.radians(0.5), "r/R": 0.01}

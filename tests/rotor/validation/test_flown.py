@@ -90,7 +90,6 @@ def test_powers_of_flight():
     assert [row.rotor for row in rows] == ["gazelle"] * 4 + ["bo105"] * 13
     for row in rows:
         assert row.ours is not None
-        assert row.band is not None
         assert row.band[0] <= row.ours <= row.band[1]
         if row.rotor == "gazelle":
             assert abs(row.ours / row.measured - 1.0) < 0.15
@@ -121,7 +120,6 @@ def test_pitch_of_the_tail_rotor_in_hover():
     """The blade-element integral of dC_T = ½σa(θr² − λr)dr over the blade gives the thrust back, λ² = ½C_T/B²."""
     solution = solve(make_design(rotor="bo105", mu=0.0)).require()
     tail = solution.design.tail_rotor
-    assert tail is not None
     pitch, tip_speed = tail_pitch(solution), tail.angular_speed * tail.radius
     thrust = solution.power.main_rotor / 44.4 / (6.0 * math.cos(tail.cant))
     ct = thrust / (solution.design.condition.density * math.pi * tail.radius**2 * tip_speed**2)

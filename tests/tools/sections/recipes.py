@@ -52,15 +52,9 @@ def _naca23012(reynolds_per_mach: float) -> TunnelTraits:
     """Least squares on the section table of the HART II test, −4 to 12 deg, Mach 0.2 to 0.8, at the model's Reynolds
     number; largest lift 1.39, 1.25 at Mach 0.4, 0.5 and moment at no lift (−0.0075, XFOIL −0.003) of the same table."""
     return TunnelTraits(
-        onset=0.856,
-        centre_deg=-0.82,
-        zero_lift_shift_deg=-0.24,
-        cap_ratio=1.09,
-        negative_cap=1.2,
-        reynolds_per_mach=reynolds_per_mach,
-        drag_level=0.876,
-        moment_shift=-0.0045,
-    )
+        onset=0.856, centre_deg=-0.82, zero_lift_shift_deg=-0.24, cap_ratio=1.09, negative_cap=1.2,
+        reynolds_per_mach=reynolds_per_mach, drag_level=0.876, moment_shift=-0.0045,
+    )  # fmt: skip
 
 
 RECIPES = {
