@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
+from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
 from rotor.table import CellValue, table
@@ -27,21 +27,18 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--row",
         metavar="DIR:N",
-        help="design of point N of a study's folder, or of one of its files, which other flags change",
+        help="start from point N of a study's folder or of one of its files; other flags change it",
     )
-    parser.add_argument(
-        "--save", type=Path, metavar="FILE", help="write the design as a design file, which the page opens"
-    )
-    parser.add_argument(
+    output = add_output_arguments(parser)
+    output.add_argument("--save", type=Path, metavar="FILE", help="write a design file, which the page opens")
+    output.add_argument(
         "--distribution",
         action="store_true",
-        help="lift along the blade too; with --json lift, coefficients, angle of attack and induced velocity of one "
-        "blade by radius and azimuth",
+        help="also print lift along the blade; with --json lift, coefficients, angle of attack and induced velocity of "
+        "one blade by radius and azimuth",
     )
-    parser.add_argument(
-        "--doubt", action="store_true", help="how sure power is, and what the twist saves against the blade as built"
-    )
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    words = "also print the uncertainty of power, and of what the twist saves compared with the blade as built"
+    output.add_argument("--doubt", action="store_true", help=words)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -30,10 +30,10 @@ from rotor.units import power_unit
 
 def add_sweep(commands: Any) -> None:
     parser = common.add_command(commands, "sweep", run_sweep)
+    words = "one of the twists; a further column then shows power relative to it"
+    parser.add_argument("--relative-to", metavar="SPEC", help=words)
     common.add_design_arguments(parser, twists=True, ranges=True)
-    words = "one of the twists: a further column has power relative to it"
-    parser.add_argument("--relative-to", metavar="TWIST", help=words)
-    common.add_output_arguments(parser)
+    common.add_output_arguments(parser, "the table")
 
 
 def run_sweep(args: argparse.Namespace) -> int:
@@ -121,14 +121,16 @@ FRONT_COLUMNS = (
 
 def add_front(commands: Any) -> None:
     parser = common.add_command(commands, "front", run_front)
-    varied = f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
+    varied = f"vary static twist, not active twist; {common.CONCEPT_HELP}"
     parser.add_argument("--concept", metavar="NAME", help=varied)
-    parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
+    parser.add_argument(
+        "--harmonics", default="2,3", metavar="N,…", help="harmonics per revolution of the active twist (default 2,3)"
+    )
     reach = "largest amplitude of each harmonic (default 1)"
     parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
-    parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
+    parser.add_argument("--points", type=int, default=5, metavar="N", help="points on the trade-off curve (default 5)")
     common.add_design_arguments(parser, speed=True)
-    common.add_output_arguments(parser)
+    common.add_output_arguments(parser, "the table")
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -209,7 +211,7 @@ def _front(front: VibrationFront, found: Table) -> str:
 def add_waterfall(commands: Any) -> None:
     parser = common.add_command(commands, "waterfall", run_waterfall)
     common.add_design_arguments(parser, speed=True)
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    common.add_output_arguments(parser)
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
@@ -280,11 +282,15 @@ def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[C
 
 def add_airfoil(commands: Any) -> None:
     parser = common.add_command(commands, "airfoil", run_airfoil)
-    parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
-    parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
-    parser.add_argument("--mach", type=float, metavar="M", help="one point, with --alpha")
-    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point [deg]")
+    parser.add_argument(
+        "action",
+        choices=("show", "build", "verify"),
+        help="show the data; build and verify need a checkout of the source",
+    )
+    parser.add_argument("name", metavar="NAME", help=f"section: {', '.join(TABLE_NAMES)}")
+    parser.add_argument("--mach", type=float, metavar="M", help="Mach number of one point, with --alpha")
+    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point")
+    common.add_output_arguments(parser)
 
 
 def run_airfoil(args: argparse.Namespace) -> int:
