@@ -124,7 +124,7 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     speed = {name: getattr(args, name, None) for name in SPEED} if mu is None else {"mu": mu}
     row = getattr(args, "row", None)
     if row and args.case:
-        raise ValueError("--row and --case are both a design to begin with: give one of them")
+        raise ValueError("--row and --case both give the design to start from: use one of them")
     case = design_at(row) if row else load_design(args.case) if args.case else None
     rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
     stand = {key: value for key in STAND if (value := getattr(args, key)) is not None}
@@ -150,7 +150,7 @@ def add_output_arguments(parser: argparse.ArgumentParser, csv: str = "") -> Any:
 def check_output(args: argparse.Namespace) -> None:
     """ValueError for a file of `--csv` that cannot be written, and for two outputs at once."""
     if args.csv == "-" and args.json:
-        raise ValueError("--csv - and --json both print: give one of them")
+        raise ValueError("--csv - and --json both print to the output: use one of them")
     if args.csv and args.csv != "-":
         check_writable(args.csv)
 
@@ -238,7 +238,7 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         name, _, numbers = str(text).partition("=")
         name = name.removesuffix("_deg")
         if name not in units:
-            raise ValueError(f"bound {text!r} names no parameter: use one of {', '.join(units)}")
+            raise ValueError(f"bound {text!r} does not name a parameter: use one of {', '.join(units)}")
         low, high = parse_pair(numbers, f"bound {text!r}", f"{name}=-20,0")
         bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
     rate = None

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
     alone = objective == at_condition(design)
     if args.doubt and not alone:
         raise ValueError(
-            "--doubt searches for the least total power in one flight: leave --mission and --objective out"
+            "--doubt needs the least total power of one flight condition: leave --mission and --objective out"
         )
     limits = common.limits_from(args, design, (concept,))
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
@@ -143,7 +143,7 @@ def _objective(args: argparse.Namespace, design: Design) -> Objective:
             design, 0.5 if args.hover_share is None else args.hover_share, design.condition.advance_ratio
         )
     if args.hover_share is not None:
-        raise ValueError(f"hover share {args.hover_share:g} without its objective: add --objective hover-cruise")
+        raise ValueError(f"hover share {args.hover_share:g} needs its objective: add --objective hover-cruise")
     if args.objective not in QUANTITIES:
         raise ValueError(f"objective {args.objective!r} is not known: use {', '.join(QUANTITIES)} or hover-cruise")
     objective = at_condition(design, args.objective)

@@ -176,10 +176,10 @@ def run(args: argparse.Namespace) -> int:
     for flag in ("folder", "least", "uncertain", "csv", "json"):
         if getattr(args, flag):
             name = repr(args.folder) if flag == "folder" else f"--{flag}"
-            raise ValueError(f"{name} belongs to show: write `study show DIR`")
+            raise ValueError(f"{name} is for show only: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and args.scheduler:
-        raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
+        raise ValueError("--workers starts processes on this machine, --scheduler uses a cluster: omit one")
     check_workers(args.workers)
     if args.dry_run:
         return _dry_run(file)
@@ -286,7 +286,7 @@ def _show(args: argparse.Namespace) -> int:
         raise ValueError("show needs a folder: write `study show DIR`")
     for flag in ("scheduler", "workers", "out", "dry_run"):
         if getattr(args, flag):
-            raise ValueError(f"--{flag.replace('_', '-')} belongs to a run: omit it with `study show`")
+            raise ValueError(f"--{flag.replace('_', '-')} is for running a study: omit it with `study show`")
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)

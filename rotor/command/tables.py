@@ -47,7 +47,7 @@ def run_sweep(args: argparse.Namespace) -> int:
     base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
     if base and base not in (known := [design.twist.spec() for design in designs]):
         raise ValueError(
-            f"--relative-to {base} is none of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
+            f"--relative-to {base} is not one of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
         )
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
@@ -102,7 +102,9 @@ def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     several = [name for name in given if len(given[name]) > 1] or speeds
     if len(speeds) > 1 or len(several) != 1:
         asked = " and ".join(f"--{SWEPT[name].flag}" for name in dict.fromkeys((*speeds, *several))) or "nothing"
-        raise ValueError(f"a sweep over {asked}: give one range, for example --mu 0.05:0.40:0.05; 0 is hover")
+        raise ValueError(
+            f"a sweep over {asked} is not possible: give one range, for example --mu 0.05:0.40:0.05, where 0 is hover"
+        )
     args.over = several[0]
     for name, values in given.items():
         setattr(args, name, values[0])
@@ -313,9 +315,11 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
     """Lift, drag and moment at one Mach number and angle of attack [°] about the section's own chord line."""
     table = load_installed(name).table
     if not 0.0 <= mach <= table.mach_limit:
-        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose within them")
+        raise ValueError(
+            f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose a value inside"
+        )
     if not -180.0 <= alpha <= 180.0:
-        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose within them")
+        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose a value inside")
     here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)
     cl, cd = round(float(here.cl), 5), round(float(here.cd), 6)
     cm = None if moment is None else round(float(moment), 5)

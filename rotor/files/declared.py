@@ -154,7 +154,7 @@ def one_of(table: FileTable, *keys: str) -> str:
     """The key that a table has; Refusal unless it is exactly one of these."""
     given = [key for key in keys if getattr(table, key) is not None]
     if len(given) > 1:
-        raise Refusal(f"{given[0]} and {given[1]} both say the same: keep one of them", given[1])
+        raise Refusal(f"{given[0]} and {given[1]} give the same quantity: keep one of them", given[1])
     if not given:
         raise Refusal(f"there is no {' or '.join(keys)}: add {'one of them' if len(keys) > 1 else 'it'}")
     return given[0]

@@ -64,7 +64,7 @@ class Search:
 
     def __post_init__(self) -> None:
         if not 1 <= self.starts <= 1000:
-            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 suffice for most concepts")
+            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts")
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
         limits = self.limits.about(self.design.twist, self.design.rotor.blade.root_cutout)

@@ -247,9 +247,11 @@ def vibration_front(
     """
     require_design(design)
     if not 2 <= points <= 50:
-        raise ValueError(f"{points} points of a front are outside 2…50: 5 suffice for most")
+        raise ValueError(f"{points} points of a trade-off curve are outside 2…50: 5 are enough for most")
     if not 0.0 < reach_deg <= 5.0:
-        raise ValueError(f"reach {reach_deg:g}° of the active twist is outside 0…5°: actuators have 1 to 2")
+        raise ValueError(
+            f"reach {reach_deg:g}° of the active twist is outside 0…5°: choose a value inside; actuators reach 1 to 2"
+        )
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
     if concept is not None:
         return _static_front(design, concept, points)
@@ -373,5 +375,5 @@ _ANY = 1e3
 
 def _best(optimum: Optimum) -> Minimum:
     if optimum.best is None:
-        raise RuntimeError(f"No front: {optimum.message}")
+        raise RuntimeError(f"No trade-off curve: {optimum.message}")
     return optimum.best

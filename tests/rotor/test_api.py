@@ -283,7 +283,7 @@ WRONG = {
     "rotor.sweep(design, twist=['linear:-8'])": (TypeError, "no argument 'twist': it takes design, mu"),
     "design.mu": (AttributeError, "a design has no 'mu': read design.condition.advance_ratio"),
     "design.weight": (AttributeError, "a design has no 'weight'"),
-    "setattr(design, 'mu', 0.3)": (AttributeError, "make another, as with design.at(mu=0.3)"),
+    "setattr(design, 'mu', 0.3)": (AttributeError, "make a new one with design.at(mu=0.3)"),
     "setattr(design, 'preset', 'thesis')": (AttributeError, "dataclasses.replace(design, preset=…)"),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),

@@ -85,7 +85,7 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     with pytest.raises(ValueError, match="these blades are rigid and have no modes"):
         stability(flown)
     bends = 'structure = "uh60a"\n[airframe]'
-    with pytest.raises(ValueError, match="a hingeless blade that can bend needs it"):
+    with pytest.raises(ValueError, match="a hingeless blade with bending stiffness also needs it"):
         read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
 
 
@@ -353,7 +353,7 @@ def test_a_structure_with_bending_has_hub_loads():
 @pytest.mark.parametrize(
     ("old", "new", "remedy"),
     [
-        ("gj_nm2 = [5000.0, 4000.0]", "gj_nm2 = [5000.0]", "one each"),
+        ("gj_nm2 = [5000.0, 4000.0]", "gj_nm2 = [5000.0]", "one value per station"),
         ("r_m = [0.5, 5.0]", "r_m = [5.0, 0.5]", "ascending"),
         ("pitch_horn_m = 0.1\n", "", "pitch_horn_m"),
         ("pitch_horn_m", "pitch_horn", "pitch_horn_m"),
