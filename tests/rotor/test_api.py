@@ -300,7 +300,7 @@ WRONG = {
     "rotor.optimise(design, limits=2.0)": (TypeError, "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))"),
     "rotor.optimise(design, conditions=0.3)": (TypeError, "give pairs of advance ratio and weight"),
     "rotor.optimise(design, conditions=[0.1, 0.3])": (TypeError, "condition 0.1 is not a pair"),
-    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "give the same rotor"),
+    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "use one rotor"),
     "rotor.schedule(design, mu=0.1)": (TypeError, "mu is 0.1: give a list of advance ratios"),
     "rotor.distribution(design)": (TypeError, "give what rotor.solve returns"),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),

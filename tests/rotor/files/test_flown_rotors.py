@@ -197,7 +197,7 @@ def test_power_between_the_drag_areas(name: str):
     [
         ("pca2", 0.1, {"ct_over_sigma": 0.07, "flapping": "hub-moments"}, "on blades hinged at the shaft"),
         ("hart2", 0.1, {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "set flapping to hub-moments"),
-        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "it trims the hub moments"),
+        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "needed to trim the hub moments"),
         ("hart2", 0.0, HART2, "in hover the rotor is balanced"),
     ],
 )
