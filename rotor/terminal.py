@@ -156,7 +156,7 @@ def run_command(program: str, run: Callable[[], int]) -> int:
     except RecursionError:
         _say(f"{program}: the input is nested too deeply: simplify it")
     except MemoryError:
-        _say(f"{program}: this needs more memory than there is: ask for less at once")
+        _say(f"{program}: there is not enough memory: ask for less at once")
     except OSError as error:
         _say(f"{program}: {brief(_sentence(error))}")
         _discard_output()

@@ -29,7 +29,7 @@ _LEAST_AREA = 0.22
 """Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, 0.25 for Eppler 376, whose tail
 is thin; less if lines cross."""
 _ORDER = "list the points from the trailing edge over the upper side to the nose and back along the lower side"
-_NOT_ROUND = f"does not go round a section once: {_ORDER}"
+_NOT_ROUND = f"does not go around a section exactly once: {_ORDER}"
 
 
 def read_coordinates(text: str, name: str) -> Array:

@@ -273,8 +273,8 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
         lines.append(
-            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: "
-            f"trade-offs, not a level{before}"
+            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: for comparison, "
+            f"not an absolute level{before}"
         )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)

@@ -204,7 +204,7 @@ def _front(front: VibrationFront, found: Table) -> str:
     lines.append(
         wrapped(
             "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
-            "trade-offs, not a level"
+            "for comparison, not an absolute level"
         )
     )
     return "\n".join(lines)

@@ -87,7 +87,7 @@ def _refusal(place: Place, value: Any, options: list[inspect.Type]) -> Refusal:
             case inspect.StructType(), dict():
                 return _wrong_key(place, cast("dict[str, Any]", value), each)
             case inspect.VarTupleType(), []:
-                return Refusal(f"{_key(place)[0]} has no values: give one at least", *place)
+                return Refusal(f"{_key(place)[0]} has no values: give at least one", *place)
             case inspect.LiteralType(values=choices), _ if isinstance(value, str) or len(options) == 1:
                 names = [str(choice) for choice in choices]
                 hint = (isinstance(value, str) and did_you_mean(value, names)) or ":"

@@ -116,8 +116,8 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
         if not (rotor.blade.rigid or file.main.weighed or file.main.flap_inertia_kg_m2):
             remarks.append(
-                f"The rotor file has no blade_mass_kg: the blades flap as those of Lock number {LOCK_NUMBER:g}, which "
-                "power in hover does not depend on."
+                f"The rotor file has no blade_mass_kg: the blades flap with Lock number {LOCK_NUMBER:g}; hover power "
+                "does not depend on it."
             )
         stated, document = None, file.main.document
         if document is not None:

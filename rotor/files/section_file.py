@@ -61,7 +61,7 @@ def _is_known(outline: str) -> bool:
 def check_section_name(name: str) -> None:
     """Refusal for a name that no section of a rotor file may have."""
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
-        says = f"section name {name!r} is taken or has other characters"
+        says = f"section name {name!r} is taken or has characters that are not allowed"
         raise Refusal(f"{says}: use letters a-z, digits and -, such as my-section", "sections", name)
 
 

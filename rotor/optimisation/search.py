@@ -95,8 +95,10 @@ def run_search(
         run.baseline = evaluate.baseline()
         if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
             return run.result(
-                refusal="The air drives the rotor at this rate of descent, so total power is below zero and a saving "
-                "says nothing: descend more slowly, or use the objective induced."
+                refusal=(
+                    "The air drives the rotor at this rate of descent, so total power is below zero and a saving has "
+                    "no meaning: descend more slowly, or use the objective induced."
+                )
             )
         evaluate.phase = "search"
         starts = _starts(search, evaluate)

@@ -365,7 +365,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     trims = analyse_many([family.apply(design, point.parameters) for point in (*front, _best(calm))])
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
-    words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""
+    words += f" {lost} of {len(searches)} searches did not converge: their best twist so far is kept." if lost else ""
     return _over_inflows(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 
