@@ -75,7 +75,7 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     assert_allclose(powers, powers[0], rtol=1e-9)
     assumed, held = read(bare), read(rigid)
     assert_allclose(1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12)
-    assert "no blade_mass_kg: the blades flap as those of Lock number 8" in assumed.remarks[0]
+    assert "no blade_mass_kg: the blades flap with Lock number 8" in assumed.remarks[0]
     assert not held.remarks
     flown = solve(make_design(rotor=held, mu=0.15, stand={"ct_over_sigma": 0.08})).require()
     assert_allclose(math.degrees(flown.controls.coning), 2.0)
@@ -254,7 +254,7 @@ def test_bad_section_files_get_one_sentence():
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "of cl: check the counts in line 1"),
         ("\n[sections.mine]\n", {}, "line 20: there is no deck or polars: add one of them"),
-        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or has other"),
+        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or has characters"),
     ]  # fmt: skip
     for section, files, says in cases:
         with pytest.raises(ValueError, match=r"a\.|my\.toml") as caught:
