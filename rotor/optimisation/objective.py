@@ -153,7 +153,8 @@ def check_index(design: Design, objective: Objective, limits: Limits) -> None:
         reason = why_no_hub_loads(replace(design, condition=condition.flight))
         if reason is not None:
             where = f"advance ratio {condition.flight.advance_ratio:g}"
-            raise ValueError(f"there is no vibration index at {where}. {reason.sentence}")
+            why = f"{reason.sentence[0].lower()}{reason.sentence[1:].rstrip('.')}"
+            raise ValueError(f"there is no vibration index at {where} ({why}): choose other conditions")
     if not design.models.bending:
         raise ValueError("the vibration index needs bending blades: add --bending, or bending=True in Python")
 

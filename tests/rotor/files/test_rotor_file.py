@@ -254,7 +254,7 @@ def test_bad_section_files_get_one_sentence():
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "of cl: check the counts in line 1"),
         ("\n[sections.mine]\n", {}, "line 20: there is no deck or polars: add one of them"),
-        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or has characters"),
+        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "name 'My Section' is taken or has characters"),
     ]  # fmt: skip
     for section, files, says in cases:
         with pytest.raises(ValueError, match=r"a\.|my\.toml") as caught:
