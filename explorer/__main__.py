@@ -92,13 +92,19 @@ def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog=called("explorer", "rotor-explorer"),
         description="Explore helicopter blade twist in a browser.",
-        epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), story "
-        "(the lecture as an HTML file), blade (its shape as STL).",
+        epilog="Further commands with their own --help: report (designs side by side as an HTML file), "
+        "story (the lecture as an HTML file), blade (its shape as STL).",
+        examples=(
+            ("The page on another port, without opening a browser", "--port 8090 --no-browser"),
+            ("From a saved design", "--design mine.json"),
+        ),
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
-    parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
-    parser.add_argument("--port", type=_port, default=8080, help="port to listen on (default 8080)")
-    parser.add_argument("--design", metavar="FILE", help="design file (JSON) to start from")
+    parser.add_argument(
+        "--host", default="127.0.0.1", metavar="ADDRESS", help="address to listen on (default: this machine only)"
+    )
+    parser.add_argument("--port", type=_port, default=8080, metavar="N", help="port to listen on (default 8080)")
+    parser.add_argument("--design", metavar="FILE", help="design file to start from")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
     parser.add_argument(
         "--allow-host",
@@ -106,14 +112,14 @@ def _parser() -> argparse.ArgumentParser:
         type=_host_name,
         action="append",
         default=[],
-        help="a further name by which the page is reached, as behind a reverse proxy (may be repeated)",
+        help="further host name by which the page is reached, as behind a reverse proxy; may be repeated",
     )
     parser.add_argument(
         "--max-sessions",
         metavar="N",
         type=_sessions,
         default=SESSIONS,
-        help=f"largest number of active pages (default {SESSIONS}); others wait for a place",
+        help=f"largest number of active pages (default {SESSIONS}); others wait",
     )
     return parser
 

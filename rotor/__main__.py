@@ -19,11 +19,11 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog=called("rotor", "rotor"),
         description="Helicopter main rotors: trim, power, twist.",
-        epilog="Each command has its --help.",
+        epilog="For the flags and examples of a command: COMMAND --help",
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for name, (where, words) in COMMANDS.items():
+    for name, (where, words, _) in COMMANDS.items():
         if command in (None, name):
             module, _, add = where.partition(".")
             getattr(import_module(f"rotor.command.{module}"), add)(commands)
@@ -34,9 +34,11 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
         print(completion(commands.choices, "rotor"))
         return 0
 
-    words = "prints what completes commands and flags of rotor with Tab"
-    hint = 'For bash: eval "$(rotor completion)"; for zsh after autoload -U bashcompinit && bashcompinit.'
-    commands.add_parser(_COMPLETION, help=words, description=hint).set_defaults(run=complete)
+    words = "print a shell script that completes commands and flags with Tab"
+    hint = 'Use eval "$(rotor completion)"; in zsh first run autoload -U bashcompinit && bashcompinit.'
+    examples = (("Print the script", ""),)
+    added = commands.add_parser(_COMPLETION, help=words, description=hint, examples=examples)
+    added.set_defaults(run=complete)
     return parser
 
 

@@ -339,7 +339,7 @@ class _Worker(threading.Thread):
                 self._do(job)
             except (OSError, EOFError):
                 self._drop()
-                sentence = "The worker process ended unexpectedly; a new one is on its way. Press again."
+                sentence = "The worker process ended unexpectedly; a new one is starting. Press again."
                 job.tell(JobFailed(sentence, WorkerLost()))
             except Exception as error:  # A task that cannot be pickled, for example: the thread must go on.
                 job.tell(JobFailed(f"The work could not be done: {error}", error))

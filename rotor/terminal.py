@@ -12,7 +12,7 @@ import sys
 import textwrap
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, cast
 
@@ -53,16 +53,32 @@ def _columns() -> int:
     return min(max(shutil.get_terminal_size((100, 24)).columns, 60), 100)
 
 
-def help_formatter(prog: str) -> argparse.HelpFormatter:
-    """Lines that fit the terminal, at most 100 letters; long names have their help beside them."""
-    return argparse.HelpFormatter(prog, indent_increment=1, width=_columns())
+class _HelpFormatter(argparse.HelpFormatter):
+    """Lines that fit the terminal, at most 100 letters; an indented line is a command, which stays whole."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, indent_increment=1, width=_columns())
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        lines = text.splitlines()
+        return "\n".join(line if line[:3] == "   " else textwrap.fill(indent + line, width) for line in lines)
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """Reports errors in one line and suggests the nearest name for one that is not known."""
+    """Reports errors in one line and suggests the nearest name for one that is not known.
 
-    def __init__(self, *args: Any, **options: Any) -> None:
-        super().__init__(*args, **{"formatter_class": help_formatter, "allow_abbrev": False, **options})
+    `examples`: what each shows, and the words after the program's name. They follow the flags in the help.
+    """
+
+    def __init__(self, *args: Any, examples: Sequence[tuple[str, str]] = (), **options: Any) -> None:
+        super().__init__(*args, **{"formatter_class": _HelpFormatter, "allow_abbrev": False, **options})
+        self.examples = examples
+        if examples:
+            lines = (f" {shown}:\n   {self.prog} {words}".rstrip() for shown, words in examples)
+            self.epilog = "\n".join(("examples:", *lines, *(("", self.epilog) if self.epilog else ())))
         self._negative_number_matcher = re.compile(r"^-\.?\d")  # Also lists and ranges: --rate-deg -20,0.
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:  # pyright: ignore[reportIncompatibleMethodOverride]
@@ -140,7 +156,7 @@ def run_command(program: str, run: Callable[[], int]) -> int:
     except RecursionError:
         _say(f"{program}: the input is nested too deeply: simplify it")
     except MemoryError:
-        _say(f"{program}: this needs more memory than there is: ask for less at once")
+        _say(f"{program}: there is not enough memory: ask for less at once")
     except OSError as error:
         _say(f"{program}: {brief(_sentence(error))}")
         _discard_output()

@@ -7,8 +7,10 @@ import argparse
 import ast
 import inspect
 import re
+import shlex
 import types
 import typing
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -22,7 +24,9 @@ import rotor.validation
 from explorer.export import blade, report
 from explorer.story import story_file
 from rotor.__main__ import build_parser
+from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
+from rotor.terminal import OneLineParser
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent
@@ -127,16 +131,47 @@ OTHERS = {"--find-links", "--no-index", "--tls-ca-file", "--tls-cert", "--tls-ke
 """Flags of pip, Dask and podman that a sentence names."""
 
 
-def flags() -> set[str]:
+def parsers() -> list[OneLineParser]:
     """Of all commands."""
     (commands,) = (one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
     page = (explorer.__main__._parser(), report._parser(), story_file._parser(), blade._parser())
-    return {flag for parser in (*commands.choices.values(), *page) for flag in parser._option_string_actions}
+    return [*commands.choices.values(), *page]
+
+
+def test_every_help_has_examples_with_flags_that_exist():
+    for parser in parsers():
+        assert parser.examples
+        assert len(parser.examples) == 3 or not parser.prog.endswith(" solve")
+        for _, words in parser.examples:
+            parser.parse_args(shlex.split(words))
+
+
+ONLY_READ = ("two_segment.toml", "show results", "--port", "--design mine.json", "lecture.html", "thesis")
+"""Of examples that run for a minute or more, serve the page or need files, only the flags are read."""
+SLOW = ("--doubt", "a.json", "MFC_P1")
+SHOWN = [
+    pytest.param(f"{parser.prog} {words}", marks=[pytest.mark.slow] * any(part in words for part in SLOW))
+    for parser in parsers()
+    for _, words in parser.examples
+    if parser.prog.split()[-1] != "warm" and not any(part in words for part in ONLY_READ)
+]
+
+
+@pytest.mark.parametrize("example", SHOWN)
+def test_examples_of_the_help_run(example: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """With uniform inflow on a coarse grid."""
+    monkeypatch.chdir(tmp_path)
+    coarse = partial(rotor.make_design, inflow="uniform", elements=12, azimuths=24)
+    monkeypatch.setattr("rotor.command.common.make_design", coarse)
+    package, *words = shlex.split(example.removeprefix("python -m "))
+    for name in ("a.json", "b.json"):
+        rotor.make_design(mu=0.2).save(name)
+    assert {"rotor": rotor_main, "explorer": explorer.__main__.main}[package](words) == 0
 
 
 def test_flags_that_pages_name_exist():
     """In commands of ours, and in sentences where code begins with a flag."""
-    known, unknown = flags() | OTHERS | {"--help"}, {}
+    known, unknown = {flag for parser in parsers() for flag in parser._option_string_actions} | OTHERS | {"--help"}, {}
     for path in sorted({*SITE, TOP[0]}):
         code = [line for line in text(path).splitlines() if re.search(r"python -m (rotor|explorer) ", line)]
         code += re.findall(r"`--[^`]*`", text(path))

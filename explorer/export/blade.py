@@ -78,8 +78,10 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog=called("explorer", "rotor-explorer") + " blade", description="One blade as STL, in metres, in jig shape."
+        prog=called("explorer", "rotor-explorer") + " blade",
+        description="Write one blade as STL in metres, with its twist as built.",
+        examples=(("The blade of a UH-60A", "--out cad"),),
     )
-    parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")
-    parser.add_argument("--out", default=".", metavar="DIR", help="folder (default: this one)")
+    parser.add_argument("--design", metavar="FILE", help="design file (default: the UH-60A at µ 0.2)")
+    parser.add_argument("--out", default=".", metavar="DIR", help="folder to write into (default: this one)")
     return parser

@@ -174,16 +174,21 @@ def _write(path: str, html: str) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog=called("explorer", "rotor-explorer") + " report",
-        description="Designs side by side as one HTML file that opens without a server.",
+        description="Write designs side by side as one HTML file that opens without a server.",
+        examples=(("Two designs", "a.json b.json --out report.html"),),
     )
     parser.add_argument(
         "designs",
         nargs="+",
         metavar="FILE",
-        help="design files (JSON); changes count from the first one's baseline twist",
+        help="design files; changes are relative to the baseline twist of the first",
     )
-    parser.add_argument("--out", default="report.html", metavar="FILE", help="where to write (default report.html)")
+    parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default report.html)")
     parser.add_argument(
-        "--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=f"in 3D: {', '.join(FIELDS)}"
+        "--field",
+        default=ViewState.field,
+        choices=tuple(FIELDS),
+        metavar="NAME",
+        help=f"field on the 3D disk: {', '.join(FIELDS)}",
     )
     return parser

@@ -152,7 +152,10 @@ def vibration(solution: Solution) -> Markup:
             (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
             (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
             ("Vibration index", f"{number(loads.index, 1)} {index_unit(solution.design)}"),
-            ("The same over inflow models", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
+            (
+                "The same over inflow models",
+                f"{number(low, 1)} … {number(high, 1)} %: for comparison, not an absolute level",
+            ),
             ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments over the radius"),
         ]
     return _table("Vibration", rows)

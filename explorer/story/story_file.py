@@ -244,9 +244,12 @@ def _run(options: argparse.Namespace) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog=called("explorer", "rotor-explorer") + " story",
-        description="The lecture as one HTML file without a server: ten steps with guess, answer and a rotor to drag.",
+        description="Write the lecture as one HTML file that needs no server: ten questions with a rotor to drag.",
+        examples=(("For a dark room", "lecture.html --dark"),),
     )
-    parser.add_argument("out", metavar="FILE", help="where to write; in a folder, its story.html")
-    parser.add_argument("--dark", action="store_true", help="for a dark room")
-    parser.add_argument("--units", default=ViewState.units, choices=tuple(UNITS), help="default %(default)s")
+    parser.add_argument("out", metavar="FILE", help="file to write, or a folder for story.html")
+    parser.add_argument("--dark", action="store_true", help="dark colours")
+    parser.add_argument(
+        "--units", default=ViewState.units, choices=tuple(UNITS), help="units of the numbers (default %(default)s)"
+    )
     return parser

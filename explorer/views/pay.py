@@ -46,7 +46,7 @@ def _stage(now: Now) -> SupposePart | None:
     if value is None:
         return None
     if value.line is None or value.flight is None:
-        none = "" if value.mass else f"{value.name} adds no mass: there is none that would pay."
+        none = "" if value.mass else f"{value.name} adds no mass, so it has no break-even line."
         return SupposePart(none or here_problem(now) or "Computing what would pay…")
     units, line, own = now.units, value.line, _put(math.degrees(value.range), value.mass)
     degrees, mass = now.hand.place or own

@@ -170,7 +170,7 @@ def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
         return ()
     return (
         f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
-        "feedback or charge drive. Without voltage the blade returns to its jig twist.",
+        "feedback or charge drive. Without voltage the blade returns to its twist as built.",
     )
 
 
@@ -290,7 +290,7 @@ def fuel_caveats(aircraft: Aircraft) -> tuple[str, ...]:
     """A sentence on what is unknown about the aircraft's fuel flow."""
     engines = engines_of(aircraft)
     if engines is None:
-        return (f"No source for the fuel flow of the engines of {aircraft.name}: savings are told as power only.",)
+        return (f"No source for the fuel flow of the engines of {aircraft.name}: savings are given as power only.",)
     return (f"Fuel: {engines.caveat} ({engines.source}).",) if engines.caveat else ()
 
 

@@ -190,7 +190,7 @@ def with_mass(design: Design, mass: float) -> Design:
         loading = weight / (design.thrust_unit * design.rotor.solidity)
         more = replace(stand, ct_over_sigma=stand.ct_over_sigma + loading)
     else:
-        raise ValueError("the collective is given, so the rotor carries no weight: give the stand a thrust")
+        raise ValueError("the collective is given, so the rotor carries no set weight: give a thrust instead")
     return replace(loaded, condition=replace(loaded.condition, stand=more))
 
 
@@ -235,7 +235,9 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     installed, base = verdict.installed, verdict.baseline
     mass = installed.masses.aircraft
     if not mass:
-        raise ValueError(f"{installed.actuator.name} adds no mass: there is none that would pay")
+        raise ValueError(
+            f"{installed.actuator.name} adds no mass, so it has no break-even line: choose another actuator"
+        )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     for stroke in STROKES:
         start = [verdict.resting.values]

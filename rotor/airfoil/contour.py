@@ -43,7 +43,7 @@ def naca_points(name: str) -> Array:
     Raises ValueError for a name outside the two families.
     """
     if not is_naca(name):
-        raise ValueError(f"{name!r} is no NACA section of four or five digits: write for example naca0012 or naca23012")
+        raise ValueError(f"{name!r} is not a four- or five-digit NACA section: write for example naca0012 or naca23012")
     digits = name.removeprefix("naca")
     x = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, (POINTS + 1) // 2)))
     roots = np.stack([np.sqrt(x), x, x**2, x**3, x**4])
@@ -114,7 +114,7 @@ def load_contour(name: str) -> Contour:
         if is_naca(name):
             return Contour(name, naca_points(name))
         raise ValueError(
-            f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)} or a NACA section as naca23012"
+            f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)} or a NACA section such as naca23012"
         )
     return read_contour(asset_path(f"airfoils/{_OUTLINES.get(name, name)}.contour"), name)
 
@@ -146,7 +146,7 @@ def resample(contour: Contour, n: int) -> Contour:
     point (n - 1) / 2 is the nose on every section. Cubic splines through the given points carry the shape.
     """
     if n < 11 or n % 2 == 0:
-        raise ValueError(f"{n} points: give an odd number of at least 11, so that the nose is a point of its own")
+        raise ValueError(f"{n} points do not put one at the nose: give an odd number of at least 11")
     steps = np.hypot(*np.diff(contour.points, axis=0).T)
     arc = np.concatenate(([0.0], np.cumsum(steps)))
     nose = arc[leading_edge_index(contour)]

@@ -29,7 +29,7 @@ _LEAST_AREA = 0.22
 """Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, 0.25 for Eppler 376, whose tail
 is thin; less if lines cross."""
 _ORDER = "list the points from the trailing edge over the upper side to the nose and back along the lower side"
-_NOT_ROUND = f"does not go round a section once: {_ORDER}"
+_NOT_ROUND = f"does not go around a section exactly once: {_ORDER}"
 
 
 def read_coordinates(text: str, name: str) -> Array:
@@ -44,12 +44,12 @@ def read_coordinates(text: str, name: str) -> Array:
         points[0] = np.inf  # Lednicer's: no point of the outline, whatever its unit.
     chord = float(np.ptp(points[1:-1, 0]))  # The first or the last row may be a heading of two numbers, or a stray 0 0.
     if not chord > 0.0:
-        raise ValueError(f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point a line")
+        raise ValueError(f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point per line")
     runs = np.split(np.arange(len(points)), 1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _JUMP * chord))
     starts = {int(run[0]) for run in runs}
     for at, number in words.items():
         if at not in starts:
-            raise ValueError(f"{name}, line {number}: words between two points of one side: remove the line")
+            raise ValueError(f"{name}, line {number}: text interrupts the points of one side: remove the line")
     runs = [run for k, run in enumerate(runs) if len(run) > 1 or 0 < k < len(runs) - 1]
     if len(runs) > 2:
         line = lines[int(min(runs[1:], key=len)[0])]
@@ -89,7 +89,7 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
             lines.append(number)
         elif words and rows:
             if len(values) == len(words) or (values and len(words) == 2 and not words[0][0].isalpha()):
-                raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line")
+                raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers per line")
             between.setdefault(len(rows), number)
         if len(rows) > _MOST + 2:
             break

@@ -137,7 +137,7 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
             round(mach[0] / MACH_STEP + 0.499), min(int(mach[-1] / MACH_STEP + 1e-9), N_MACH) + 1
         )
         if len(grid) < 2:
-            raise ValueError(f"{title}: Mach {mach[0]:g}…{mach[-1]:g} covers too little: give at least 0.1 of Mach")
+            raise ValueError(f"{title}: Mach {mach[0]:g}…{mach[-1]:g} is too narrow a range: cover at least 0.1")
         grid = grid.astype(np.float64)
         least, values = values.min(), _through_knots(mach, values, grid)
         mach, values = grid, np.maximum(values, least) if kind == 1 else values

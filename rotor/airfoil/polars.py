@@ -159,7 +159,7 @@ def parse_polars(text: str, name: str) -> PolarSet:
                     f"{name} holds more than {_MOST_POLARS} polars, one for each Mach and Reynolds number: keep fewer"
                 )
     if not groups:
-        raise ValueError(f"{name} has no rows of numbers below its heading: give 8 angles at least")
+        raise ValueError(f"{name} has no rows of numbers below its heading: give at least 8 angles")
     polars = tuple(_polar(name, mach, reynolds, groups[mach, reynolds]) for mach, reynolds in sorted(groups))
     return PolarSet(tuple(line[1:].strip() for line in lines if line.startswith("#")), polars, tuple(assumed))
 
@@ -178,7 +178,9 @@ def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> Iterator[
             raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
         alpha, cl, cd = row[2:5]
         if not (all(map(math.isfinite, row[2:5])) and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
-            raise ValueError(f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg cannot be: remove the row")
+            raise ValueError(
+                f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg is not possible: remove the row"
+            )
         some = True
         yield number, row
     if other is not None and end == len(lines) and re.match(r"[+-]?\.?\d", other[1]):

@@ -47,7 +47,7 @@ def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
     if abs(knots[0] + 180.0) > 1e-9 or abs(knots[-1] - 180.0) > 1e-9 or np.any(np.abs(values[0] - values[-1]) > 1e-9):
         raise ValueError("the angles must run from -180 to 180 deg with equal ends: add the missing angles")
     if np.any(np.abs(knots * 2.0 - np.round(knots * 2.0)) > 1e-9):
-        raise ValueError("an angle is no multiple of 0.5 deg: move it, the run-time grid has half-degree steps")
+        raise ValueError("an angle is not a multiple of 0.5 deg, the step of the run-time grid: move it to one")
     # Two knots of the next turn on each side make the slopes at +-180 deg periodic.
     longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
     curve = scipy.interpolate.PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
@@ -76,7 +76,7 @@ def bicubic_coefficients(block: C81Block) -> Array:
     """
     steps = block.mach / MACH_STEP
     if np.any(np.abs(steps - np.round(steps)) > 1e-9) or block.mach[-1] > 1.0 + 1e-9:
-        raise ValueError("a Mach number is no multiple of 0.05 within 0..1: move it to the run-time grid")
+        raise ValueError("a Mach number is not a multiple of 0.05 within 0..1: move it to the run-time grid")
     f, f_u = _nodes_along_alpha(block)
     f, f_v = _along_mach(block.mach, f)
     f_u, f_uv = _along_mach(block.mach, f_u)

@@ -168,22 +168,24 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
 def check_freedoms(problem: Problem) -> None:
     """Raise TypeError or ValueError for further freedoms that this blade cannot have, or that contradict others."""
     if problem.design.hovering:
-        raise ValueError("There are no further freedoms in hover, which has one azimuth: give a speed.")
+        raise ValueError("Hover is solved at one azimuth and takes no further freedoms: give a speed.")
     if problem.bending is not None:
-        raise ValueError("Blades that bend flap and lag by themselves: switch bending off, or give no freedoms.")
+        raise ValueError("Bending blades already flap and lag: switch bending off, or give no freedoms.")
     taken: tuple[set[Hashable], ...] = {*STATE_NAMES}, {*trim_numbers(problem)}, {"one", "r", "arm"}
     for freedom in (*freedoms_of(problem), *problem.freedoms):
         if not isinstance(freedom, Freedom):
-            raise TypeError(f"freedoms has {freedom!r:.80}: give instances of classes derived from rotor.Freedom")
+            raise TypeError(f"freedoms contains {freedom!r:.80}: give instances of classes derived from rotor.Freedom")
         try:
             hash(freedom.key)
         except TypeError as error:
-            raise TypeError(f"A field of {type(freedom).__name__} is no value ({error}): use tuples.") from None
+            raise TypeError(f"A field of {type(freedom).__name__} cannot be hashed ({error}): use tuples.") from None
         for names, named in zip(
             taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True
         ):
             if again := names.intersection(named):
-                raise ValueError(f"{type(freedom).__name__} has another {min(again, key=str)!r}: give it another name.")
+                raise ValueError(
+                    f"{type(freedom).__name__} repeats the name {min(again, key=str)!r}: choose another name."
+                )
             names.update(named)
     s = flight_system(problem).structure
     used = {name for shapes in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in shapes}

@@ -28,41 +28,43 @@ from rotor.user_input import check_suffix, check_writable, write_whole
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "actuator", run)
-    parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default); list: --table 5.1")
     parser.add_argument(
-        "--plies", type=int, default=2, metavar="N", help="per skin (default 2); for a torque tube: number of tubes"
+        "--actuator", metavar="ID", default="MFC_P1", help="actuator (default MFC_P1); --table 5.1 lists all"
     )
-    parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
-    parser.add_argument("--division", metavar="R,…", help="r/R of the breaks, for concepts with segments")
+    parser.add_argument("--plies", type=int, default=2, metavar="N", help=common.PLIES_HELP)
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
+    parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     for flag, value, metavar, words in (
-        ("--from-mu", 0.0, "MU", "first advance ratio (default hover)"),
-        ("--to-mu", 0.3, "MU", "second advance ratio (default 0.3)"),
+        ("--from-mu", 0.0, "MU", "advance ratio of the first condition (default hover)"),
+        ("--to-mu", 0.3, "MU", "advance ratio of the second condition (default 0.3)"),
         ("--share", 0.5, "0…1", "fraction of time in the second condition (default 0.5)"),
-        ("--stiffness", None, "G", "GJ of a new blade relative to the existing one (default 0.5)"),
-        ("--angle-deg", 45.0, "DEG", "fibre angle (default 45)"),
+        ("--stiffness", None, "G", "with --blade new: its GJ relative to the existing blade (default 0.5)"),
+        ("--angle-deg", 45.0, "DEG", "fibre angle to the span (default 45)"),
     ):
         parser.add_argument(flag, type=common.finite, default=value, metavar=metavar, help=words)
     blades = ("retrofit", "new")
-    parser.add_argument("--blade", choices=blades, default=blades[0], help="the existing blade (default) or a new one")
-    parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
-    parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
+    parser.add_argument("--blade", choices=blades, default=blades[0], help="existing blade (default) or a new one")
+    parser.add_argument("--span", metavar="A:B", help="active span in r/R (default 0.2433:0.9292)")
+    parser.add_argument("--chord", metavar="A:B", help="active chord in x/c (default 0.05:0.80)")
     parser.add_argument(
         "--against",
         choices=("same-blade", "best-fixed"),
         default="same-blade",
-        help="the blade that savings count from: the same without the actuator (default) or the best fixed one",
+        help="compare with the same blade without the actuator (default), or with the best fixed twist",
     )
-    parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
+    parser.add_argument(
+        "--table", choices=("5.1", "5.2"), help="print table 5.1 (actuators) or 5.2 (net savings) of the thesis instead"
+    )
     parser.add_argument(
         "--what-would-pay",
         nargs="?",
         choices=("this", "all"),
         const="this",
-        help="what an actuator would have to be to pay on this rotor (all: on each)",
+        help="print what an actuator would need to pay on this rotor (all: on each rotor)",
     )
-    parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: its break-even line")
+    parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: draw the break-even line")
     common.add_design_arguments(parser)
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    common.add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -23,13 +23,14 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.command.names import COMMANDS
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
-from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, SPEED, STAND, SWEPT
+from rotor.design.quantities import ARGUMENTS, CONDITION, HOVER_INFLOWS, SPEED, STAND, SWEPT
 from rotor.design.quantity import Quantity
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
+from rotor.optimisation.objective import MISSION_COLUMNS
 from rotor.study.results import design_at
 from rotor.user_input import check_writable, parse_range
 
@@ -39,8 +40,9 @@ Run = Callable[[argparse.Namespace], int]
 def add_command(commands: Any, name: str, run: Run, description: str = "") -> argparse.ArgumentParser:
     """Add the parser of a command. Its summary in the list of commands also heads its own help unless another is
     given."""
-    words = COMMANDS[name][1]
-    parser = commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
+    _, words, examples = COMMANDS[name]
+    described = description or f"{words[0].upper()}{words[1:]}."
+    parser = commands.add_parser(name, help=words, description=described, examples=examples)
     parser.set_defaults(run=run)
     return parser
 
@@ -53,21 +55,32 @@ def add_design_arguments(
     parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False, ranges: bool = False
 ) -> None:
     """Add a flag for every argument of `make_design`: those of the speed, several twists and ranges only on demand."""
-    speeds = parser.add_mutually_exclusive_group() if speed else parser
-    stand = parser.add_argument_group("test stand")
-    parser.add_argument(
-        "--allow-outside", action="store_true", help="the rotor file may name section files outside its own folder"
+    parser.usage = "%(prog)s [flags]"
+    blade = parser.add_argument_group("design")
+    swept = "Give one of these numbers as a range A:B:STEP to sweep over it." if ranges else None
+    condition = parser.add_argument_group("flight condition", swept)
+    models, stand = parser.add_argument_group("models"), parser.add_argument_group("test stand")
+    speeds = condition.add_mutually_exclusive_group() if speed else condition
+    blade.add_argument(
+        "--allow-outside", action="store_true", help="let the rotor file name section files outside its own folder"
     )
     for name, row in (_FLAGS | STAND).items():
         if name in SPEED and not speed and not ranges:
             continue
-        to = speeds if name in SPEED else stand if name in ("trim", *STAND) else parser
+        group = (
+            stand
+            if name in ("trim", *STAND)
+            else models
+            if row.section == "models" or name in ("low_speed", "loss_on", "off")
+            else blade
+        )
+        group = speeds if name in SPEED else condition if name in CONDITION else group
         how = _how(row)
         if name == "twist" and twists:
             how["nargs"] = "+"
         if ranges and name in SWEPT:
-            how |= {"type": _range, "help": f"{how['help']}; or A:B:STEP"}
-        to.add_argument(f"--{row.flag}", dest=name, **how)
+            how["type"] = _range
+        group.add_argument(f"--{row.flag}", dest=name, **how)
 
 
 def _how(row: Quantity) -> dict[str, Any]:
@@ -82,10 +95,21 @@ def _how(row: Quantity) -> dict[str, Any]:
         case "whole":
             return {"help": row.help, "type": int, "metavar": "N"}
         case "number":
-            return {"help": row.help, "type": finite, "metavar": _metavar(row.unit)}
+            return {"help": row.help, "type": finite, "metavar": _SYMBOLS.get(row.unit, row.unit.upper() or "X")}
         case _:
-            listed = "; ".join(filter(None, (row.help, ", ".join(choices))))
-            return {"help": listed, "metavar": row.flag.upper()}
+            return {"help": row.help_with(choices), "metavar": _METAVARS.get(row.name, "NAME")}
+
+
+_METAVARS = {
+    "case": "FILE",
+    "rotor": "NAME|FILE",
+    "twist": "SPEC",
+    "twist_per_rev": "N:DEG:PHASE",
+    "pitch_per_rev": "N:DEG:PHASE",
+    "airfoils": "NAME@R,…",
+    "off": "NAME,…",
+}
+_SYMBOLS = {"°": "DEG", "°C": "DEG_C", "%": "PERCENT", "m/s": "M/S", "kg/m³": "KG/M3", "N m": "NM"}
 
 
 def _range(text: str) -> list[float]:
@@ -95,19 +119,13 @@ def _range(text: str) -> list[float]:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def _metavar(unit: str) -> str:
-    """What stands for a number in the help: its unit where that is one of letters."""
-    word = {"°": "deg", "°C": "c"}.get(unit, unit.replace(" ", ""))
-    return word.upper() if word.isalpha() else "X"
-
-
 def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
     """The design that the flags describe; `twist` and `mu` in place of theirs. Raises ValueError with one sentence."""
     given = {name: getattr(args, name, None) for name in _FLAGS if name not in SPEED}
     speed = {name: getattr(args, name, None) for name in SPEED} if mu is None else {"mu": mu}
     row = getattr(args, "row", None)
     if row and args.case:
-        raise ValueError("--row and --case are both a design to begin with: give one of them")
+        raise ValueError("--row and --case both give the design to start from: use one of them")
     case = design_at(row) if row else load_design(args.case) if args.case else None
     rotor = find_aircraft(args.rotor, allow_outside=args.allow_outside) if args.rotor else None
     stand = {key: value for key in STAND if (value := getattr(args, key)) is not None}
@@ -121,18 +139,19 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     return make_design(**{name: value for name, value in changed.items() if value is not None})
 
 
-def add_output_arguments(parser: argparse.ArgumentParser, table: str = "the table") -> None:
-    """`--csv` and `--json` of a command that prints a table."""
-    parser.add_argument(
-        "--csv", metavar="FILE", help=f"write {table} to a file as well; - prints it in place of all else"
-    )
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+def add_output_arguments(parser: argparse.ArgumentParser, csv: str = "") -> Any:
+    """`--json`, and `--csv` where its words name what is written; returns the group for further flags."""
+    group = parser.add_argument_group("output")
+    if csv:
+        group.add_argument("--csv", metavar="FILE", help=f"also write {csv} as CSV; with - print nothing else")
+    group.add_argument("--json", action="store_true", help="print the answer as JSON")
+    return group
 
 
 def check_output(args: argparse.Namespace) -> None:
     """ValueError for a file of `--csv` that cannot be written, and for two outputs at once."""
     if args.csv == "-" and args.json:
-        raise ValueError("--csv - and --json both print: give one of them")
+        raise ValueError("--csv - and --json both print to the output: use one of them")
     if args.csv and args.csv != "-":
         check_writable(args.csv)
 
@@ -145,14 +164,16 @@ def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Ca
 
 
 def add_processes_argument(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    parser.add_argument(
+        "--processes", type=int, metavar="N", help="processes to run (default: one per core, at most 4)"
+    )
 
 
 def processes_from(args: argparse.Namespace) -> int:
     """The number of processes asked for, or one per core. Raises ValueError outside 1…64."""
     count = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
     if not 1 <= count <= 64:
-        raise ValueError(f"{count} processes are outside 1…64: give one a core")
+        raise ValueError(f"{count} processes are outside 1…64: choose one per core")
     return count
 
 
@@ -168,43 +189,46 @@ def finite(text: str) -> float:
 
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     """Starting points, seed and limits."""
-    parser.add_argument(
+    search = parser.add_argument_group("search")
+    search.add_argument(
         "--starts", type=int, default=starts, metavar="N", help=f"starting points per search (default {starts})"
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)")
-    parser.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
+    search.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)")
+    search.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
     limits = parser.add_argument_group("limits")
     limits.add_argument(
         "--bound",
         action="append",
         default=[],
         metavar="NAME=LOW,HIGH",
-        help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
+        help="bounds of one parameter in degrees or r/R, e.g. --bound outboard_rate=-20,0; may be repeated",
     )
     limits.add_argument(
-        "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg -20,0"
+        "--rate-deg",
+        metavar="LOW,HIGH",
+        help="twist rate of every segment in degrees per radius, e.g. --rate-deg -20,0",
     )
     limits.add_argument(
-        "--stalled-percent", type=finite, metavar="P", help="largest part of the disk beyond the stall angle"
+        "--stalled-percent", type=finite, metavar="PERCENT", help="largest stalled part of the disk area"
     )
     limits.add_argument(
         "--index-percent",
         type=finite,
-        metavar="P",
-        help="largest vibration index on every condition, per cent of the weight; with --bending, from mu 0.2 on",
+        metavar="PERCENT",
+        help="largest vibration index at any condition, relative to the weight; needs --bending, from µ 0.2 on",
     )
     limits.add_argument(
         "--change-deg",
         type=finite,
         metavar="DEG",
-        help="largest change from the design's own twist, root to tip, linear along the blade",
+        help="largest change from the design's own twist, linear from root to tip",
     )
     limits.add_argument(
         "--actuator",
         metavar="ID",
-        help="limit the change of twist to the range of this actuator as a retrofit, e.g. MFC_P1",
+        help="allow only the change of twist that this actuator reaches as a retrofit, e.g. MFC_P1",
     )
-    limits.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
+    limits.add_argument("--plies", type=int, metavar="N", help=PLIES_HELP)
 
 
 def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
@@ -215,7 +239,7 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         name, _, numbers = str(text).partition("=")
         name = name.removesuffix("_deg")
         if name not in units:
-            raise ValueError(f"bound {text!r} names no parameter: use one of {', '.join(units)}")
+            raise ValueError(f"bound {text!r} does not name a parameter: use one of {', '.join(units)}")
         low, high = parse_pair(numbers, f"bound {text!r}", f"{name}=-20,0")
         bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
     rate = None
@@ -259,7 +283,10 @@ def short_spec(spec: str) -> str:
     return re.sub(r"-?\d+\.\d{3,}", lambda match: f"{float(match[0]):.2f}", angles) + at + stations
 
 
-CONCEPT_HELP = " | ".join(CONCEPTS)
+CONCEPT_HELP = f"twist concept: {' | '.join(CONCEPTS)}"
+DIVISION_HELP = "breaks of the segments in r/R, e.g. 0.5, or 0.48,0.84 for three segments"
+MISSION_HELP = f"CSV file with the columns {','.join(MISSION_COLUMNS)}: search for the least mean power"
+PLIES_HELP = "plies of the actuator per skin, or number of torque tubes (default 2)"
 
 
 def parse_division(text: str | None) -> tuple[float, ...] | None:

@@ -12,12 +12,14 @@ from rotor.user_input import parse_range
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "envelope", run)
-    common.add_design_arguments(parser, twists=True)
-    parser.add_argument("--mu", dest="speeds", metavar="A:B:STEP", help="advance ratios (default 0:0.4:0.1)")
+    parser.add_argument("--mu", dest="speeds", metavar="A:B:STEP", help="range of advance ratios (default 0:0.4:0.1)")
     parser.add_argument(
-        "--moving", action="store_true", help="the linear twist of least power at each speed too, as if moved in flight"
+        "--moving",
+        action="store_true",
+        help="also with the linear twist of least power at each speed, as if it changed in flight",
     )
-    common.add_output_arguments(parser)
+    common.add_design_arguments(parser, twists=True)
+    common.add_output_arguments(parser, "the table")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -10,15 +10,7 @@ from rotor.command import common
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
-from rotor.optimisation.objective import (
-    MISSION_COLUMNS,
-    QUANTITIES,
-    Objective,
-    at_condition,
-    hover_and_cruise,
-    measure,
-    read_mission,
-)
+from rotor.optimisation.objective import QUANTITIES, Objective, at_condition, hover_and_cruise, measure, read_mission
 from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
 from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
 from rotor.terminal import wrapped
@@ -31,26 +23,31 @@ from rotor.units import power_text
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "optimise", run)
     parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
-    parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
+    parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     parser.add_argument(
         "--objective",
         default="total",
         metavar="NAME",
-        help="total (default) | induced | hover-cruise: hover and the given speed | vibration: index of the hub loads",
+        help="what to minimise: total (power, default) | induced (power) | hover-cruise (mean power of hover and the "
+        "given speed) | vibration (index of the hub loads)",
     )
     parser.add_argument(
-        "--hover-share", type=common.finite, metavar="S", help="fraction of time in hover (default 0.5)"
+        "--hover-share",
+        type=common.finite,
+        metavar="0…1",
+        help="with hover-cruise: fraction of time in hover (default 0.5)",
     )
+    parser.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument(
-        "--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}: minimise the mean power"
+        "--no-band",
+        dest="band",
+        action="store_false",
+        help="omit the range of each parameter that costs 0.1 %% of power",
     )
+    parser.add_argument("--doubt", action="store_true", help="also search with other models, masses and drag areas")
     common.add_design_arguments(parser, speed=True)
     common.add_search_arguments(parser, STARTS)
-    parser.add_argument(
-        "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
-    )
-    parser.add_argument("--doubt", action="store_true", help="search with other models, masses and drag areas as well")
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    common.add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -63,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
     alone = objective == at_condition(design)
     if args.doubt and not alone:
         raise ValueError(
-            "--doubt searches for the least total power in one flight: leave --mission and --objective out"
+            "--doubt needs the least total power of one flight condition: leave --mission and --objective out"
         )
     limits = common.limits_from(args, design, (concept,))
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
@@ -146,7 +143,7 @@ def _objective(args: argparse.Namespace, design: Design) -> Objective:
             design, 0.5 if args.hover_share is None else args.hover_share, design.condition.advance_ratio
         )
     if args.hover_share is not None:
-        raise ValueError(f"hover share {args.hover_share:g} without its objective: add --objective hover-cruise")
+        raise ValueError(f"hover share {args.hover_share:g} needs its objective: add --objective hover-cruise")
     if args.objective not in QUANTITIES:
         raise ValueError(f"objective {args.objective!r} is not known: use {', '.join(QUANTITIES)} or hover-cruise")
     objective = at_condition(design, args.objective)
@@ -276,8 +273,8 @@ def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objec
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
         lines.append(
-            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: "
-            f"trade-offs, not a level{before}"
+            f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: for comparison, "
+            f"not an absolute level{before}"
         )
     if beside.same_airfoils is not None:
         saving = 100.0 * (1.0 - best.power / beside.same_airfoils)

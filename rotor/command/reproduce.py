@@ -13,12 +13,12 @@ from rotor.user_input import make_folder
 
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "reproduce", run)
-    parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; made when missing")
+    parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; created if missing")
     parser.add_argument(
-        "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
+        "--figure", metavar="N", action="append", help="only this one, e.g. 3.11 or 'table 4.1'; may be repeated"
     )
     parser.add_argument(
-        "--trust", action="store_true", help="also make the trust page: validation.md, validation/, trust.csv"
+        "--trust", action="store_true", help="also write the trust page: validation.md, validation/, trust.csv"
     )
     add_processes_argument(parser)
 

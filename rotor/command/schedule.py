@@ -9,7 +9,7 @@ from rotor.command import common
 from rotor.command.optimise import named
 from rotor.design.aircraft import told
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
-from rotor.optimisation.objective import MISSION_COLUMNS, POWERS, WeightedCondition, read_mission
+from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
 from rotor.table import CellValue, Table, table
@@ -25,19 +25,22 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "schedule", run)
     parser.add_argument(
-        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {common.CONCEPT_HELP}"
+        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"{common.CONCEPT_HELP} | all"
     )
-    parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
+    parser.add_argument("--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
-        "--mu", dest="range", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})"
+        "--mu",
+        dest="range",
+        metavar="A:B:STEP",
+        help=f"range of advance ratios, equal hours at each (default {DEFAULT_MU})",
     )
-    where.add_argument("--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}")
+    where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
+    common.add_processes_argument(parser)
     common.add_design_arguments(parser)
     common.add_search_arguments(parser, 4)
-    common.add_processes_argument(parser)
-    common.add_output_arguments(parser)
+    common.add_output_arguments(parser, "the table")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rotor.command.common import add_command, add_design_arguments, design_from, waves_text
+from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
 from rotor.table import CellValue, table
@@ -28,21 +28,18 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--row",
         metavar="DIR:N",
-        help="design of point N of a study's folder, or of one of its files, which other flags change",
+        help="start from point N of a study's folder or of one of its files; other flags change it",
     )
-    parser.add_argument(
-        "--save", type=Path, metavar="FILE", help="write the design as a design file, which the page opens"
-    )
-    parser.add_argument(
+    output = add_output_arguments(parser)
+    output.add_argument("--save", type=Path, metavar="FILE", help="write a design file, which the page opens")
+    output.add_argument(
         "--distribution",
         action="store_true",
-        help="lift along the blade too; with --json lift, coefficients, angle of attack and induced velocity of one "
-        "blade by radius and azimuth",
+        help="also print lift along the blade; with --json lift, coefficients, angle of attack and induced velocity of "
+        "one blade by radius and azimuth",
     )
-    parser.add_argument(
-        "--doubt", action="store_true", help="how sure power is, and what the twist saves against the blade as built"
-    )
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    words = "also print the uncertainty of power, and of what the twist saves compared with the blade as built"
+    output.add_argument("--doubt", action="store_true", help=words)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -102,9 +99,9 @@ def _vibration(solution: Solution) -> dict[str, Any]:
     loads = hub_loads(solution) if solution.converged else None
     note = "" if reason is None else reason.sentence
     if reason is None and loads is None and solution.converged:
-        note = "No hub loads: the design does not trim with blades that bend."
+        note = "No hub loads: the design does not trim with bending blades."
     elif loads is not None and not solution.design.models.bending:
-        note = "The hub loads are those of blades that bend; add bending for a trim with them."
+        note = "The hub loads are those of bending blades; switch bending on to trim with them."
     return {
         "hub_loads": loads and loads.record(),
         "hub_loads_note": note,
@@ -174,7 +171,7 @@ def report(solution: Solution) -> str:
             low, high = (end.design.fuselage.drag_area for end in band)
             less, more = (end.power.total / size for end in band)
             between = f"{less:.1f} … {more:.1f} {symbol} for drag areas {low:g} … {high:g} m²"
-            lines += [f"{'total':<12}{between}: the sources leave that open"]
+            lines += [f"{'total':<12}{between}, the range of the sources"]
         merit, factor = solution.figure_of_merit, solution.induced_power_factor
         lines += ["", f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
         lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
@@ -200,8 +197,8 @@ def report(solution: Solution) -> str:
             + ", ".join(
                 f"{name} {value:.0f} {'N' if name[0] == 'f' else 'N m'}" for name, value in loads.amplitudes.items()
             ),
-            f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over inflow models: "
-            "trade-offs, not a level",
+            f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over inflow models: for comparison, "
+            "not an absolute level",
         ]
     lines += [wrapped(f"caveat: {caveat.sentence}", "  ") for caveat in solution.caveats]
     return "\n".join(lines)

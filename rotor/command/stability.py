@@ -20,22 +20,25 @@ from rotor.user_input import parse_range
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "stability", run)
     parser.add_argument(
-        "--air", choices=AIRS, default=AIRS[0], help="unsteady: lift follows with the lag of shed vorticity"
+        "--air",
+        choices=AIRS,
+        default=AIRS[0],
+        help="quasi-steady or unsteady lift, which lags by shed vorticity (default quasi-steady)",
     )
     parser.add_argument(
         "--cg-offset-percent",
         type=common.finite,
         default=0.0,
-        metavar="P",
-        help="move the centre of gravity of the lifting blade aft by so much of the chord (default 0)",
+        metavar="PERCENT",
+        help="move the centre of gravity of the lifting blade aft by this percentage of the chord (default 0)",
     )
     parser.add_argument(
         "--boundary",
         metavar="A:B:STEP",
-        help="also the stiffness in torsion that is needed over offsets of the centre of gravity, percent of the chord",
+        help="also find the torsional stiffness required over centre-of-gravity offsets in per cent of the chord",
     )
-    parser.add_argument("--actuator", metavar="ID", help="beside it the blade with this actuator, e.g. MFC_P1")
-    parser.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
+    parser.add_argument("--actuator", metavar="ID", help="also analyse the blade with this actuator, e.g. MFC_P1")
+    parser.add_argument("--plies", type=int, metavar="N", help=common.PLIES_HELP)
     common.add_design_arguments(parser, speed=True)
     common.add_output_arguments(parser, "the modes, or with --boundary its lines,")
 

@@ -142,23 +142,31 @@ def add_parser(commands: Any) -> None:
         commands,
         "study",
         run,
-        "Runs a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
+        "Run a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
     )
-    parser.add_argument("file", metavar="FILE.toml", help="study file, a shipped example (two_segment.toml), or show")
+    parser.add_argument(
+        "file", metavar="FILE.toml", help="study file, shipped example (two_segment.toml), or the word show"
+    )
     parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
     parser.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="address of a running Dask cluster, tls://… outside trusted networks (default: this machine's cores)",
+        help="address of a running Dask cluster, tls://… outside trusted networks (default: the cores of this machine)",
     )
-    parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (default: one per core)")
-    parser.add_argument("--out", metavar="DIR", help="results folder (default: the file's name); resumed if it exists")
     parser.add_argument(
-        "--dry-run", action="store_true", help="check the file and estimate the time, without running it"
+        "--workers", type=int, metavar="N", help="processes to run on this machine (default: one per core)"
+    )
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        help="folder of the results (default: the file's name); an unfinished study in it is resumed",
+    )
+    parser.add_argument(
+        "--dry-run", action="store_true", help="check the file and estimate the time without running it"
     )
     parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
-    parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: uncertain axes")
-    add_output_arguments(parser, "all points, with show,")
+    parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: axes that are uncertain")
+    add_output_arguments(parser, "all points (with show)")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -168,10 +176,10 @@ def run(args: argparse.Namespace) -> int:
     for flag in ("folder", "least", "uncertain", "csv", "json"):
         if getattr(args, flag):
             name = repr(args.folder) if flag == "folder" else f"--{flag}"
-            raise ValueError(f"{name} belongs to show: write `study show DIR`")
+            raise ValueError(f"{name} is for show only: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and args.scheduler:
-        raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
+        raise ValueError("--workers starts processes on this machine, --scheduler uses a cluster: omit one")
     check_workers(args.workers)
     if args.dry_run:
         return _dry_run(file)
@@ -278,7 +286,7 @@ def _show(args: argparse.Namespace) -> int:
         raise ValueError("show needs a folder: write `study show DIR`")
     for flag in ("scheduler", "workers", "out", "dry_run"):
         if getattr(args, flag):
-            raise ValueError(f"--{flag.replace('_', '-')} belongs to a run: omit it with `study show`")
+            raise ValueError(f"--{flag.replace('_', '-')} is for running a study: omit it with `study show`")
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)

@@ -30,10 +30,10 @@ from rotor.units import power_unit
 
 def add_sweep(commands: Any) -> None:
     parser = common.add_command(commands, "sweep", run_sweep)
+    words = "one of the twists; a further column then shows power relative to it"
+    parser.add_argument("--relative-to", metavar="SPEC", help=words)
     common.add_design_arguments(parser, twists=True, ranges=True)
-    words = "one of the twists: a further column has power relative to it"
-    parser.add_argument("--relative-to", metavar="TWIST", help=words)
-    common.add_output_arguments(parser)
+    common.add_output_arguments(parser, "the table")
 
 
 def run_sweep(args: argparse.Namespace) -> int:
@@ -47,7 +47,7 @@ def run_sweep(args: argparse.Namespace) -> int:
     base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
     if base and base not in (known := [design.twist.spec() for design in designs]):
         raise ValueError(
-            f"--relative-to {base} is none of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
+            f"--relative-to {base} is not one of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
         )
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
@@ -102,7 +102,9 @@ def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     several = [name for name in given if len(given[name]) > 1] or speeds
     if len(speeds) > 1 or len(several) != 1:
         asked = " and ".join(f"--{SWEPT[name].flag}" for name in dict.fromkeys((*speeds, *several))) or "nothing"
-        raise ValueError(f"a sweep over {asked}: give one range, for example --mu 0.05:0.40:0.05; 0 is hover")
+        raise ValueError(
+            f"a sweep over {asked} is not possible: give one range, for example --mu 0.05:0.40:0.05, where 0 is hover"
+        )
     args.over = several[0]
     for name, values in given.items():
         setattr(args, name, values[0])
@@ -121,14 +123,16 @@ FRONT_COLUMNS = (
 
 def add_front(commands: Any) -> None:
     parser = common.add_command(commands, "front", run_front)
-    varied = f"static twist to vary: {common.CONCEPT_HELP}; else active twist"
+    varied = f"vary static twist, not active twist; {common.CONCEPT_HELP}"
     parser.add_argument("--concept", metavar="NAME", help=varied)
-    parser.add_argument("--harmonics", default="2,3", metavar="N,...", help="of the active twist (default 2,3)")
+    parser.add_argument(
+        "--harmonics", default="2,3", metavar="N,…", help="harmonics per revolution of the active twist (default 2,3)"
+    )
     reach = "largest amplitude of each harmonic (default 1)"
     parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
-    parser.add_argument("--points", type=int, default=5, metavar="N", help="points of the front (default 5)")
+    parser.add_argument("--points", type=int, default=5, metavar="N", help="points on the trade-off curve (default 5)")
     common.add_design_arguments(parser, speed=True)
-    common.add_output_arguments(parser)
+    common.add_output_arguments(parser, "the table")
 
 
 def run_front(args: argparse.Namespace) -> int:
@@ -200,7 +204,7 @@ def _front(front: VibrationFront, found: Table) -> str:
     lines.append(
         wrapped(
             "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
-            "trade-offs, not a level"
+            "for comparison, not an absolute level"
         )
     )
     return "\n".join(lines)
@@ -209,7 +213,7 @@ def _front(front: VibrationFront, found: Table) -> str:
 def add_waterfall(commands: Any) -> None:
     parser = common.add_command(commands, "waterfall", run_waterfall)
     common.add_design_arguments(parser, speed=True)
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    common.add_output_arguments(parser)
 
 
 def run_waterfall(args: argparse.Namespace) -> int:
@@ -280,11 +284,15 @@ def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[C
 
 def add_airfoil(commands: Any) -> None:
     parser = common.add_command(commands, "airfoil", run_airfoil)
-    parser.add_argument("action", choices=("show", "build", "verify"), help="build and verify need a checkout")
-    parser.add_argument("name", metavar="NAME", help=", ".join(TABLE_NAMES))
-    parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")
-    parser.add_argument("--mach", type=float, metavar="M", help="one point, with --alpha")
-    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point [deg]")
+    parser.add_argument(
+        "action",
+        choices=("show", "build", "verify"),
+        help="show the data; build and verify need a checkout of the source",
+    )
+    parser.add_argument("name", metavar="NAME", help=f"section: {', '.join(TABLE_NAMES)}")
+    parser.add_argument("--mach", type=float, metavar="M", help="Mach number of one point, with --alpha")
+    parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point")
+    common.add_output_arguments(parser)
 
 
 def run_airfoil(args: argparse.Namespace) -> int:
@@ -307,9 +315,11 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
     """Lift, drag and moment at one Mach number and angle of attack [°] about the section's own chord line."""
     table = load_installed(name).table
     if not 0.0 <= mach <= table.mach_limit:
-        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose within them")
+        raise ValueError(
+            f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose a value inside"
+        )
     if not -180.0 <= alpha <= 180.0:
-        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose within them")
+        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose a value inside")
     here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)
     cl, cd = round(float(here.cl), 5), round(float(here.cd), 6)
     cm = None if moment is None else round(float(moment), 5)

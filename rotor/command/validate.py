@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from rotor.command.common import add_command
+from rotor.command.common import add_command, add_output_arguments
 from rotor.plots import draw_chart, drawing_module
 from rotor.table import CellValue, table
 from rotor.terminal import wrapped
@@ -28,11 +28,13 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "validate", run)
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
-    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
-    parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of the preset flight)")
-    parser.add_argument("--json", action="store_true", help="machine-readable output")
-    parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
+    parser.add_argument(
+        "sets", nargs="*", metavar="SET", help=f"set of points: {measured} (default: all these), {more}"
+    )
+    parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of preset flight)")
+    parser.add_argument("--plot", metavar="DIR", help="also draw each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
+    add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:

@@ -18,7 +18,7 @@ def add_parser(commands: Any) -> None:
         commands,
         "warm",
         run,
-        "Compiles and keeps all kernels, half a minute of processor time; else each command compiles what it needs.",
+        "Compile and keep all kernels, which takes about half a minute; else each command compiles what it needs.",
     )
 
 

@@ -33,10 +33,10 @@ class Harmonic:
 
     def __post_init__(self) -> None:
         if not 1 <= self.per_rev <= HIGHEST:
-            raise ValueError(f"harmonic {self.per_rev:g}/rev is outside 1…{HIGHEST}: choose one of these")
+            raise ValueError(f"harmonic {self.per_rev:g}/rev is outside 1…{HIGHEST}: choose a value inside")
         if not (math.isfinite(self.amplitude) and 0.0 <= self.amplitude <= LARGEST_TWIST * (1.0 + 1e-12)):
             degrees = math.degrees(self.amplitude)
-            raise ValueError(f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose less")
+            raise ValueError(f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose a value inside")
         if not math.isfinite(self.phase):
             raise ValueError(f"phase {self.phase:g} at {self.per_rev}/rev is not finite: give an angle")
         object.__setattr__(self, "phase", self.phase % math.tau % math.tau)  # Once gives 2π for −1e-20.
@@ -94,12 +94,14 @@ def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
     for harmonic in harmonics:
         if harmonic.per_rev == 1:
             raise ValueError(
-                f"root pitch at 1/rev is the cyclic, which has its own place: choose 2 to {HIGHEST}/rev, or give the "
+                f"root pitch at 1/rev is cyclic pitch, which is trimmed: choose 2 to {HIGHEST}/rev, or give the "
                 "cyclic of a test stand"
             )
         if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
             degrees = math.degrees(harmonic.amplitude)
-            raise ValueError(f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose less")
+            raise ValueError(
+                f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose a value inside"
+            )
 
 
 PerRev = str | Sequence["Harmonic | Sequence[float] | Mapping[str, Any]"]

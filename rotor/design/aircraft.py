@@ -74,9 +74,11 @@ class Stand:
                 row.check(row.shown(value))
         if self.flapping != "free" and (self.cyclic_1c or self.cyclic_1s):
             trims = "flapping" if self.flapping == "trimmed" else "hub moments"
-            raise ValueError(f"cyclic is given, but it trims the {trims}: leave it out, or give flapping free")
+            raise ValueError(
+                f"cyclic is given, but it is needed to trim the {trims}: leave it out, or set flapping to free"
+            )
         if self.flapping != "hub-moments" and (self.hub_roll or self.hub_pitch):
-            raise ValueError("hub moments are given, but do not trim the rotor: give flapping hub-moments as well")
+            raise ValueError("hub moments are given, but the rotor is not trimmed to them: set flapping to hub-moments")
 
     def __str__(self) -> str:
         given = self.record().items()

@@ -59,9 +59,11 @@ class BladeStructure:
             raise ValueError(f"blade structure stations {list(self.stations)} must ascend: sort them")
         smallest = min(min(column) for column in columns)
         if min(smallest, self.control_stiffness, self.pitch_horn) <= 0.0 or self.tension_gyration < 0.0:
-            raise ValueError("blade stiffness, mass, inertia, control stiffness and pitch horn must be positive")
+            raise ValueError(
+                "stiffness, mass, inertia and pitch horn of a blade structure must be positive: check the rotor file"
+            )
         if len(bending) == 1:
-            raise ValueError("a blade structure has one of flap and lag stiffness: give both, or neither")
+            raise ValueError("a blade structure has only one of flap and lag stiffness: give both, or neither")
 
     @property
     def bends(self) -> bool:
@@ -137,7 +139,9 @@ class Blade:
 
     def __post_init__(self) -> None:
         if len(self.chord_stations) != len(self.chords) or not self.chords:
-            raise ValueError(f"{len(self.chord_stations)} chord stations but {len(self.chords)} chords: give one each")
+            raise ValueError(
+                f"{len(self.chord_stations)} chord stations but {len(self.chords)} chords: give one chord per station"
+            )
         if not self.spans:
             raise ValueError("a blade needs at least one section span: add one with start, end and section")
         if not 0.0 < self.root_cutout < 0.9:

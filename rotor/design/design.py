@@ -135,7 +135,9 @@ class Models:
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
-            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
+            raise ValueError(
+                f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give at least 4 and 8"
+            )
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
@@ -183,10 +185,10 @@ class Design:
             raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
         if trim == "controls" and stand.collective is None:
             raise ValueError(
-                "trim 'controls' needs a collective: give one, or trim 'wind-tunnel', which takes a thrust too"
+                "trim 'controls' needs a collective: give one, or use trim 'wind-tunnel', which also takes a thrust"
             )
         if trim == "controls" and stand.flapping != "free":
-            raise ValueError("trim 'controls' needs free flapping: give that, or trim 'wind-tunnel'")
+            raise ValueError("trim 'controls' needs free flapping: set flapping to free, or use trim 'wind-tunnel'")
         if self.hovering and (stand.hub_roll or stand.hub_pitch):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
         if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
@@ -435,7 +437,7 @@ THESIS_MODELS = Models(
 
 def _no_change(_: Design, name: str, value: object) -> None:
     how = f"design.at({name}={value!r:.40})" if name in quantities.SWEPT else f"dataclasses.replace(design, {name}=…)"
-    raise FrozenInstanceError(f"a design does not change: make another, as with {how}")
+    raise FrozenInstanceError(f"a design cannot be changed: make a new one with {how}")
 
 
 type.__setattr__(Design, "__setattr__", _no_change)

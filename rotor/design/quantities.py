@@ -121,19 +121,19 @@ _SWITCHES = (
 
 _CONDITION = (
     Quantity(
-        "mu", "number", "advance ratio V/(ΩR) of the horizontal speed (default 0.2)",
+        "mu", "number", "advance ratio V/(ΩR) from the horizontal speed (default 0.2)",
         place="condition.advance_ratio", what="advance ratio", low=0.0, high=0.6, high_on_stand=0.75, default=0.2,
         examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, told=True,
         input="advance_ratio", slider=Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
         hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
     ),
     Quantity(
-        "speed_kt", "number", "the same as airspeed in knots", unit="kt", what="airspeed", examples=(60, 90, 120),
-        section="fixed",
+        "speed_kt", "number", "horizontal airspeed, instead of the advance ratio", unit="kt", what="airspeed",
+        examples=(60, 90, 120), section="fixed",
     ),
-    Quantity("hover", "switch", "hover, in place of a speed", default=False),
+    Quantity("hover", "switch", "hover, instead of a speed", default=False),
     Quantity(
-        "mass_kg", "number", "aircraft mass (default: the rotor's reference mass)", unit="kg",
+        "mass_kg", "number", "gross mass (default: the rotor's reference mass)", unit="kg",
         place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
         examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
         input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg", "t", 1e3),
@@ -151,7 +151,7 @@ _CONDITION = (
         "sound. | section 2",
     ),
     Quantity(
-        "isa_offset_c", "number", "temperature above the standard atmosphere at this altitude (default 0)",
+        "isa_offset_c", "number", "air temperature above the standard atmosphere at this altitude (default 0)",
         unit="°C", place="condition.isa_offset", what="ISA offset", short="ISA +", below="ISA −",
         plain="a standard day", low=-60.0, high=60.0, default=0.0, examples=(10, 0, 20), key="isa_offset_c",
         word="isa", section="fixed", input="isa_offset_c", in_place="density_kg_m3",
@@ -160,7 +160,8 @@ _CONDITION = (
         "viscosity follow; the power of the engines does not. | section 2",
     ),
     Quantity(
-        "climb_m_s", "number", "rate of climb, negative in descent; on a test stand: wind from above; preset flight",
+        "climb_m_s", "number",
+        "rate of climb, negative in descent; on a test stand, wind from above; with preset flight only",
         unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
         plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
@@ -173,14 +174,17 @@ _CONDITION = (
         "| section 2",
     ),
     Quantity(
-        "rotor_speed_percent", "number", "rotor speed, per cent of the rotor's own (default 100); mu stays", unit="%",
+        "rotor_speed_percent", "number",
+        "rotor speed as a percentage of the rotor's own (default 100); the advance ratio stays the same",
+        unit="%",
         place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", plain="its own rotor speed",
         low=70.0, high=110.0, default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm",
         section="fixed", input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
         hint="Rotor speed over that of the rotor file; µ stays, and the tail rotor is geared to it. | section 2",
     ),
     Quantity(
-        "load_factor", "number", "lift over weight in a steady turn at the same drag of the airframe (default 1)",
+        "load_factor", "number",
+        "lift over weight in a steady turn, with the airframe drag of straight flight (default 1)",
         place="condition.load_factor", what="load factor", short="load factor", plain="straight flight", low=0.1,
         high=5.0, default=1.0, in_flight=True, examples=(1.2, 1.0, 1.5), key="load_factor", word="n", section="fixed",
         input="load_factor", slider=Slider("Load factor n", 0.5, 3.0, 0.01, 0.1, "/0.1"),
@@ -190,26 +194,27 @@ _CONDITION = (
 )  # fmt: skip
 
 _BLADE = (
-    Quantity("case", "object", "design to start from, as from `load_design`; the other arguments change it"),
+    Quantity("case", "object", "design to start from, read by `load_design`; the other arguments change it"),
     Quantity(
-        "rotor", "text", "name of a rotor, or what `load_rotor` reads from a rotor file (docs/rotor_file.md)",
+        "rotor", "text", "a rotor file (docs/rotor_file.md) or the name of a rotor",
         choices=(*SHIPPED_ROTORS, *MEASURED_ROTORS), key="rotor", section="fixed", written=True, input="rotor",
         hint="The helicopter: its blades, sections, rotor speed and mass, as built. | section 4",
     ),
     Quantity(
         "twist", "text",
-        "a law or its SPEC: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | "
-        "points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE (degrees, per radius)",
+        "twist law in degrees and r/R: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | "
+        "points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE",
         key="twist", section="fixed", written=True,
     ),
     Quantity(
         "twist_per_rev", "text",
-        "active twist, linear from the root cut-out, N:DEG:PHASE,…, e.g. 3:1:180: DEG cos(N ψ − PHASE) degrees of the "
-        "tip relative to the root, as on a blade at rest; 2:0:0 takes away that of a design file",
+        "active twist N:DEG:PHASE,…, e.g. 3:1:180: it turns the tip by DEG cos(N ψ − PHASE) degrees relative to the "
+        "root of a blade at rest, linearly from the root cut-out; 2:0:0 removes the active twist of a design file",
         key="twist_per_rev", section="fixed",
     ),
     Quantity(
-        "pitch_per_rev", "text", "harmonic root pitch in the same form, 2 to 8/rev; both are off in hover",
+        "pitch_per_rev", "text",
+        "harmonic root pitch in the same form, 2 to 8/rev; hover has neither this nor active twist",
         key="pitch_per_rev", section="fixed",
     ),
 )  # fmt: skip
@@ -217,58 +222,58 @@ _BLADE = (
 _MODELS = (
     Quantity(
         "preset", "text",
-        "flight (default): best available; thesis: the models of the source document, on a rotor other than the "
-        "UH-60A with that rotor's own sections, planform, hinge and twist",
+        "flight (default): the best models available; thesis: the models of the source document; rotors other than the "
+        "UH-60A keep their own sections, planform, hinge and twist",
         place="preset", default=PRESETS[0], key="preset", section="models", written=True, input="preset",
         title="Preset",
         hint="Model choices of the source document, or the best available; each can be changed. | section 15",
     ),
     Quantity(
-        "inflow", "text", "model of the inflow, of forward flight or of hover",
+        "inflow", "text", "inflow model for forward flight or for hover",
         place="models.inflow", key="inflow", section="models", written=True, input="inflow", title="Inflow",
         hint="How the inflow through the disk depends on speed and load distribution. | 3.4",
     ),
     Quantity(
         "low_speed", "choice",
-        "hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not",
+        "hover (preset flight): near µ = 0 the inflow becomes that of the hover model; wake (thesis): it does not",
         place="models.low_speed", choices=LOW_SPEEDS, key="low_speed", input="low_speed", title="At low speed",
         hint="Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any "
         "speed. | section 9",
     ),
     Quantity(
         "loss_on", "choice",
-        "lift (flight) or inflow (thesis): what Prandtl's factors act on under linear inflow in forward flight",
+        "what Prandtl's factors act on with linear inflow in forward flight: lift (preset flight) or inflow (thesis)",
         place="models.loss_on", choices=LOSS_ON, key="loss_on", input="loss_on", title="Tip and root loss",
         hint="Prandtl's factors with linear inflow in forward flight: less lift at the ends of the blade, or more "
         "inflow. | 3.3",
     ),
     Quantity(
-        "airfoils", "text", "sections root to tip, e.g. sc1094r8,sc1095@0.5",
+        "airfoils", "text", "sections from root to tip with breaks in r/R, e.g. sc1094r8,sc1095@0.5; their names",
         choices=TABLE_NAMES, key="airfoils", section="fixed",
     ),
     Quantity(
-        "off", "text", "physical effects switched off, separated by commas",
+        "off", "text", "physical effects to switch off, separated by commas",
         choices=tuple(switch.flag for switch in _SWITCHES),
     ),
     Quantity(
         "bending", "switch",
-        "blades that bend in flap and lag, where the rotor file has their stiffness; the report then has hub loads",
+        "let the blades bend in flap and lag, if the rotor file gives their stiffness; the report then has hub loads",
         place="models.bending", default=False, key="bending", section="models", input="bending",
         title="Blade bending", short="blades bend",
         hint="On: blades whose stiffness is known bend in flap and lag, drawn ten times as large; the hub then has "
         "vibratory loads. Off: they flap as rigid blades. | section 10",
     ),
     Quantity(
-        "elements", "whole", "blade elements (default 40, or 24 panels of a lifting line)",
+        "elements", "whole", "blade elements (default 40; the lifting line has 24 panels)",
         key="elements", section="models",
     ),
     Quantity(
-        "azimuths", "whole", "stations around the disk (default 120, or 24 of a lifting line)",
+        "azimuths", "whole", "azimuth stations around the disk (default 120; 24 with the lifting line)",
         key="azimuths", section="models",
     ),
     Quantity("models", "object", "all model choices at once"),
     Quantity(
-        "trim", "text", "in flight, or on a test stand (the last three)",
+        "trim", "text", "trim in flight (the first two) or on a test stand",
         place="models.trim", choices=TRIMS, key="trim", section="models", input="trim", title="Flight or test",
         hint="Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; "
         "with the conditions of its tests, where a rotor was measured.",
@@ -290,12 +295,12 @@ _ACTIVE_TWIST = Quantity("active_twist", "object", key="active_twist")
 
 _STAND = (
     Quantity(
-        "shaft_tilt_deg", "number", "tilt of the shaft, positive forward (default 0; a free rotor finds its own)",
+        "shaft_tilt_deg", "number", "shaft tilt, positive forward (default 0; a free rotor finds its own)",
         unit="°", place="condition.stand.shaft_tilt", low=-40.0, high=40.0, input="shaft_tilt_deg",
         slider=Slider("Shaft tilt [°]", -25.0, 25.0, 0.1), hint="Tilt of the shaft, positive forward.",
     ),
     Quantity(
-        "ct_over_sigma", "number", "blade loading",
+        "ct_over_sigma", "number", "blade loading C_T/σ",
         place="condition.stand.ct_over_sigma", low=0.0, high=0.25, input="ct_over_sigma", title="Loading CT/σ",
         slider=Slider("CT/σ", 0.0, 0.2, 0.001), hint="Blade loading CT/σ: thrust over ρA(ΩR)²σ.",
     ),
@@ -310,23 +315,23 @@ _STAND = (
         slider=Slider("Collective [°]", -10.0, 30.0, 0.1),
     ),
     Quantity(
-        "cyclic_1c_deg", "number", "given cyclic, with free flapping", unit="°",
+        "cyclic_1c_deg", "number", "given cyclic pitch, cosine part, with free flapping", unit="°",
         place="condition.stand.cyclic_1c", low=-30.0, high=30.0, default=0.0, input="cyclic_1c_deg",
         slider=Slider("Cyclic θ1c [°]", -15.0, 15.0, 0.1),
         hint="Given cyclic θ1c, cosine part; the blades flap freely.",
     ),
     Quantity(
-        "cyclic_1s_deg", "number", "the same, sine part", unit="°",
+        "cyclic_1s_deg", "number", "given cyclic pitch, sine part, with free flapping", unit="°",
         place="condition.stand.cyclic_1s", low=-30.0, high=30.0, default=0.0, input="cyclic_1s_deg",
         slider=Slider("Cyclic θ1s [°]", -15.0, 15.0, 0.1),
         hint="Given cyclic θ1s, sine part; the blades flap freely.",
     ),
     Quantity(
-        "hub_roll_nm", "number", "given hub moment, towards the retreating side, with flapping hub-moments", unit="N m",
+        "hub_roll_nm", "number", "given hub moment towards the retreating side, with flapping hub-moments", unit="N m",
         place="condition.stand.hub_roll", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
-        "hub_pitch_nm", "number", "the same, nose up", unit="N m",
+        "hub_pitch_nm", "number", "given nose-up hub moment, with flapping hub-moments", unit="N m",
         place="condition.stand.hub_pitch", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
@@ -341,7 +346,7 @@ _STAND = (
     ),
     Quantity(
         "flapping", "choice",
-        "trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
+        "first-harmonic flapping: trimmed to zero by cyclic (default in a wind tunnel), free, or for given hub moments",
         place="condition.stand.flapping", choices=get_args(Flapping), input="stand_flapping", title="Flapping",
         hint="First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub "
         "moments.",

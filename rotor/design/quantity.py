@@ -125,6 +125,10 @@ class Quantity:
         """The last of the fields that lead to it."""
         return self.place.rpartition(".")[2]
 
+    def help_with(self, choices: Iterable[str]) -> str:
+        """Its help, and for a text the names that it may have."""
+        return f"{self.help}: {', '.join(choices)}" if self.kind == "text" and choices else self.help
+
     @property
     def heading(self) -> str:
         """The label with a capital, to begin a line."""

@@ -193,7 +193,7 @@ class Structure:
     def equation(self, name: Hashable) -> int:
         """The number of a new equation."""
         if name in self.equations:
-            raise ValueError(f"There is an equation {name!r} already: give this one another name.")
+            raise ValueError(f"There is already an equation {name!r}: give this one another name.")
         return self.equations.setdefault(name, len(self.equations))
 
     def term(self, equation: int, factor: float, i: int = ONE, j: int = ONE, q: int = 0, number: int = ONE) -> None:
@@ -210,7 +210,9 @@ class Structure:
     def finish(self, free: Sequence[int]) -> "Structure":
         """free: the atoms solved for, as many as there are equations."""
         if len(free) != len(self.equations):
-            raise ValueError(f"{len(free)} states are solved for with {len(self.equations)} equations: give each one.")
+            raise ValueError(
+                f"{len(free)} states have {len(self.equations)} equations: give one equation for each state."
+            )
         self.free = np.array(free, dtype=np.int64)
         highest = max([0, *(column[2] for column in self.columns), *(key[2] for key in self.measures)])
         self.waves, self.finished = highest + 1 + highest % 2, True

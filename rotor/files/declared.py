@@ -87,7 +87,7 @@ def _refusal(place: Place, value: Any, options: list[inspect.Type]) -> Refusal:
             case inspect.StructType(), dict():
                 return _wrong_key(place, cast("dict[str, Any]", value), each)
             case inspect.VarTupleType(), []:
-                return Refusal(f"{_key(place)[0]} has no values: give one at least", *place)
+                return Refusal(f"{_key(place)[0]} has no values: give at least one", *place)
             case inspect.LiteralType(values=choices), _ if isinstance(value, str) or len(options) == 1:
                 names = [str(choice) for choice in choices]
                 hint = (isinstance(value, str) and did_you_mean(value, names)) or ":"
@@ -154,7 +154,7 @@ def one_of(table: FileTable, *keys: str) -> str:
     """The key that a table has; Refusal unless it is exactly one of these."""
     given = [key for key in keys if getattr(table, key) is not None]
     if len(given) > 1:
-        raise Refusal(f"{given[0]} and {given[1]} both say the same: keep one of them", given[1])
+        raise Refusal(f"{given[0]} and {given[1]} give the same quantity: keep one of them", given[1])
     if not given:
         raise Refusal(f"there is no {' or '.join(keys)}: add {'one of them' if len(keys) > 1 else 'it'}")
     return given[0]

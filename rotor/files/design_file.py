@@ -92,7 +92,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
     inflow_model(models.inflow)
     if "active_twist" in record:
         if design.active_twist is not None:
-            raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
+            raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which mean the same: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
     design = replace(design, models=models)
     check_azimuths(design)
@@ -117,7 +117,7 @@ def parse_design(content: bytes, name: str) -> Design:
         record = _record(content, name)
         if "table:" in str(record.get("twist", "")):
             raise ValueError(
-                f"design file {name!r} names a twist table of another machine: write its rows as points:…@…"
+                f"design file {name!r} refers to a twist table on another machine: write its rows as points:…@…"
             )
         return _named(record, name)
 

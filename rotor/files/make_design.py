@@ -123,10 +123,8 @@ def make_design(
 
 if make_design.__doc__:  # Python drops docstrings when it is asked to.
     rows = ((name, ARGUMENTS[name]) for name in signature(make_design).parameters)
-    listed = (
-        (name, row.help, row.choices if name != "inflow" else (*INFLOW_MODELS, *HOVER_INFLOWS)) for name, row in rows
-    )
-    words = (f"{name}: {'; '.join(filter(None, (said, ', '.join(choices))))}." for name, said, choices in listed)
+    listed = ((name, row, row.choices if name != "inflow" else (*INFLOW_MODELS, *HOVER_INFLOWS)) for name, row in rows)
+    words = (f"{name}: {row.help_with(choices)}." for name, row, choices in listed)
     make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))
 
 

@@ -116,8 +116,8 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         rotor = _rotor(top.name, file.main, sections, key or "builtin")
         if not (rotor.blade.rigid or file.main.weighed or file.main.flap_inertia_kg_m2):
             remarks.append(
-                f"The rotor file has no blade_mass_kg: the blades flap as those of Lock number {LOCK_NUMBER:g}, which "
-                "power in hover does not depend on."
+                f"The rotor file has no blade_mass_kg: the blades flap with Lock number {LOCK_NUMBER:g}; hover power "
+                "does not depend on it."
             )
         stated, document = None, file.main.document
         if document is not None:
@@ -185,7 +185,9 @@ def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[O
     structure = _structure(given, at, radius)
     if spring is None and main.hub == "hingeless" and structure is not None and structure.bends:
         says = f"[{'.'.join(map(str, at))}] has no flap_spring_nm_rad"
-        raise Refusal(f"{says}: a hingeless blade that can bend needs it where it does not bend", *at)
+        raise Refusal(
+            f"{says}: a hingeless blade with bending stiffness also needs it, for solutions without bending", *at
+        )
     stations = given.chord_r or (main.root_cutout_r, 1.0)
     mass, inertia, moment = given.masses(radius - hinge, radius)
     return Blade(

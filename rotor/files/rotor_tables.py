@@ -37,7 +37,9 @@ _SPEEDS = ("speed_rpm", "tip_speed_m_s", "angular_speed_rad_s")
 
 def _check_stations(place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]) -> None:
     if len(stations) != len(values) or len(stations) < 2:
-        raise Refusal(f"{place} has {len(stations)} and {key} {len(values)} values: give one each, two or more", key)
+        raise Refusal(
+            f"{place} has {len(stations)} and {key} {len(values)} values: give one value per station, at least two", key
+        )
     for low, high in pairwise(stations):
         if low == high:
             step = sorted((low, low + (0.001 if low < 0.5 else -0.001)))
@@ -77,7 +79,7 @@ class StructureTable(FileTable, frozen=True, kw_only=True):
         bending = {"flap_stiffness_nm2": self.flap_stiffness, "lag_stiffness_nm2": self.lag_stiffness}
         given = [key for key, values in bending.items() if values]
         if len(given) == 1:
-            raise Refusal(f"{given[0]} alone: give {' and '.join(bending)}, or neither", given[0])
+            raise Refusal(f"{given[0]} is given alone: give {' and '.join(bending)}, or neither", given[0])
 
 
 class BladeTable(FileTable, frozen=True, kw_only=True):
@@ -235,7 +237,9 @@ class AirframeTable(FileTable, frozen=True, kw_only=True):
         if low is None and high is None:
             return None
         if low is None or high is None:
-            raise Refusal("drag_area_low_m2 or drag_area_high_m2 alone: give both, or neither", "airframe")
+            raise Refusal(
+                "only one of drag_area_low_m2 and drag_area_high_m2 is given: give both, or neither", "airframe"
+            )
         check_bounds(low, 0.0, self.drag_area_m2, "airframe", "drag_area_low_m2")
         check_bounds(high, self.drag_area_m2, 50.0, "airframe", "drag_area_high_m2")
         return low, high

@@ -61,8 +61,8 @@ def _is_known(outline: str) -> bool:
 def check_section_name(name: str) -> None:
     """Refusal for a name that no section of a rotor file may have."""
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
-        says = f"section name {name!r} is taken or has other characters"
-        raise Refusal(f"{says}: use letters a-z, digits and -, as my-section", "sections", name)
+        says = f"section name {name!r} is taken or has characters that are not allowed"
+        raise Refusal(f"{says}: use letters a-z, digits and -, such as my-section", "sections", name)
 
 
 def read_section(
@@ -180,7 +180,7 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
     families = by_reynolds(polars)
     if len(families) > MOST_REYNOLDS:
         says = f"the polars of {name} have {len(families)} Reynolds numbers"
-        raise Refusal(f"{says}: keep {MOST_REYNOLDS}, each some 1.5 times that before", *at)
+        raise Refusal(f"{says}: keep {MOST_REYNOLDS}, each about 1.5 times the one before", *at)
     if len(families) > 1:
         says += "; each blade element takes those of its Reynolds number Ωr c/ν, linear in its logarithm between two"
     elif machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:

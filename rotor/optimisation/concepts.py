@@ -299,6 +299,6 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
         case _:
             given = "1 division" if len(division) == 1 else f"{len(division)} divisions"
     raise ValueError(
-        f"concept {name} cannot take {given}: give one with two-segment and "
-        "two-segment-two-airfoils, two with three-segment, none with the others"
+        f"concept {name} cannot take {given}: give one for two-segment and "
+        "two-segment-two-airfoils, two for three-segment, none for the others"
     )

@@ -95,11 +95,11 @@ class Limits:
             raise ValueError(f"change limit {self.change_deg:g}° is negative: give 0 or more")
         if self.rate is not None and not self.rate[0] < self.rate[1]:
             low, high = (math.degrees(value) for value in self.rate)
-            raise ValueError(f"rate limits {low:g}…{high:g}°/R are empty: give the steepest first, e.g. -20,0")
+            raise ValueError(f"rate limits {low:g}…{high:g}°/R allow no rate: give the steepest first, e.g. -20,0")
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
             raise ValueError(f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside")
         if self.index is not None and not 0.0 < self.index < math.inf:
-            raise ValueError(f"limit {self.index:g} % of the vibration index: give more than 0")
+            raise ValueError(f"limit {self.index:g} % of the vibration index is not positive: give more than 0")
 
     def about(self, twist: TwistLaw, root: float) -> "Limits":
         """With `change_deg` as a limit on the change from this twist of a blade that begins at `root` (r/R)."""
@@ -126,8 +126,8 @@ class Limits:
             if not low < high:
                 parameter: Parameter = known[name]
                 raise ValueError(
-                    f"bounds {parameter.shown(low):g}…{parameter.shown(high):g} of {name} are empty: "
-                    "give low, then high"
+                    f"bounds {parameter.shown(low):g}…{parameter.shown(high):g} of {name} allow no value: "
+                    "give the lower one first"
                 )
             bounds[name] = (low, high)
         return tuple(bounds.values())

@@ -92,7 +92,9 @@ def over_conditions(
         where, weight = pair
         if isinstance(where, Design):
             if where.rotor.at_speed(100.0).tip_speed != design.rotor.at_speed(100.0).tip_speed:
-                raise ValueError(f"a condition of {where.rotor.name} for {design.rotor.name}: give the same rotor")
+                raise ValueError(
+                    f"a condition is of {where.rotor.name}, the design of {design.rotor.name}: use one rotor"
+                )
             flight = where.condition
         else:
             flight = design.at(mu=where).condition
@@ -151,9 +153,10 @@ def check_index(design: Design, objective: Objective, limits: Limits) -> None:
         reason = why_no_hub_loads(replace(design, condition=condition.flight))
         if reason is not None:
             where = f"advance ratio {condition.flight.advance_ratio:g}"
-            raise ValueError(f"the vibration index is asked for at {where}, where there is none. {reason.sentence}")
+            why = f"{reason.sentence[0].lower()}{reason.sentence[1:].rstrip('.')}"
+            raise ValueError(f"there is no vibration index at {where} ({why}): choose other conditions")
     if not design.models.bending:
-        raise ValueError("the vibration index needs blades that bend: add --bending, or bending=True in Python")
+        raise ValueError("the vibration index needs bending blades: add --bending, or bending=True in Python")
 
 
 def measure(

@@ -45,7 +45,9 @@ class Plan:
         if not self.conditions or not self.concepts:
             raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
         if self.quantity == "vibration":
-            raise ValueError("a schedule weighs powers: use the objective total or induced, with a limit on the index")
+            raise ValueError(
+                "a schedule compares powers: use the objective total or induced, with a limit on the index"
+            )
         check_index(self.design, Objective(self.quantity, self.conditions), self.limits)
 
     def design_at(self, condition: int | None) -> Design:

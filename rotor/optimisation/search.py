@@ -64,7 +64,7 @@ class Search:
 
     def __post_init__(self) -> None:
         if not 1 <= self.starts <= 1000:
-            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 suffice for most concepts")
+            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts")
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
         limits = self.limits.about(self.design.twist, self.design.rotor.blade.root_cutout)
@@ -95,8 +95,10 @@ def run_search(
         run.baseline = evaluate.baseline()
         if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
             return run.result(
-                refusal="The air drives the rotor at this rate of descent, so total power is below zero and a saving "
-                "says nothing: descend more slowly, or use the objective induced."
+                refusal=(
+                    "The air drives the rotor at this rate of descent, so total power is below zero and a saving has "
+                    "no meaning: descend more slowly, or use the objective induced."
+                )
             )
         evaluate.phase = "search"
         starts = _starts(search, evaluate)

@@ -265,9 +265,11 @@ def vibration_front(
     """
     require_design(design)
     if not 2 <= points <= 50:
-        raise ValueError(f"{points} points of a front are outside 2…50: 5 suffice for most")
+        raise ValueError(f"{points} points of a trade-off curve are outside 2…50: 5 are enough for most")
     if not 0.0 < reach_deg <= 5.0:
-        raise ValueError(f"reach {reach_deg:g}° of the active twist is outside 0…5°: actuators have 1 to 2")
+        raise ValueError(
+            f"reach {reach_deg:g}° of the active twist is outside 0…5°: choose a value inside; actuators reach 1 to 2"
+        )
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
     if concept is not None:
         return _static_front(design, concept, points)
@@ -381,7 +383,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     trims = analyse_many([family.apply(design, point.parameters) for point in (*front, _best(calm))])
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
-    words += f" {lost} of {len(searches)} searches did not converge: their best twist stands." if lost else ""
+    words += f" {lost} of {len(searches)} searches did not converge: their best twist so far is kept." if lost else ""
     return _over_inflows(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 
@@ -391,5 +393,5 @@ _ANY = 1e3
 
 def _best(optimum: Optimum) -> Minimum:
     if optimum.best is None:
-        raise RuntimeError(f"No front: {optimum.message}")
+        raise RuntimeError(f"No trade-off curve: {optimum.message}")
     return optimum.best

@@ -187,7 +187,7 @@ def envelope(
         True
     """
     if require_design(design).condition.stand is not None:
-        raise ValueError("an envelope is of flight, which a test stand has none of: give a design in flight")
+        raise ValueError("a design on a test stand has no flight envelope: give a design in flight")
     flights = [design.at(mu=speed) for speed in sorted(set(mu))]
     if not flights:
         raise ValueError("an envelope needs a speed: give for example mu=[0.1, 0.2, 0.3]")

@@ -164,7 +164,7 @@ def design_of_row(results: Results, row: int) -> Design:
         return design
     concept, held = concept_with_breaks(str(values["concept"]), blade)
     if len(held) < len(concept.parameters):
-        raise ValueError(f"point {row} found no blade: choose another one")
+        raise ValueError(f"point {row} has no optimum, because its search failed: choose another point")
     return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
 

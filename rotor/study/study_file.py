@@ -173,7 +173,7 @@ class Reader:
         if section == "axes" and quantity.kind == "switch":
             raise Refusal(f"{key} cannot be an axis: set it in [models] and make two studies", section, key)
         if section not in ("axes", quantity.section):
-            raise Refusal(f"{key} is in [{section}]: move it to [{quantity.section}]", section, key)
+            raise Refusal(f"{key} does not belong in [{section}]: move it to [{quantity.section}]", section, key)
 
     def _portable(self, section: str, key: str, text: str) -> str:
         """The value without files, for other machines: reads a rotor file, inlines a twist table."""

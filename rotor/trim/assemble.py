@@ -42,7 +42,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     work, freed = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
     if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY * abs(power.main_rotor):
         raise ValueError(
-            f"The air gives the motion of the blades {work:.4g} kW, and the freedoms' power says {freed:.4g} kW: make "
+            f"The air does {work:.4g} kW of work on the moving blades, but the freedoms report {freed:.4g} kW: make "
             "their columns, equations and power agree."
         )
     lift, drag = wind_forces(elements, total)

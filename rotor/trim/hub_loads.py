@@ -76,7 +76,7 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
     elif not has_hub_loads(rotor.blades):
         sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
     elif design.hovering or design.condition.advance_ratio < SLOWEST:
-        sentence = f"No hub loads below µ {SLOWEST:g}: there they are those of the wake model, not of the rotor."
+        sentence = f"No hub loads below µ {SLOWEST:g}, where they depend on the wake model more than on the rotor."
     else:
         return None
     return Caveat("no-hub-loads", sentence)

@@ -109,13 +109,13 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
         said["thesis-models"] = (
-            f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade."
+            f"The thesis does not treat the {design.aircraft.name}: its models are applied to this rotor's blade."
         )
     stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
         said["small-aspect-ratio"] = (
-            f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
-            "and Tung, of 6, a quarter to two thirds more than was measured in hover. Give the thrust instead."
+            f"At a given collective, blades of aspect ratio {ratio:.1f} get too much thrust: those of Caradonna and "
+            "Tung, of 6, get a quarter to two thirds more than measured in hover. Give the thrust instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
@@ -141,20 +141,20 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
         said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
     if design.pitch_per_rev and design.hovering:
         said["root-pitch-rests"] = (
-            "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
+            "Root pitch at harmonics of rotor speed is off in hover, where nothing depends on azimuth."
         )
     highest = max((harmonic.per_rev for wave in design.pitch_waves for harmonic in wave.harmonics), default=0)
     frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)  # ωc/2V at 0.75 R.
     if frequency > FAST_PITCH and not trim.problem.unsteady:
         said["fast-pitch"] = (
             f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and only "
-            "the wake that a lifting line sheds and the damping of the pitch rate answer to it."
+            "the shed wake of a lifting line and the pitch-rate damping respond to it."
         )
     control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         said["control-power"] = (
-            f"Pitch links and actuators put {power_text(control_power, 1)} into the pitching blades; that is not part "
-            "of the power here."
+            f"Pitch links and actuators put {power_text(control_power, 1)} into the pitching blades, which is not "
+            "included in the power."
         )
     if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
         said["torque-without-drag"] = (
@@ -175,7 +175,7 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
         )
     if hover_share(design) and trim.problem.joined is None:
         said["low-speed-not-matched"] = (
-            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed."
+            "The hover model has no solution at this weight, so the inflow does not change over to hover at low speed."
         )
     if design.vertical_speed < 0.0:
         inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
@@ -194,26 +194,26 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
         said["installed-power"] = (
-            f"The rotors take {power_text(power.total)}; the engines give {power_text(installed)} at sea level on "
+            f"The rotors need {power_text(power.total)}; the engines deliver {power_text(installed)} at sea level on "
             "a standard day, and less at altitude or in warmer air."
         )
     elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
         said["engines-of-a-standard-day"] = (
-            f"The engines' {power_text(installed)} are those of a standard day at sea level: in warmer air engines "
-            "give less, which is not counted here."
+            f"The engine power of {power_text(installed)} holds on a standard day at sea level; the loss in warmer "
+            "air is not included."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
-        said["controls"] = f"The trim needs more than the controls give: {', '.join(beyond)}."
+        said["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
     if mu > HIGH_SPEED:
         said["high-speed"] = (
-            f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall decide, which the sections here describe "
-            "roughly."
+            f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall dominate, which the section data describe "
+            "only roughly."
         )
     loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         said["blade-loading"] = (
-            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
-            f"too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
+            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift governs, and the computed power "
+            f"is too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
         )
     return said
 
@@ -228,8 +228,8 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
         said["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
     if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
         said["no-dynamic-stall"] = (
-            f"The inflow {design.models.inflow} balances the load at each point by itself, which sections that stall "
-            "with lags do not allow: they are steady here."
+            f"Inflow model {design.models.inflow} balances the load at each point separately, which rules out stall "
+            "with a lag: sections are steady here."
         )
     if held := _held_reynolds(trim):
         said["reynolds-outside-data"] = held
@@ -247,8 +247,8 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
         )
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
         said["mixed-section-data"] = (
-            f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and transition, the rest tables "
-            "with Mach number: their difference is one of data, not of airfoils."
+            f"Part of the blade uses the polynomials {THESIS_NAME} of one Mach number and transition, the rest tables "
+            "with Mach number: they differ in their data, not as airfoils."
         )
     low, high = disk.fit_range
     outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
@@ -403,7 +403,8 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if _tilt(design) > LARGEST_TILT:
         return (
             f"Not trimmed: drag tilts the shaft by {math.degrees(_tilt(design)):.0f}° at {what} and advance ratio "
-            f"{condition.advance_ratio:.3f}, and these equations hold to {math.degrees(LARGEST_TILT):.0f}°: {advice}."
+            f"{condition.advance_ratio:.3f}, and these equations hold only up to {math.degrees(LARGEST_TILT):.0f}°: "
+            f"{advice}."
         )
     near = easier_condition(design, reached)
     how_far = ""

@@ -62,7 +62,7 @@ def test_a_full_disk_is_one_line(
         (ValueError("µ is 9: choose less"), 2, "rotor: µ is 9: choose less\n"),
         (OverflowError("too large"), 2, "rotor: too large\n"),
         (RecursionError(), 2, "rotor: the input is nested too deeply: simplify it\n"),
-        (MemoryError(), 2, "rotor: this needs more memory than there is: ask for less at once\n"),
+        (MemoryError(), 2, "rotor: there is not enough memory: ask for less at once\n"),
         (PermissionError(13, "Permission denied", "a.csv"), 2, "rotor: 'a.csv' cannot be used (Permission denied)"),
         (KeyboardInterrupt(), 130, "rotor: stopped\n"),
     ],

@@ -99,7 +99,7 @@ def test_a_stand_carries_mass_as_thrust():
     newtons = [design.thrust_unit * one.ct for one in (before, after)]
     assert newtons[1] - newtons[0] == pytest.approx(98.07, rel=1e-3)
     given = replace(design.condition.stand, ct_over_sigma=None, collective=0.1) if design.condition.stand else None
-    with pytest.raises(ValueError, match="give the stand a thrust"):
+    with pytest.raises(ValueError, match="give a thrust instead"):
         with_mass(replace(design, condition=replace(design.condition, stand=given)), 10.0)
 
 

@@ -86,7 +86,7 @@ def test_titled_outlines_are_read_and_bad_ones_refused_in_one_sentence(tmp_path:
     for text, words in (
         ("\n".join(body[:50]) + "\n0.5 oops\n", "line 51: '0.5 oops' is not `x y`"),
         ("\n".join(body[:9]), "has 9 points"),
-        ("\n".join(body[:71]), "does not go round a section once"),
+        ("\n".join(body[:71]), "does not go around a section exactly once"),
     ):
         (tmp_path / "bad.dat").write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=r"bad\.dat") as caught:

@@ -152,7 +152,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["airfoil", "build", "sc1095"], "run `python -m tests.tools.sections build sc1095`"),
         (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
         (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
-        (["optimise", "--bound", "angle=1,2"], "names no parameter"),
+        (["optimise", "--bound", "angle=1,2"], "does not name a parameter"),
         (["optimise", "--bound", "rate=1"], "write two numbers"),
         (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
         (["schedule", "--plies", "3"], "add --actuator"),
@@ -178,7 +178,7 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     [
         (["--twist", "linear:-30"], "built with about 20"),
         (["--twist", "linear:8"], "give the opposite sign, as in linear:-8"),
-        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "one of data, not of airfoils"),
+        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "in their data, not as airfoils"),
     ],
 )
 def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, capsys: pytest.CaptureFixture[str]):

@@ -156,7 +156,7 @@ def test_text_holds_all_digits(phase: float):
 @pytest.mark.parametrize(
     ("pitch", "words"),
     [
-        ("1:1:0", "is the cyclic.* 2 to 8/rev"), ("9:1:0", "9/rev is outside 1…8"),
+        ("1:1:0", "is cyclic pitch.* 2 to 8/rev"), ("9:1:0", "9/rev is outside 1…8"),
         ("3:10.5:0", "10.5° at 3/rev is outside 0…10°"), ("3:1", "'3:1' is not understood: write N:DEG:PHASE"),
         ("2.5:1:0", "needs a whole number"), ("3:1:inf", "two finite angles"), ("3:1:0,3:1:0", "3/rev twice"),
         (",".join(["3:1:0"] * 100_000), "3/rev twice"), (3, "pitch_per_rev is 3: write"),

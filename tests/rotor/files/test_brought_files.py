@@ -58,11 +58,14 @@ def test_an_outline_in_any_order_is_the_same(kind: str):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (rows(POINTS[np.argsort(POINTS[:, 0])]), "does not go round a section once: list the points"),
+        (rows(POINTS[np.argsort(POINTS[:, 0])]), "does not go around a section exactly once: list the points"),
         (rows(POINTS).replace(rows(POINTS[9:10]), "0.5 0.4\n"), "line 10: the outline jumps to this point and back"),
         (rows(POINTS).replace(rows(POINTS[9:10]), "9.5 0.0\n"), "line 10: the outline jumps to this point: correct it"),
-        (rows(POINTS).replace(rows(POINTS[9:10]), "thick here\n"), "line 10: words between two points of one side"),
-        (rows(resample(load_contour("naca2412"), 81).points[:41]), "does not go round a section once: list the points"),
+        (rows(POINTS).replace(rows(POINTS[9:10]), "thick here\n"), "line 10: text interrupts the points of one side"),
+        (
+            rows(resample(load_contour("naca2412"), 81).points[:41]),
+            "does not go around a section exactly once: list the points",
+        ),
         (rows(0.01 * POINTS), "does not run from x 0 to 1"),
         (rows(np.tile(POINTS[3], (40, 1))), "x is"),
     ],

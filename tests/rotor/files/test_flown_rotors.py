@@ -39,10 +39,10 @@ def test_more_power_than_the_engines_give_is_a_caveat():
     assert slow.power.total < 124.0 * 745.7 < fast.power.total
     assert "installed-power" not in {one.name for one in slow.caveats}
     (caveat,) = [one for one in fast.caveats if one.name == "installed-power"]
-    assert f"take {1e-3 * fast.power.total:.0f} kW; the engines give 92 kW" in caveat.sentence
+    assert f"need {1e-3 * fast.power.total:.0f} kW; the engines deliver 92 kW" in caveat.sentence
     hot = solve(make_design(rotor="r22", speed_kt=60.0, isa_offset_c=20)).require()
     (caveat,) = [one for one in hot.caveats if one.name == "engines-of-a-standard-day"]
-    assert "in warmer air engines give less, which is not counted" in caveat.sentence
+    assert "the loss in warmer air is not included" in caveat.sentence
 
 
 def test_stops_of_the_uh60a_follow_from_its_mixer():
@@ -192,8 +192,8 @@ def test_power_between_the_drag_areas(name: str):
     ("rotor", "mu", "stand", "said"),
     [
         ("pca2", 0.1, {"ct_over_sigma": 0.07, "flapping": "hub-moments"}, "on blades hinged at the shaft"),
-        ("hart2", 0.1, {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "give flapping hub-moments as well"),
-        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "it trims the hub moments"),
+        ("hart2", 0.1, {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "set flapping to hub-moments"),
+        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "needed to trim the hub moments"),
         ("hart2", 0.0, HART2, "in hover the rotor is balanced"),
     ],
 )

@@ -75,7 +75,7 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     assert_allclose(powers, powers[0], rtol=1e-9)
     assumed, held = read(bare), read(rigid)
     assert_allclose(1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12)
-    assert "no blade_mass_kg: the blades flap as those of Lock number 8" in assumed.remarks[0]
+    assert "no blade_mass_kg: the blades flap with Lock number 8" in assumed.remarks[0]
     assert not held.remarks
     flown = solve(make_design(rotor=held, mu=0.15, stand={"ct_over_sigma": 0.08})).require()
     assert_allclose(math.degrees(flown.controls.coning), 2.0)
@@ -85,7 +85,7 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     with pytest.raises(ValueError, match="these blades are rigid and have no modes"):
         stability(flown)
     bends = 'structure = "uh60a"\n[airframe]'
-    with pytest.raises(ValueError, match="a hingeless blade that can bend needs it"):
+    with pytest.raises(ValueError, match="a hingeless blade with bending stiffness also needs it"):
         read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
 
 
@@ -241,7 +241,7 @@ def test_bad_section_files_get_one_sentence():
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "of cl: check the counts in line 1"),
         ("\n[sections.mine]\n", {}, "line 20: there is no deck or polars: add one of them"),
-        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or has other"),
+        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "name 'My Section' is taken or has characters"),
     ]  # fmt: skip
     for section, files, says in cases:
         with pytest.raises(ValueError, match=r"a\.|my\.toml") as caught:
@@ -337,7 +337,7 @@ def test_a_structure_with_bending_has_hub_loads():
 @pytest.mark.parametrize(
     ("old", "new", "remedy"),
     [
-        ("gj_nm2 = [5000.0, 4000.0]", "gj_nm2 = [5000.0]", "one each"),
+        ("gj_nm2 = [5000.0, 4000.0]", "gj_nm2 = [5000.0]", "one value per station"),
         ("r_m = [0.5, 5.0]", "r_m = [5.0, 0.5]", "ascending"),
         ("pitch_horn_m = 0.1\n", "", "pitch_horn_m"),
         ("pitch_horn_m", "pitch_horn", "pitch_horn_m"),

@@ -94,4 +94,4 @@ def test_the_doubt_of_a_twist_in_flight_names_masses_and_drag_areas(capsys: pyte
     flights = json.loads(capsys.readouterr().out)["flights"]
     assert list(flights) == ["mass 6658 kg", "mass 9987 kg", "drag area 0.0 m²", "drag area 4.1 m²"]
     assert main([*command, "--objective", "induced"]) == 2
-    assert "total power in one flight" in capsys.readouterr().err
+    assert "total power of one flight condition" in capsys.readouterr().err

@@ -85,7 +85,7 @@ def test_a_moving_twist_flies_the_best_of_each_speed():
 
 
 def test_what_has_none():
-    with pytest.raises(ValueError, match="an envelope is of flight"):
+    with pytest.raises(ValueError, match="has no flight envelope"):
         rotor.envelope(small(stand={"ct_over_sigma": 0.07}))
     with pytest.raises(ValueError, match="needs a speed"):
         rotor.envelope(small(), [])

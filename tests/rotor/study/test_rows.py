@@ -117,7 +117,7 @@ def test_the_command_solves_and_saves_a_row(
         (["--row", "{study}"], "give a study's folder and a point, as DIR:17"),
         (["--row", "{study}:9999"], "no finished point 9999: give one of 0…527"),
         (["--row", "nowhere:1"], "holds no study"),
-        (["--row", "{study}:1", "--case", "a.json"], "give one of them"),
+        (["--row", "{study}:1", "--case", "a.json"], "use one of them"),
         (["--save", "a.toml"], "a.toml"),
     ],
 )

@@ -80,7 +80,7 @@ BAD = {
     "none": ("title = 'x'\n", "no axes", "add"),
     "unknown quantity": ("[axes]\nspeed = [0.1]\n", "line 2", "mu"),
     "text": ("[axes]\nmu = ['fast']\n", "line 2", "not a number"),
-    "empty": ("[axes]\nmu = []\n", "line 2", "give one at least"),
+    "empty": ("[axes]\nmu = []\n", "line 2", "give at least one"),
     "twice": ("[axes]\nmu = [0.1, 0.1]\n", "line 2", "remove one"),
     "outside": ("[axes]\nmu = [0.1, 0.9]\n", "line 2", "0.9"),
     "both": ("[axes]\nmu = [0.1]\n[fixed]\nmu = 0.2\n", "line 4", "remove one"),

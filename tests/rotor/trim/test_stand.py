@@ -178,7 +178,7 @@ def test_wake_parameters_of_upflow(axial: float):
         ({}, "none of them"),
         ({"thrust_n": 1.0, "collective_deg": 2.0}, "thrust_n and collective_deg"),
         ({"ct_over_sigma": 0.5}, "outside 0…0.25"),
-        ({"collective_deg": 5.0, "cyclic_1c_deg": 1.0}, "it trims the flapping"),
+        ({"collective_deg": 5.0, "cyclic_1c_deg": 1.0}, "needed to trim the flapping"),
         ({"collective_deg": "5"}, "give a number"),
         ({"pitch": 5.0}, "is not known"),
     ],
