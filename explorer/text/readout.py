@@ -333,7 +333,7 @@ def mass_words(installed: InstalledActuator) -> str:
 
 def fuel_words(saved: float | None) -> str:
     """Fuel used beyond that without the actuator, in words. `saved`: [kg/s]; None: not known."""
-    return "no source for fuel" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg of fuel an hour"
+    return "fuel flow unknown" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg/h of fuel"
 
 
 def pair_words(verdict: Verdict) -> str:

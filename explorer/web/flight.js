@@ -72,7 +72,7 @@
     if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
         <button class="rxf-push" data-do="fails" data-value="${flight.frozen === null ? 'on' : 'off'}"
-          aria-pressed="${flight.frozen !== null}" title="The actuator fails: its twist stays while the flight goes on">
+          aria-pressed="${flight.frozen !== null}" title="Fails the actuator: its twist freezes while the flight goes on">
           Actuator stops here</button></div>
       <div class="rxf-num" data-words></div>
       <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
@@ -153,7 +153,7 @@
     earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
-          title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
+          title="Try another actuator: drag its twist and mass">What would pay?</button></div>
       <svg role="img"></svg>
       <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;

@@ -233,7 +233,7 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     installed, base = verdict.installed, verdict.baseline
     mass = installed.masses.aircraft
     if not mass:
-        raise ValueError(f"{installed.actuator.name} adds no mass: there is none that would pay")
+        raise ValueError(f"{installed.actuator.name} adds no mass, so no break-even mass applies")
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     for stroke in STROKES:
         start = [verdict.resting.values]

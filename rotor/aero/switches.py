@@ -38,7 +38,7 @@ def no_effect(design: Design, name: str) -> str:
     hovering = design.hovering
     inflow = inflow_model(design.models.inflow)
     if name in BEYOND_DOCUMENT and design.models.document_losses:
-        return "the document does not have it"
+        return "the source document does not have it"
     if name in ("fuselage", "download") and design.condition.stand is not None:
         return "there is no airframe on a test stand"
     match name:

@@ -98,21 +98,22 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
             )
     if design.tail_rotor is None and models.tail_rotor_solved and not trim.on_stand:
         said["no-tail-rotor"] = (
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power stands in for it."
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
         said["thesis-models"] = (
-            f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade."
+            f"The source document does not cover the {design.aircraft.name}; its models are used with this blade."
         )
     stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
         said["small-aspect-ratio"] = (
-            f"At a given collective blades of aspect ratio {ratio:.1f} get too much thrust here: those of Caradonna "
-            "and Tung, of 6, a quarter to two thirds more than was measured in hover. Give the thrust instead."
+            f"At a given collective, blades of aspect ratio {ratio:.1f} get too much thrust here: that of the "
+            "Caradonna and Tung blades (6) is a quarter to two thirds above the one measured in hover. Give the thrust "
+            "instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
-            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "The rotor file has no blade structure, so the blade is rigid in torsion here; real blades twist by "
             "degrees in flight."
         )
     return said
@@ -128,7 +129,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
         said["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
             said["rigid-blades-linear-inflow"] = (
-                "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low."
+                "Linear inflow does not respond to unequal lift, so the induced power of rigid blades is too low."
             )
     if design.active_twist and design.hovering:
         said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
