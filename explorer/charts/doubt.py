@@ -40,7 +40,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         for row, size in sizes
         if size >= _LEAST_PART * longest
     ]
-    said = f"With another model: {'; '.join(_said(each, units) for each in models)}."
+    said = f"Other models: {'; '.join(_said(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
         said += " The band covers uncertain inputs of this model; other models may lie outside it."
     with_others = tag("div.rx-dim", said) if models else Markup()

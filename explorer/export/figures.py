@@ -178,7 +178,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     said = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."
     parts = tag(
         "figure.chart",
-        tag("figcaption", tag("b", "Power it needs"), unit),
+        tag("figcaption", tag("b", "Extra power"), unit),
         _balance_bars(verdict, units),
         tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
     )

@@ -287,7 +287,7 @@ def balance(savings: Sequence[tuple[str, float]], units: Units) -> list[tuple[st
     exact = [-units.power[0].of(power) for _, power in savings]
     names = ["its twist" if name == "gross" else name for name, _ in savings]
     written = adding(exact, digits)
-    rows = zip((*names, "in all"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
+    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
     return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]
 
 

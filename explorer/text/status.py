@@ -34,7 +34,8 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
-    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {solution.passes} iterations."
+    count = f"{solution.passes} iteration{'' if solution.passes == 1 else 's'}"
+    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {count}."
     text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
     measured = tag("div.rx-small", validated(solution).sentence, data_explorer="measurement")
     return _status("converged", text, caveats, measured, provenance(solution))

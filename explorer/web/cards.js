@@ -66,14 +66,14 @@
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
-        <div role="group" aria-label="Compared with"><span class="rxf-dim">against</span>${blades}</div></header>
+        <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
       <div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('gives', one.here
+        ${column('result', one.here
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),

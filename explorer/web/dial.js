@@ -270,7 +270,7 @@
     if (!now) return head + wait;
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
-    const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', predicted' : ''}`;
+    const against = `vs. ${dial.against}, ${dial.where}${held || !dial.settled ? ', predicted' : ''}`;
     const needed = `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`;
     return `${head}${meter('Power', now.power, whole, .05, needed)}
       ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
