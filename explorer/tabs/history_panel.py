@@ -48,7 +48,7 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
                 tag("td.rx-take", _spark(item.solution), **take),
                 tag("td.rx-take.rx-kept", name, **take),
                 tag("td.rx-take.rx-num", power, **take),
-                tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Forget it", **drop)),
+                tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Delete", **drop)),
             )
         )
     return tag("table.rx-kept-table", rows, data_explorer="kept")

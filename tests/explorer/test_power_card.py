@@ -43,5 +43,5 @@ def test_more_than_the_engines_give_is_said_on_the_chip():
     """The UH-60A's two T700 give 2,327 kW by its rotor file."""
     fast = card(replace(OPENING, advance_ratio=0.42))
     assert fast.status.words == f"engines give only {number(2327.0)} kW"
-    assert "The rotors take" in fast.status.title
+    assert "The rotors need" in fast.status.title
     assert "engines" not in card(replace(OPENING, advance_ratio=0.3)).status.words

@@ -177,7 +177,7 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     ("flags", "words"),
     [
         (["--twist", "linear:-30"], "built with about 20"),
-        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "one of data, not of airfoils"),
+        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "by their data, not by their airfoils"),
     ],
 )
 def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, capsys: pytest.CaptureFixture[str]):
