@@ -60,8 +60,8 @@ def why_out_of_reach(address: str) -> str:
         return ""
     port = _port(address)
     return (
-        f"This notebook runs on JupyterHub, and {address} is an address of that machine: where the hub has "
-        "jupyter-server-proxy, name the hub: explorer.show(design, hub='hub.example'); else forward the port: "
+        f"This notebook runs on JupyterHub, and {address} is an address on that machine. If the hub has "
+        "jupyter-server-proxy, name the hub: explorer.show(design, hub='hub.example'). Otherwise forward the port: "
         f"ssh -L {port}:127.0.0.1:{port} USER@HUB and open {address} here."
     )
 

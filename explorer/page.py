@@ -64,7 +64,7 @@ from rotor.user_input import brief
 _BRAND = (37, 99, 235)
 _ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
 PANELS = POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
-_NO_LINK = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
+_NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
 
 
 class Page:
@@ -83,8 +83,8 @@ class Page:
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
         self._opening = start
-        start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
-        view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
+        start = address.read(share.DESIGN, inputs_from, start, "Link: design not used", problems)
+        view = address.read(VIEW, view_from, ViewState(), "Link: view not used", problems)
         self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
         self._pause, self._touched = 0.0, False
         self._theme()

@@ -230,4 +230,4 @@ class Session:
         self._all_changed = True
         self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()
         _log.error("an update failed", exc_info=error)
-        self.page.show_error(f"This update failed ({error}): move any slider to go on.")
+        self.page.show_error(f"This update failed ({error}): move any slider to continue.")

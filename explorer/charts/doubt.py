@@ -26,7 +26,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     """The sentence, what each uncertain input does to the change of power, or where there is none to power, and what
     other models give."""
     unit = units.power[0]
-    title = "What the doubt of the change consists of" if band.change is not None else "What the doubt consists of"
+    title = "Sources of uncertainty in the change" if band.change is not None else "Sources of uncertainty"
     sizes = [(row, abs(unit.of(row.power if row.change is None else row.change))) for row in band.rows[:MOST_ROWS]]
     longest = max((size for _, size in sizes), default=0.0) or 1.0
     rows = [
@@ -40,9 +40,9 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         for row, size in sizes
         if size >= _LEAST_PART * longest
     ]
-    said = f"With another model: {'; '.join(_said(each, units) for each in models)}."
+    said = f"Other models: {'; '.join(_said(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
-        said += " The band is of uncertain inputs of this model: another may lie outside."
+        said += " The band covers uncertain inputs of this model; other models may lie outside it."
     with_others = tag("div.rx-dim", said) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
@@ -76,7 +76,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         reach = f"{number(first, 1)} … {number(last, 1)}"
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))
-    title = f"Best linear jig twist of this flight: {number(rate, 1)} °/R"
+    title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

@@ -136,8 +136,10 @@ def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> 
     if point is None:
         return words
     if point.ours is None or point.error_percent is None:
-        return f"{words}; ours does not trim"
-    return f"{words}, ours {size * point.ours[measured.quantity]:.4g}, {number(point.error_percent, 1, sign=True)} %"
+        return f"{words}; the computed case does not trim"
+    return (
+        f"{words}, computed {size * point.ours[measured.quantity]:.4g}, {number(point.error_percent, 1, sign=True)} %"
+    )
 
 
 def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
@@ -230,13 +232,13 @@ def flight_words(measured: MeasuredPower, ours: OurPower | None, units: Units) -
     """A measured flight in words, with ours where it is known."""
     words = f"{measured.title}. Main rotor: measured {units.watts(measured.power, 1)}"
     if ours is not None and ours.power is None:
-        words += "; ours does not trim"
+        words += "; the computed case does not trim"
     elif ours is not None and ours.power is not None:
         percent = number(100.0 * (ours.power / measured.power - 1.0), 1, sign=True)
-        words += f", ours {units.watts(ours.power, 1)}, {percent} %"
+        words += f", computed {units.watts(ours.power, 1)}, {percent} %"
         low, high = (units.watts(end, 1) for end in ours.band or (0.0, 0.0))
         if low != high:
-            words += f"; {low} to {high} between the drag areas of the sources"
+            words += f"; {low} to {high} for the drag areas of the sources"
     return f"{words}."
 
 

@@ -80,7 +80,7 @@ def autorotation_words(curve: PowerCurve) -> str:
     if not curve.current or not driven.any():
         return ""
     words = f"Autorotation between µ {mus[driven][0]:g} and {mus[driven][-1]:g}: the air drives the rotor."
-    return words if known[0] else f"{words} No answer below µ {mus[known][0]:g}: vortex ring state."
+    return words if known[0] else f"{words} No solution below µ {mus[known][0]:g}: vortex ring state."
 
 
 def total_power_chart(
@@ -116,10 +116,8 @@ def total_power_chart(
         installed = unit.of(design.aircraft.installed_power)
         engines = [role_line("limit", mus, np.full(len(mus), installed))]
         top = top_speed(mus, power, installed) if curve.current else math.nan
-        note += (
-            f" Engines: {number(installed)} {unit.symbol} at sea level on a standard day, less higher or warmer; losses"
-        )
-        note += " of gearboxes and what the gearbox allows are not counted, so the top speed is an upper bound."
+        note += f" Engines: {number(installed)} {unit.symbol} at sea level on a standard day, less in high or warm air."
+        note += " Gearbox losses and limits are not included, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [role_line("reference", mus, here.main_rotor)]

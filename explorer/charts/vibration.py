@@ -111,8 +111,8 @@ def index_chart(
             *([] if index is None else [now_dot(solution.design.condition.advance_ratio, index)]),
         ),
         (Rule(0.0, SLOWEST, f"none below µ {SLOWEST:g}"),),
-        value=f"{left} speeds to go" if left else "" if index is None else f"{number(index, 1)} %",
-        note=f"Vibration index at the hub. None below µ {SLOWEST:g}: there it is that of the wake model.",
+        value=f"{left} speeds left" if left else "" if index is None else f"{number(index, 1)} %",
+        note=f"Vibration index at the hub. It is not shown below µ {SLOWEST:g}, where it depends on the wake model.",
     )
 
 

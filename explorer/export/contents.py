@@ -97,7 +97,7 @@ def on_board(driven: Assessed, units: Units) -> tuple[str, str, str]:
     mass, here = mass_parts(driven.one.installed)["in all"], driven.here
     if here is None:
         return "", f"without the {mass} of its actuator", ""
-    against = f"with {mass} on board, against the {against_words(driven.one, driven.one.question.against)}"
+    against = f"with {mass} on board, compared with the {against_words(driven.one, driven.one.question.against)}"
     return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
 
 

@@ -59,7 +59,12 @@ def overview(report: DesignReport, curves: PowerCurves) -> Markup:
             tuple(power),
         ),
         *([Chart("Change of power", Axis(speed, range=speeds), Axis(against), (zero, *changes))] if changes else []),
-        Chart("Jig twist along the blade", Axis("r/R", range=along_r), Axis("twist [°], zero at 0.75 R"), tuple(twist)),
+        Chart(
+            "Built-in twist along the blade",
+            Axis("r/R", range=along_r),
+            Axis("twist [°], zero at 0.75 R"),
+            tuple(twist),
+        ),
         Chart("Load along the blade", Axis("r/R", range=along_r), Axis("dT/dr, mean over azimuth [kN/m]"), tuple(load)),
     ]
     return tag("section", tag("h2", "Over speed and along the blade"), _charts(charts))
@@ -170,10 +175,10 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     where = f"{count(verdict.installed)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
-    said = f"Against {reference(verdict)} it {needs(verdict, units)} over the flight."
+    said = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."
     parts = tag(
         "figure.chart",
-        tag("figcaption", tag("b", "Power it needs"), unit),
+        tag("figcaption", tag("b", "Extra power"), unit),
         _balance_bars(verdict, units),
         tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
     )

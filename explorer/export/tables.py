@@ -44,8 +44,8 @@ def comparison(report: DesignReport) -> Markup:
     reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
     note = (
-        f"{', '.join(elsewhere)}: at another flight condition than {report.reference.title}; "
-        "the power difference is not due to the blade alone."
+        f"{', '.join(elsewhere)}: in another flight condition than {report.reference.title}, "
+        "so the blade alone does not explain the power difference."
     )
 
     def compared(value: Callable[[Solution], float]) -> list[Content]:
@@ -130,7 +130,7 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         size = unit.of(abs(row.power if row.change is None else row.change))
         name = f"{row.words} ± {row.size:g} {row.unit}".rstrip()
         rows.append((name, f"± {number(size, decimals(size))} {unit.symbol}"))
-    return _table("How sure", rows)
+    return _table("Uncertainty", rows)
 
 
 def vibration(solution: Solution) -> Markup:
@@ -152,11 +152,8 @@ def vibration(solution: Solution) -> Markup:
             (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
             (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
             ("Vibration index", f"{number(loads.index, 1)} {index_unit(solution.design)}"),
-            (
-                "The same over inflow models",
-                f"{number(low, 1)} … {number(high, 1)} %: for comparison, not an absolute level",
-            ),
-            ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments over the radius"),
+            ("Range over inflow models", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
+            ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments divided by the radius"),
         ]
     return _table("Vibration", rows)
 
@@ -169,7 +166,7 @@ def blade(design: Design) -> Markup:
     places = [shape.section_at(r) for r in stations]
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [
-        _row("Jig twist [°]", [number(angle, 2, sign=True) for angle in angles]),
+        _row("Built-in twist [°]", [number(angle, 2, sign=True) for angle in angles]),
         _row("Chord [m]", [number(chord, 3) for chord in chords]),
         _row("Section", sections, "words"),
     ]
@@ -209,7 +206,7 @@ def _with_change(solution: Solution, reference: Solution, value: Callable[[Solut
 
 def _least_induced(solution: Solution, units: Units) -> str:
     ideal = ideal_induced(solution)
-    return "not settled" if ideal is None else units.watts(ideal, 1)
+    return "not available" if ideal is None else units.watts(ideal, 1)
 
 
 def _speed(design: Design, units: Units) -> Content:

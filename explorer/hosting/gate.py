@@ -133,7 +133,7 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     if not _is_accepted(name, accepts):
         return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:
-        return f"{shown} must wait until the files before it have arrived: press again then."
+        return f"{shown} must wait for the files before it: try again when they have arrived."
     if size < 0 or not 0 <= parts <= _PARTS:
         return f"{shown} comes in {parts} parts: {_PARTS} are allowed."
     return None

@@ -105,7 +105,7 @@ def is_loopback(host: str) -> bool:
 def warning(host: str) -> str:
     """Two lines to print when the server listens to other machines."""
     return (
-        f"Warning: listening on {host}: whoever can reach this port can use the explorer; it asks for no password.\n"
+        f"Warning: listening on {host}: anyone who can reach this port can use the explorer without a password.\n"
         "Put a reverse proxy with TLS and authentication in front (docs/deploy.md), and pass its name: --allow-host."
     )
 
@@ -260,8 +260,8 @@ class RequestFilter:
 
 
 _TOO_LONG = "This address is too long: ask for a shorter link, or for the design as a file."
-_METHODS = "This server answers GET and HEAD alone."
-_VERSION = "This server answers HTTP/1.1 alone: a proxy in front of it may have to be told so."
+_METHODS = "This server answers only GET and HEAD."
+_VERSION = "This server answers only HTTP/1.1: set the proxy in front of it to use that."
 
 
 class GuardedConnection(ServerConnection):

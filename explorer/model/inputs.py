@@ -71,7 +71,7 @@ PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
 INFLOW_MENUS = {
     "inflow": {name: model.title for name, model in INFLOW_MODELS.items()},
     "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
-    "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
+    "low_speed": {"wake": "Forward wake at any speed", "hover": "Blends into hover"},
     "loss_on": {"lift": "On the lift", "inflow": "On the inflow, eq. (3.3)"},
 }
 """Inputs that choose the inflow: name → title of each choice."""

@@ -288,7 +288,7 @@ def place_of(inputs: Inputs, station: Station) -> str:
     twist = LAWS[inputs.law].make(inputs)
     law = inputs.design().twist if isinstance(twist, str) else twist
     angle = math.degrees(float(law(np.array([station.r]))[0]))
-    return f"{station.title} {station.r:.2f} R · jig {angle:+.1f}°".replace("-", "−")
+    return f"{station.title} {station.r:.2f} R · twist {angle:+.1f}°".replace("-", "−")
 
 
 def slid(inputs: Inputs, station: Station, r: float) -> Inputs:

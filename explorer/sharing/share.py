@@ -77,14 +77,14 @@ _Part = TypeVar("_Part")
 def code_of(design: Design) -> str:
     """The design as text; ValueError with one sentence for one that does not fit into an address."""
     if design.aircraft.files is not None:
-        raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send that.")
+        raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send the file.")
     record = design.to_dict()
     usual = _usual(record["preset"], design.aircraft)
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
-        raise ValueError("This design is too long for a link: save it as a file and send that.")
+        raise ValueError("This design is too long for a link: save it as a file and send the file.")
     return code
 
 
@@ -106,7 +106,7 @@ def design_from(code: str) -> Design:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
     twist, *words = rest.replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
-        raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
+        raise ValueError(f"The twist {cut(twist)!r} is a file on the sender's machine: ask for the design file.")
     record: dict[str, Any] = {"twist": twist}
     for word in words:
         key, equals, value = word.partition("=")

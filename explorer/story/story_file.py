@@ -148,7 +148,7 @@ def story_html(
     page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
     words = {
         "styles": web.styles("frame.css", "story.css", "small.css"),
-        "note": f"Computed by {PROGRAM} {versions()[PROGRAM]}. Forward flight is a model, not a measurement.",
+        "note": f"Computed by {PROGRAM} {versions()[PROGRAM]}. Forward flight: a model, not a measurement.",
         "column": web.text("column.html"),
         "stage": web.text("wipe.html"),
         "data": web.json_block("story-data", record),

@@ -111,7 +111,7 @@ class BackgroundWork:
 _KEPT = 64
 _LIMIT = 600.0
 """[s] for each task, by the clock: it needs seconds of a processor, of which a busy machine gives a worker little."""
-_LATE = "There is no answer within 10 minutes, as on a busy machine: it is tried again."
+_LATE = "No answer after 10 minutes; the machine may be busy. Trying again."
 _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
 

@@ -47,7 +47,7 @@ class UploadedFiles:
         Raises ValueError with one sentence for a file that cannot be used; nothing that was kept is lost.
         """
         if len(content) > LARGEST_FILE:
-            raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: a rotor's files have 2 MB at most.")
+            raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: the limit for rotor files is 2 MB.")
         if len(self.texts) >= _MOST_FILES and name not in self.texts:
             raise ValueError(f"{_MOST_FILES} files are loaded already: reload the page to start again.")
         try:
@@ -62,9 +62,7 @@ class UploadedFiles:
             if name in map(_base_name, named):
                 return self._rotor(self.rotor, {**self.texts, name: text})
         self.texts[name] = text
-        return UploadResult(
-            f"{name} is loaded: a rotor file ({_ROTOR_FILE}) that names it under [sections] will use it."
-        )
+        return UploadResult(f"{name} is loaded. A rotor file ({_ROTOR_FILE}) that names it under [sections] uses it.")
 
     def _rotor(self, name: str, texts: dict[str, str]) -> UploadResult:
         """A rotor file, when all that it names is here; it is kept while one of these cannot be used."""
@@ -78,7 +76,7 @@ class UploadedFiles:
             return UploadResult(f"{name} is loaded and needs {missing[0]}{also}: load that next.")
         aircraft = read_aircraft(name, {name: texts[name], **here})
         self.texts = texts
-        return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
+        return UploadResult(" ".join((f"{aircraft.name} is loaded.", *aircraft.remarks)), aircraft)
 
 
 def _base_name(file: str) -> str:
@@ -167,7 +165,7 @@ class FilePanel(Tab):
     def begin(self, problems: list[tuple[str, str]]) -> None:
         """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read."""
         inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED))
-        pinned = self._address.read(share.PINNED, inputs_from, None, "Not the A of the link", problems)
+        pinned = self._address.read(share.PINNED, inputs_from, None, "Link: A not used", problems)
         if pinned is not None:
             self._context.pin(pinned)
 
@@ -192,7 +190,7 @@ class FilePanel(Tab):
         name = shorten(file.name)
         try:
             if len(file.content) > MOST_BYTES:
-                raise ValueError(f"{name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
+                raise ValueError(f"{name} has {len(file.content)} bytes: the limit for a design file is {MOST_BYTES}.")
             with refusing(f"design file {name!r}", "check its values"):
                 design = parse_design(file.content, name)
                 inputs = share.within(inputs_of(design))

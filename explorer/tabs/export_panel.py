@@ -133,9 +133,9 @@ class ExportPanel(Tab):
         if state is None:
             self._say("problem", "There is no solution yet: wait for the first.")
         elif not self._busy.acquire(blocking=False):
-            self._say("busy", f"Busy: press {what} again after that.")
+            self._say("busy", f"Busy: press {what} again when it is done.")
         else:
-            self._say("busy", f"{what}: under way …")
+            self._say("busy", f"{what}: in progress …")
             threading.Thread(target=self._make, args=(what, ending, make, state), name="export", daemon=True).start()
 
     def _make(self, what: str, ending: str, make: Callable[[SessionState], bytes], state: SessionState) -> None:
@@ -143,7 +143,9 @@ class ExportPanel(Tab):
         try:
             name, content = file_name(state.solution.design, ending), make(state)
             self._context.download(name, content)
-            stale = " This is the last converged solution: the sliders have none." if self._stale else ""
+            stale = (
+                " It holds the last converged solution: the design on the sliders has no trim." if self._stale else ""
+            )
             size = f"{max(len(content) / 1e3, 1.0):,.0f} kB".replace(",", "\u2009")
             self._say("done", f"{name}, {size} ({time.perf_counter() - begin:.1f} s).{stale}")
         except (ValueError, TimeoutError) as error:

@@ -30,7 +30,7 @@ _SPARK = 46.0, 18.0
 def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
-        return tag("div.rx-dim.rx-small", "No bookmarks yet: Keep bookmarks this design.")
+        return tag("div.rx-dim.rx-small", "No bookmarks yet. Press Keep to add this design.")
     rows: list[Markup] = []
     for k, item in enumerate(kept):
         change = ""
@@ -48,7 +48,7 @@ def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units
                 tag("td.rx-take", _spark(item.solution), **take),
                 tag("td.rx-take.rx-kept", name, **take),
                 tag("td.rx-take.rx-num", power, **take),
-                tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Forget it", **drop)),
+                tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Delete", **drop)),
             )
         )
     return tag("table.rx-kept-table", rows, data_explorer="kept")

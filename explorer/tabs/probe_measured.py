@@ -109,10 +109,10 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
     condition = condition_of(beside.case.rotor, beside.case.name)
     name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"
     report = REPORTS[beside.case.test]
-    differs = ["at another condition"] * (not beside.at_test) + ["of another twist"] * (not beside.blade)
-    words = f"Ours is {' and '.join(differs)}." if differs else ""
+    differs = ["at another condition"] * (not beside.at_test) + ["with another twist"] * (not beside.blade)
+    words = f"Computed {' and '.join(differs)}." if differs else ""
     value, what = beside.case.name, tip("fly_measured")
-    press = tag("button.rx-push", "Set that of the test", data_do="flown", data_value=value, title=what)
+    press = tag("button.rx-push", "Set test condition", data_do="flown", data_value=value, title=what)
     if beside.at_test or condition is None:
         press = None
     return tag(
@@ -121,7 +121,7 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
             "div.rx-line.rx-probe-title",
             tag("span", tag("b", "Measured")),
             tag("span.rx-dim", name, title=report),
-            tag("span", dash(THIS), "ours"),
+            tag("span", dash(THIS), "computed"),
             title=tip("probe_measured"),
         ),
         tag("div.rx-line.rx-small.rx-base", tag("span", words), press) if differs else None,
@@ -156,7 +156,7 @@ def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike:
         ),
         (Rule(math.degrees(here) % 360.0),),
         value=f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else "",
-        note=f"{meaning[0].upper()}{meaning[1:]}, measured and ours. "
+        note=f"{meaning[0].upper()}{meaning[1:]}, measured and computed. "
         f"Correlation of harmonics 1 to {measured.highest}, without the mean.",
     )
     return chart_box(drawn_chart(chart), HEIGHT)

@@ -165,7 +165,7 @@ def _how_bent(solution: Solution) -> list[SceneLabel]:
         return []
     rotor = solution.design.rotor
     tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
-    title = "Flap and lag bending off the straight blade, the grey ghost, drawn ten times as large."
+    title = "Flap and lag bending from the straight blade (grey), drawn ten times as large."
     return [SceneLabel(f"bending × {BENDING_SHOWN:g}", f"{ROTOR}/blade_0", tip, title)]
 
 
@@ -177,7 +177,7 @@ def _title(loads: HubLoads) -> str:
     )
     wakes = ", ".join(INFLOW_MODELS[name].title for name in band_inflows())
     return (
-        f"Vibration index: √((0.5 Fx)² + (0.67 Fy)² + Fz²)/W + √(Mx² + My²)/(R W), amplitudes on the hub at "
+        f"Vibration index: √((0.5 Fx)² + (0.67 Fy)² + Fz²)/W + √(Mx² + My²)/(R W), from hub loads at "
         f"{loads.per_rev}/rev: {values}. Weights of the forces: 0.5 aft, 0.67 to starboard, 1 vertical. "
-        f"Band: least and largest with {wakes}. For comparing designs; the level itself is not reliable."
+        f"Band: least and largest with {wakes}. Use it to compare designs; its level is not reliable."
     )

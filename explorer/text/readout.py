@@ -287,7 +287,7 @@ def balance(savings: Sequence[tuple[str, float]], units: Units) -> list[tuple[st
     exact = [-units.power[0].of(power) for _, power in savings]
     names = ["its twist" if name == "gross" else name for name, _ in savings]
     written = adding(exact, digits)
-    rows = zip((*names, "in all"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
+    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
     return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]
 
 
@@ -333,7 +333,7 @@ def mass_words(installed: InstalledActuator) -> str:
 
 def fuel_words(saved: float | None) -> str:
     """Fuel used beyond that without the actuator, in words. `saved`: [kg/s]; None: not known."""
-    return "no source for fuel" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg of fuel an hour"
+    return "fuel flow unknown" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg/h of fuel"
 
 
 def pair_words(verdict: Verdict) -> str:

@@ -34,7 +34,8 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
-    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {solution.passes} iterations."
+    count = f"{solution.passes} iteration{'' if solution.passes == 1 else 's'}"
+    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {count}."
     text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
     measured = tag("div.rx-small", validated(solution).sentence, data_explorer="measurement")
     return _status("converged", text, caveats, measured, provenance(solution))
@@ -51,9 +52,9 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
-        apart.append("A and B fly at different conditions: the difference is not due to the design alone.")
+        apart.append("A and B fly in different conditions, so the design alone does not explain the difference.")
     if (a.preset, a.models) != (b.preset, b.models):
-        apart.append("A and B use different models: the difference is not due to the blade alone.")
+        apart.append("A and B use different models, so the blade alone does not explain the difference.")
     return [
         *apart,
         *(sentence for sentence in sentences if sentence in other),
@@ -71,8 +72,8 @@ def _own_cautions(solution: Solution) -> list[str]:
     used = solution.design.fuselage.drag_area
     return [
         *sentences,
-        f"Power in forward flight is indicative: the sources allow drag areas of {number(areas[0], 2)} to "
-        f"{number(areas[1], 2)} m²; here it is {number(used, 2)} m².",
+        f"Power in forward flight is indicative: the sources give drag areas of {number(areas[0], 2)} to "
+        f"{number(areas[1], 2)} m²; this design uses {number(used, 2)} m².",
     ]
 
 
@@ -107,7 +108,7 @@ def _status(kind: str, *content: Content) -> Markup:
 
 def trust_page() -> Markup:
     """Comparisons by kind."""
-    parts: list[Content] = [tag("div.rx-dim", "Hover over a row to see the test it is verified by.")]
+    parts: list[Content] = [tag("div.rx-dim", "Point at a row to see the test that verifies it.")]
     for kind, title in KINDS.items():
         parts.append(tag("h4", title))
         parts.extend(_trust_row(row) for row in trust_rows() if row.kind == kind)
@@ -145,7 +146,7 @@ def validated(solution: Solution) -> ValidationRecord:
     if not alike and (flown := _flown(solution)) is not None:
         return flown
     if not alike:
-        note = f"No measured power of this rotor {where} could be reached."
+        note = f"We found no measured power of this rotor {where}."
         if sets:
             note += f" It was measured in {'forward flight' if design.hovering else 'hover'} only."
         return ValidationRecord("no test data at this condition", note)
@@ -156,13 +157,13 @@ def validated(solution: Solution) -> ValidationRecord:
         words = f"Not compared with this inflow model. Measured: {report}."
         return ValidationRecord("not compared with this inflow", words, measured)
     outside = beyond(measured, solution)
-    parts = [f"Against measurement: {row.shown} ({report}).", row.remark]
+    parts = [f"Compared with measurement: {row.shown} ({report}).", row.remark]
     if outside:
-        parts.insert(0, f"Outside what was compared: {outside}.")
+        parts.insert(0, f"Outside the tested range: {outside}.")
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
-        parts.append("Measured with the twist as built; no measurement of this twist is known.")
+        parts.append("The measured blade has the twist as built; we know of no measurement with this twist.")
     if design.pitch_per_rev:
-        parts.append("Measured with collective and cyclic alone.")
+        parts.append("The test used collective and cyclic only.")
     size, error = "within" if measured.name == _DIGITISED else "rms", 0.0 if row.error is None else abs(row.error)
     words = "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
     sentence = typographic(" ".join(part for part in parts if part))
@@ -172,7 +173,7 @@ def validated(solution: Solution) -> ValidationRecord:
 def _flown(solution: Solution) -> ValidationRecord | None:
     """What was measured of this rotor in flight, or of its airloads in a tunnel; None where neither was."""
     design = solution.design
-    key, blade = design.aircraft.key, "" if as_measured(design) else " Measured with the twist as built."
+    key, blade = design.aircraft.key, "" if as_measured(design) else " The measured blade has the twist as built."
     powers, cases = flight_powers(key), airload_cases(key)
     what = "pitch-link load" if cases and cases[0].test == PITCH_LINK else "airloads"
     airloads = "" if not cases else f" The probe shows its measured {what}."
@@ -185,7 +186,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         words = f"measured: {number(percent, 1, sign=True)} % ({here.case})"
         kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
-        return ValidationRecord(words, f"Main rotor {kilowatts} ({report}).{airloads}")
+        return ValidationRecord(words, f"Main rotor: computed {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:
         report = REPORTS[cases[0].test]
         sentence = f"Its power was not measured. {what[0].upper()}{what[1:]}: {report}.{blade}{airloads}"
@@ -210,7 +211,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     """What of a solution lies outside the points that the row counts, in words; empty where nothing does."""
     climb = solution.design.condition.climb_speed
     if climb:
-        return f"rate of climb {climb:g} m/s, compared in level flight"
+        return f"rate of climb {climb:g} m/s, tested in level flight"
     points = [point for point in measured.points if measured.is_judged(point)] or list(measured.points)
     place = {
         "mu": solution.design.condition.advance_ratio,
@@ -225,7 +226,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
         low, high = min(values), max(values)
         margin = 0.05 * max(abs(high), abs(low))
         if not low - margin <= value <= high + margin:
-            return f"{SHORT[name]} {value:.3g}, compared {low:.3g}…{high:.3g}"
+            return f"{SHORT[name]} {value:.3g}, tested {low:.3g}…{high:.3g}"
     return ""
 
 

@@ -43,7 +43,7 @@ def why(before: Solution, after: Solution, units: Units = SI) -> str:
     if not after.converged:
         return after.message.partition(". ")[0].rstrip(".") + "."
     if not before.converged:
-        return "The design before had no trim, so there is nothing to compare with."
+        return "The previous design had no trim, so there is nothing to compare."
     if before.design == after.design:
         return "Nothing has changed."
     cause = _cause(before, after)
@@ -74,7 +74,7 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.pitch_per_rev != b.pitch_per_rev:
         orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in b.pitch_per_rev)
         causes.append(
-            f"{'other ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
+            f"{'different ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
         )
     if (a.twist, a.active_twist) != (b.twist, b.active_twist):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
@@ -91,8 +91,8 @@ def _rotor_causes(a: Design, b: Design) -> list[str]:
     if a.rotor.at_speed(100.0) == b.rotor.at_speed(100.0):
         return []
     if a.rotor.blade.spans != b.rotor.blade.spans:
-        return ["other blade sections"]
-    return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "another blade"]
+        return ["different blade sections"]
+    return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "a different blade"]
 
 
 def _model_causes(a: Design, b: Design) -> list[str]:
@@ -110,7 +110,7 @@ def _model_causes(a: Design, b: Design) -> list[str]:
         new, old = (INFLOW_MENUS["hover_inflow"][design.models.hover_inflow].lower() for design in (b, a))
         causes.append(f"{new} instead of {old} in hover")
     if a.models.low_speed != b.models.low_speed:
-        causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} passage to hover at low speed")
+        causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} transition to hover at low speed")
     if a.models.loss_on != b.models.loss_on:
         causes.append(f"tip and root loss on the {b.models.loss_on}")
     return causes

@@ -16,7 +16,7 @@ from rotor.actuator.verdict import Verdict
 from rotor.markup import Markup, tag
 from rotor.units import typographic
 
-TIP = "What the actuator adds in flight, at the tip, positive nose up: of the turning blade, less 1 to 10 % by the air."
+TIP = "Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %."
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 """The outer numbers stay within the bar."""
 
@@ -51,7 +51,7 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     rest = math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum()))
     facts = [
         mass_words(installed),
-        f"range of the tip {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
+        f"range of tip twist {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
         f"first torsion at {number(installed.frequency, 2)} /rev",
         *([f"moment {number(installed.moment)} N·m"] if installed.moment else ()),
         *([] if verdict is None else [f"twist required {number(math.degrees(verdict.required), 2)}°"]),
@@ -88,7 +88,7 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
     there are none."""
     if outcome is None or isinstance(outcome, str):
         return tag("div.rx.rx-dim.rx-small", outcome or "computing…", data_explorer="modes")
-    blades = {"as it is": outcome.without, "with actuator": outcome.fitted}
+    blades = {"without": outcome.without, "with actuator": outcome.fitted}
     head = tag("tr", tag("th", "Mode"), [tag("th", name) for name in blades])
     rows = list[Markup]()
     for name in (mode.name for mode in outcome.without.modes):
@@ -100,7 +100,9 @@ def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
         for name, blade in outcome.cases.items()
         if blade.margins is not None
     ]
-    note = tag("div.rx-dim.rx-small", "Per cent of critical damping, in this flight; linear, quasi-steady air.")
+    note = tag(
+        "div.rx-dim.rx-small", "Damping in per cent of critical, in this flight; linear, quasi-steady aerodynamics."
+    )
     return tag("div.rx", tag("table.rxa-table", head, rows), sentences, note, data_explorer="modes")
 
 

@@ -34,8 +34,8 @@ class Change(NamedTuple):
 
     @property
     def kind(self) -> Literal["gain", "loss", ""]:
-        """Empty where its sign cannot be told."""
-        if self.band is not None and sureness(self.power, self.band) == "cannot be told":
+        """Empty where its sign is unclear."""
+        if self.band is not None and sureness(self.power, self.band) == "unclear":
             return ""
         return "loss" if self.power > 0.0 else "gain"
 
@@ -200,11 +200,11 @@ def _title(value: Assessed, inputs: ActuatorInputs) -> str:
 def _vibration(value: Assessed) -> str:
     """The change of vibration here, with its band over inflow models."""
     if not value.vibration:
-        return "" if value.here is None else "no vibration is told here"
+        return "" if value.here is None else "no vibration data here"
     told = value.vibration[0], min(value.vibration), max(value.vibration)
     own, low, high = (number(change, 0, sign=True) for change in told)
     if told[1] * told[2] <= 0.0:
-        return f"vibration cannot be told ({low}…{high} %)"
+        return f"vibration unclear ({low}…{high} %)"
     return f"vibration {own} % ({low}…{high})"
 
 
@@ -226,8 +226,8 @@ def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
     wide = None if value.line is None else value.line.twist_for(value.mass)
     pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
     if wide is not None:
-        return moves, (*pays, " or with a range from ", f"{number(math.degrees(wide), 1)}°", " on.")
-    return moves, (*pays, "." if value.line is None else f"; no twist pays for {total}.")
+        return moves, (*pays, " or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
+    return moves, (*pays, "." if value.line is None else f"; no twist pays at {total}.")
 
 
 def card(now: Now) -> dict[str, AssessedPart | None]:

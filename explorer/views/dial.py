@@ -138,8 +138,8 @@ def validation_words() -> str:
     measured = [one.vibration_percent for one in programmes() if one.kind != "computed" and one.vibration_percent]
     least, most = -max(high for _, high in measured), -min(low for low, _ in measured)
     return (
-        "Not validated: we found no measured power benefit of active twist; published savings are computed. In wind "
-        f"tunnels blades with n/rev pitch or twist lost {number(least)} to {number(most)} % of their vibration."
+        "Not validated: we found no measured power saving by active twist; published savings are computed. In wind "
+        f"tunnels, n/rev pitch or twist reduced vibration by {number(least)} to {number(most)} %."
     )
 
 
@@ -148,7 +148,7 @@ def _set_words(now: Now) -> str:
     inputs = now.inputs
     hidden = [wave for wave in inputs.twist_per_rev if wave.per_rev not in HARMONICS or inputs.active_shape]
     words = harmonic_words(tuple(hidden), inputs.pitch_per_rev)
-    shaped = " The twist has the shape of its design file." if inputs.active_shape else ""
+    shaped = " The twist keeps the shape given in its design file." if inputs.active_shape else ""
     sentence = f"{words[:1].upper()}{words[1:]}.{shaped}" if words else ""
     return tag("div.rx.rx-dim.rx-small", sentence, data_explorer="per-rev")
 
@@ -207,7 +207,7 @@ def _dot_words(dot: FrontDot) -> str:
     words = f"power {number(dot.power, 1, sign=True)} %, vibration {number(dot.index, 0, sign=True)} %"
     words += f" ({low} to {high} over inflow models{')' if dot.agreed else ', which disagree in sign)'}"
     twist = harmonic_words(tuple(map(_on_sliders, dot.twist)), ())
-    return f"{words}: {twist}. Press to take it, or drag along the front."
+    return f"{words}: {twist}. Press to apply it, or drag along the curve."
 
 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
@@ -231,7 +231,7 @@ def _pressed(dots: Sequence[FrontDot], agreed: bool) -> Points:
     """The dots on whose sign all inflow models agree, which alone are called best, or the others."""
     chosen = [(k, dot) for k, dot in enumerate(dots) if dot.agreed == agreed]
     return Points(
-        "front" if agreed else "models disagree",
+        "models agree" if agreed else "models disagree",
         [dot.power for _, dot in chosen],
         [dot.index for _, dot in chosen],
         _BEST,
@@ -264,7 +264,7 @@ def programme_words(result: Programme) -> str:
         said.append(f"{result.vibration} {_range(result.vibration_percent)}")
     if result.power_change_percent is not None:
         said.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
-    apart = "" if result.together or result.power_change_percent is None else " Each is the largest of its kind."
+    apart = "" if result.together or result.power_change_percent is None else " The two are separate best results."
     return f"{', '.join(said)}.{apart} {result.note} {result.source}."
 
 

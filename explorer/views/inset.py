@@ -9,7 +9,7 @@ from explorer.picture.picture import flown_twist, follows_azimuth, ghost_twist
 from explorer.text.design_words import against
 from explorer.views.now import Now, Panel
 
-_GHOST_HINT = "The ghost has the same elastic twist: only the change of jig twist is seen."
+_GHOST_HINT = "The grey blade has the same elastic twist, so you see only the change of built-in twist."
 
 
 def blade_inset(now: Now) -> dict[str, Any]:
@@ -26,10 +26,10 @@ def blade_inset(now: Now) -> dict[str, Any]:
     if solution.elastic is None:
         names = "this blade", "The blade is rigid in torsion here.", compared, ""
     else:
-        hint = "Jig twist and elastic twist, at the azimuth of the reference blade"
+        hint = "Built-in plus elastic twist, at the azimuth of the reference blade"
         hint += f", ψ {state.view.azimuth_deg:.0f}°." if turns else "."
-        jig = "jig", "The blade as built, without the loads of flight."
-        names = "flown", hint, *((compared, _GHOST_HINT) if changed else jig)
+        jig = "built-in", "The blade without the loads of flight."
+        names = "in flight", hint, *((compared, _GHOST_HINT) if changed else jig)
     shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
     return {"inset": InsetPart(**vars(shown), **dict(zip(_NAMES, names, strict=True)))}
 

@@ -46,8 +46,8 @@ def _stage(now: Now) -> SupposePart | None:
     if value is None:
         return None
     if value.line is None or value.flight is None:
-        none = "" if value.mass else f"{value.name} adds no mass, so it has no break-even line."
-        return SupposePart(none or here_problem(now) or "Computing what would pay…")
+        none = "" if value.mass else f"{value.name} adds no mass, so no break-even mass applies."
+        return SupposePart(none or here_problem(now) or "Computing break-even…")
     units, line, own = now.units, value.line, _put(math.degrees(value.range), value.mass)
     degrees, mass = now.hand.place or own
     twist, band = math.radians(degrees), None
@@ -56,7 +56,7 @@ def _stage(now: Now) -> SupposePart | None:
         saving, band = -value.flight.power, value.flight.band
     most, least = line.mass_allowed(twist), line.twist_for(mass)
     notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
-    notes += [] if least is None else [f"with this mass, from {number(math.degrees(least), 1)}° on"]
+    notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     return SupposePart(
         words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
         kind=Change(-saving, band).kind,
@@ -122,6 +122,6 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
         Axis("range of tip twist in flight [°]", (0.0, x_most)),
         Axis("mass of all blades [kg]", y_range, log=True),
         tuple(series),
-        note="Line: the actuator as set with another range and mass, its stiffness and drive as they are. "
-        "Points: actuators as they are on this blade.",
+        note="Line: the actuator as set, with another range and mass but its own stiffness and drive. "
+        "Points: real actuators on this blade.",
     )

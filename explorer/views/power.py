@@ -107,9 +107,9 @@ def _status(state: SessionState, units: Units) -> Status:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
         words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
     elif reasons:
-        words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
+        words = "1 note" if len(reasons) == 1 else f"{len(reasons)} notes"
     else:
-        title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
+        title = f"{state.solution.message} {record.sentence} Click to see how far to trust it."
         return Status("converged", "trimmed", title)
     return Status("care", words, title)
 

@@ -108,7 +108,7 @@ def band_words(design: Design, drawn: bool) -> str:
     areas = design.fuselage.drag_area_band
     if areas is None or not drawn:
         return ""
-    return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², which the sources allow."
+    return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², from the sources."
 
 
 STRIP = Panel(strip, works=trims_asked, turns=True, remember=remember_ranges)

@@ -112,9 +112,9 @@ def _words(x: float, y: float, text: str, look: str = "") -> Markup:
 
 
 WATERFALL_WORDS = (
-    "The same condition without flapping, losses, reverse flow, compressibility and fuselage drag, then with one more "
-    "at a time; every row is a trim. The cost of an effect depends on the others: what each alone adds to the "
-    "whole stands beside its switch, under Model."
+    "The first row has no flapping, losses, reverse flow, compressibility or fuselage drag. Each further row adds one "
+    "effect; every row is a trim. The cost of an effect depends on the others: under Model, each switch shows the cost "
+    "of its effect with all others on."
 )
 _CLIMB = len(SWITCHES) + 1
 """Steps from everything off to everything on; those with each switch off alone follow."""

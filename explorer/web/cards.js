@@ -63,21 +63,21 @@
       aria-pressed="${name === against}">${text(title)}</button>`).join('');
     const masses = one.masses.map(([name, mass]) => `<i>${text(name)} ${text(mass)}</i>`).join(' · ');
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
-      title="Press or drag: suppose an actuator like that">${text(words)}</button>${one.pays[k + 1][0]}</b>`
+      title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
-        <div role="group" aria-label="Changes count from"><span class="rxf-dim">against</span>${blades}</div></header>
+        <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
       <div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
-          'What the actuator adds in flight, at the tip, positive nose up: the air takes 1 to 10 % of it')}
+          'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('gives', one.here
+        ${column('result', one.here
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With it on board. ± by uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
+          'With the actuator on board. ± from uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.here ? one.said : `${one.said} ${wait}`)} </span>${pays}
       </p>`);
@@ -148,7 +148,7 @@
       const stall = name === 'stall', share = text(plan ? shares[name] ?? '' : stall && field.stalled || '');
       const words = share && plan ? `<span class="rxf-num">${share}</span>` : share;
       return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
-        ${stall ? 'title="Of the disk, at high and at negative angles of attack"' : ''}>
+        ${stall ? 'title="Part of the disk at high and at negative angles of attack"' : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
     });
     if (difference !== null) key.push(`

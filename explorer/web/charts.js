@@ -92,11 +92,11 @@
   });
 
   const MEANT = {
-    jig: 'As built; the sliders set it',
-    flown: 'Jig, active and elastic twist: mean over azimuth, shaded from least to greatest',
+    jig: 'Built-in twist, set by the sliders',
+    flown: 'Twist in flight: built-in, active and elastic; mean over azimuth, shaded from least to greatest',
   };
   // One row, in the corner where it covers none of the curves, or least of them; it stays there while it can.
-  const WORDS = {jig: [['jig, set by the sliders', 158]], flown: [['jig', 46], ['flown, band over azimuth', 170]]};
+  const WORDS = {jig: [['built-in, set by sliders', 158]], flown: [['built-in', 70], ['in flight, band over ψ', 150]]};
   let corner = 0;
   function drawKey({series}, {X, Y, left, right, top, base}) {
     const named = series.filter(({label}) => label).reverse(), words = WORDS[named.at(-1).label];

@@ -54,11 +54,11 @@
     return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
   }
   function shakes(index) {
-    if (!index.length) return 'vibration is told from µ 0.2 on';
+    if (!index.length) return 'vibration is shown from µ 0.2';
     const [low, high] = ends(index), range = (from, to) => `${fixed(from)}…${fixed(to)} %`;
-    if (high < 0) return `takes ${fixed(-index[0])} % (${range(-high, -low)}) of the vibration`;
-    if (low > 0) return `adds ${fixed(index[0])} % (${range(low, high)}) to the vibration`;
-    return `vibration cannot be told (${signed(low, 0)}…${signed(high, 0)} %)`;
+    if (high < 0) return `cuts vibration by ${fixed(-index[0])} % (${range(-high, -low)})`;
+    if (low > 0) return `raises vibration by ${fixed(index[0])} % (${range(low, high)})`;
+    return `vibration unclear (${signed(low, 0)}…${signed(high, 0)} %)`;
   }
   // Power and vibration in one sentence.
   function verdict() {
@@ -147,8 +147,8 @@
       const [x, y] = at(...point), [low, high] = ends(over);
       const band = `${signed(low)} to ${signed(high)} % over inflow models`;
       const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
-      return `<g data-agreed="${agreed}"><title>${agreed ? `${name} on this dial, foreseen: ${where}, ${band}`
-        : `No phase is best: models disagree, ${band} where this one has ${name}`}</title>
+      return `<g data-agreed="${agreed}"><title>${agreed ? `Predicted ${name} on this dial: ${where}, ${band}`
+        : `No clear best phase: at ${name} of this model, the models disagree: ${band}`}</title>
         <circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)"
           stroke-width="1.3" ${agreed ? '' : 'stroke-dasharray="2 2" opacity=".75"'}/>
         <text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle"
@@ -270,12 +270,12 @@
     if (!now) return head + wait;
     const [power] = now.power, [index] = now.index;
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
-    const against = `against ${dial.against}, ${dial.where}${held || !dial.settled ? ', foreseen' : ''}`;
+    const against = `vs. ${dial.against}, ${dial.where}${held || !dial.settled ? ', predicted' : ''}`;
     const needed = `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`;
     return `${head}${meter('Power', now.power, whole, .05, needed)}
       ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
       ${dim(assessed ? against : `${verdict()}, ${against}`)}${wait}
-      ${held && matrix && !calm.matches ? dim(`Shaking of the cabin drawn × ${dial.exaggerated}, slowed`) : ''}`;
+      ${held && matrix && !calm.matches ? dim(`Cabin shaking drawn × ${dial.exaggerated}, slowed`) : ''}`;
   }
 
   function fill(place) {
@@ -295,7 +295,7 @@
     const reading = '<div class="rxd-read" data-explorer="dial-read"></div>';
     const button = large
       ? '<button class="rxl-close" data-dial-large aria-label="Close" title="Close (Esc)">×</button>'
-      : '<button class="rxd-open" data-dial-large>Enlarge dial and front</button>';
+      : '<button class="rxd-open" data-dial-large>Enlarge dial and chart</button>';
     write(place, `<div class="rxd-side"><div class="rxd-row"></div>
         <div class="rxd-round" style="width:${size}px;height:${size}px"><canvas></canvas><div></div></div>
         <div class="rxf-dim rxd-key"></div>${beside ? '' : reading}</div>

@@ -72,7 +72,7 @@
     if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
         <button class="rxf-push" data-do="fails" data-value="${flight.frozen === null ? 'on' : 'off'}"
-          aria-pressed="${flight.frozen !== null}" title="The actuator fails: its twist stays while the flight goes on">
+          aria-pressed="${flight.frozen !== null}" title="Fails the actuator: its twist freezes while the flight goes on">
           Actuator stops here</button></div>
       <div class="rxf-num" data-words></div>
       <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
@@ -150,10 +150,10 @@
   function drawBalance({bars, unit, here, where, fuel, fuel_kind, fuel_note}) {
     const scopes = [['here', 'here', here], ['flight', 'over the flight', !here]].map(([name, words, chosen]) =>
       `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
-    earns.innerHTML = `<div class="rxf-head"><b>Power it needs</b><span role="group">${scopes.join('')}</span>
+    earns.innerHTML = `<div class="rxf-head"><b>Extra power</b><span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
-          title="Suppose another actuator: drag its twist and its mass">What would pay?</button></div>
+          title="Try another actuator: drag its twist and mass">What would pay?</button></div>
       <svg role="img"></svg>
       <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
@@ -189,7 +189,7 @@
   function drawBreakEven({chart, kind, words, note, at: given}) {
     const focused = earns.contains(document.activeElement) && document.activeElement.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
-        <button class="rxf-push" data-do="suppose" data-value="off">Power it needs</button></div>
+        <button class="rxf-push" data-do="suppose" data-value="off">Extra power</button></div>
       <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
       <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
         ${note ? '' : 'hidden'}>${text(note)}</div>`;

@@ -64,7 +64,7 @@
         <text x="${x}" y="${height - 1}" text-anchor="middle" data-between>${r.toFixed(2)}</text>`;
     });
     // What the two rows of numbers are: a blade that is rigid in torsion flies in its jig shape.
-    const of = inset.name === 'flown' ? 'flown' : 'jig';
+    const of = inset.name === 'in flight' ? 'flight' : 'built';
     drawn += `<text x="0" y="${height - 14}">${of}</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
     const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;

@@ -59,7 +59,7 @@
     const took = now - begun;
     if (!stale && (calm >= 3 || took > ENOUGH)) return lift();
     if (took > SLOW) words.textContent = 'This takes longer than it should: the server is busy, or cannot be reached. '
-      + 'The page goes on trying.';
+      + 'The page keeps trying.';
     requestAnimationFrame(look);
   }
 
@@ -67,7 +67,7 @@
     page.classList.remove('rx-veiled');
     const opening = document.querySelector('.rxf-opening');
     if (opening && !document.querySelector(sign)) opening.textContent =
-      'The server does not answer: it is busy, or this address does not lead to it. The page goes on trying.';
+      'The server does not answer: it is busy, or this address is wrong. The page keeps trying.';
     hold(false);
     tellLost();
     veil.classList.add('rx-lifting');
@@ -101,14 +101,14 @@
     shown = null;
     if (!lost.length) return;
     const note = warn('rx-lost',
-      `The last change did not arrive before the connection was lost: ${lost.join('; ')}. Set it again.`);
+      `The connection was lost before your last change arrived: ${lost.join('; ')}. Set it again.`);
     addEventListener('pointerdown', () => note.remove(), {once: true, capture: true});
   }
 
   function say(gone) {
     const before = document.getElementById('rx-gone');
     if (!gone) before?.remove();
-    else if (!before) warn('rx-gone', 'Connection lost; retrying. Nothing can be changed meanwhile. '
+    else if (!before) warn('rx-gone', 'Connection lost; retrying. You cannot change anything meanwhile. '
       + 'The address of this page holds your design.');
   }
 

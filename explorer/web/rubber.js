@@ -168,9 +168,9 @@
       + (shift > .6 ? drawArc(blade, best, point) + drawNumbers(blade, cuts, share, point) + drawScale(one) : '');
     page.style.setProperty('--rx-shown', String(Math.min(1, 1.6 * shift)));
     words.style.cssText = `left:${box.x + .5 * box.w}px;max-width:${box.w - 20}px`;
-    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, Shift 1° · ← → another station · Enter keeps it · Esc takes it back'
-      : finger ? ' lift the finger to keep · a second finger takes it back'
-        : ` drawn ×${TIMES} · release to keep · Esc takes it back`;
+    const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, Shift 1° · ← → another station · Enter keeps it · Esc cancels'
+      : finger ? ' lift the finger to keep · a second finger cancels'
+        : ` drawn ×${TIMES} · release to keep · Esc cancels`;
     const station = RX.state.hand?.place ?? `${one.titles[one.at]} ${one.r.toFixed(2)} R`;
     const end = limitOf(blade), told = end ? ` limit of ${text(end[1].replace(/ \[.*/, ''))}` : keys;
     words.innerHTML = `<b>${text(station)}</b>${told}`;
@@ -224,7 +224,7 @@
     let last = top;
     const row = (y, name, angle, change, css = '') => label(x, y, name, {anchor: 'start'})
       + label(x + 84, y, angle, {...right, css}) + label(x + 150, y, change, right);
-    return row(top, 'r/R', 'jig twist', 'Δ') + cuts.map(({r}) => {
+    return row(top, 'r/R', 'built-in', 'Δ') + cuts.map(({r}) => {
       const angle = theta(blade, r), [edge, height] = point(share(r), angle, [.25, 0]);
       const change = reference ? angle - twistAt(reference, r) : 0;
       last = Math.max(last + 20, Math.min(height, box.y + box.h - 12));

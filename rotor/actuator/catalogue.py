@@ -40,7 +40,7 @@ class DataProvenance:
 
     def warnings(self, name: str) -> tuple[str, ...]:
         """Caveats of using the numbers, one sentence each."""
-        graded = ("recalled, not looked up, verify before use", self.recalled), ("assumed", self.assumed)
+        graded = ("values from memory, to be verified", self.recalled), ("assumed values", self.assumed)
         # Keys of the data file as words, their units left out.
         listed = ((grade, ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)) for grade, keys in graded)
         return tuple(f"{name}: {grade}: {keys}." for grade, keys in listed if keys)
@@ -169,8 +169,8 @@ def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
     if not isinstance(actuator, PiezoPly):
         return ()
     return (
-        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
-        "feedback or charge drive. Without voltage the blade returns to its twist as built.",
+        f"{actuator.id} has {100.0 * actuator.hysteresis:.0f} % hysteresis and creeps, so holding a twist needs strain "
+        "feedback or charge drive. Without voltage the blade returns to its built-in twist.",
     )
 
 
@@ -290,7 +290,7 @@ def fuel_caveats(aircraft: Aircraft) -> tuple[str, ...]:
     """A sentence on what is unknown about the aircraft's fuel flow."""
     engines = engines_of(aircraft)
     if engines is None:
-        return (f"No source for the fuel flow of the engines of {aircraft.name}: savings are given as power only.",)
+        return (f"The fuel flow of the {aircraft.name} engines has no source, so savings are given as power only.",)
     return (f"Fuel: {engines.caveat} ({engines.source}).",) if engines.caveat else ()
 
 

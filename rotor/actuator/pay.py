@@ -236,7 +236,7 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     mass = installed.masses.aircraft
     if not mass:
         raise ValueError(
-            f"{installed.actuator.name} adds no mass, so it has no break-even line: choose another actuator"
+            f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     for stroke in STROKES:

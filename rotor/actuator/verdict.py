@@ -286,12 +286,12 @@ PRINTED = 50.0
 def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
     gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
-    text = f"Saves {kw(gains)} over {reference(verdict)}, costs {kw(costs)}"
+    text = f"Saves {kw(gains)} over {reference(verdict)} and costs {kw(costs)}"
     if verdict.net_saving < SMALL:
         noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
         return f"{text}, so this {noun} does not pay{_sure(verdict)}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}: {kw(verdict.net_saving)} saved{_sure(verdict)}{but}."
+    return f"{text}, a net saving of {kw(verdict.net_saving)}{_sure(verdict)}{but}."
 
 
 def _sure(verdict: Verdict) -> str:
@@ -336,7 +336,7 @@ def _savings(verdict: Verdict) -> str:
     start = verdict.reference_power - verdict.bare_power
     parts = [f"Against {reference(verdict)} its twist {_change(verdict.gross_saving)}"]
     if abs(start) >= PRINTED:
-        parts[0] += f", where its jig twist {_change(start)}"
+        parts[0] += f", and its built-in twist alone {_change(start)}"
     if abs(verdict.stiffness_cost) >= PRINTED:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")

@@ -38,7 +38,7 @@ def no_effect(design: Design, name: str) -> str:
     hovering = design.hovering
     inflow = inflow_model(design.models.inflow)
     if name in BEYOND_DOCUMENT and design.models.document_losses:
-        return "the document does not have it"
+        return "the source document does not have it"
     if name in ("fuselage", "download") and design.condition.stand is not None:
         return "there is no airframe on a test stand"
     match name:
@@ -57,7 +57,7 @@ def no_effect(design: Design, name: str) -> str:
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade element is in reverse flow at this speed"
         case "surface_drag" if design.rotor.blade.surface_drag == 1.0:
-            return "the rotor file states none"
+            return "not given in the rotor file"
         case "swept_tip" if not design.rotor.blade.tip_sweep:
             return "the tip is not swept"
         case "swept_tip" if not design.models.compressibility or _one_mach(design):
@@ -67,7 +67,7 @@ def no_effect(design: Design, name: str) -> str:
         case "radial_friction" if hovering:
             return "no air flows along the blade in hover"
         case "download" if not design.fuselage.hover_download:
-            return "the rotor file states none"
+            return "not given in the rotor file"
         case "compressibility" if _one_mach(design):
             return "the section data are for one Mach number"
         case _:

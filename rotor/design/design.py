@@ -78,7 +78,7 @@ class Models:
     tail_rotor_solved: bool
     """True: the tail rotor balances the torque; False: five per cent of the main rotor (thesis §3.2)."""
     tip_loss: bool = True
-    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a lifting line keeps the tips of its blades."""
+    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1. A lifting line still has its blade tips."""
     hub_loss: bool = True
     """Root factor, eq. (3.17), where the inflow does not depend on the load. Off: F_hub = 1."""
     reverse_flow: bool = True

@@ -67,7 +67,7 @@ _SWITCHES = (
     ),
     _switch("tip_loss",
         "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a lifting line keeps the tips of its blades.", source="3.16",
+        "F_tip = 1. A lifting line still has its blade tips.", source="3.16",
     ),
     _switch("hub_loss",
         "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
@@ -82,31 +82,31 @@ _SWITCHES = (
         "Section data at Mach 0.3 everywhere.",
     ),
     _switch("surface_drag",
-        "Drag is multiplied by the factor that the rotor file states for the surface of its blades.",
+        "The rotor file gives a factor for the surface of the blades; drag is multiplied by it.",
         "Drag is that of the section data.",
     ),
     _switch("swept_tip",
         "A swept tip sees the Mach number of the flow normal to its quarter chord.",
-        "The tip sees Mach numbers as if it were straight.",
+        "The tip sees the Mach numbers of a straight tip.",
     ),
     _switch("radial_friction",
         "Skin friction follows the yawed velocity: air flows along the blade at the front and the rear of the disk.",
-        "Friction of the flow across the blade only.",
+        "Friction follows the flow across the blade only.",
     ),
     _switch("elastic_twist",
-        "The blade twists under its own loads: the air meets the flown twist, not the jig twist that is built.",
-        "The blade is rigid in torsion: flown and jig twist are the same.",
+        "The blade twists under its loads, so its twist in flight differs from its built-in twist.",
+        "The blade is rigid in torsion: its twist in flight is its built-in twist.",
     ),
     _switch("unsteady",
-        "Attached flow is unsteady: lift by the flow at three quarters of the chord, and the mass of air that moves.",
+        "Attached flow is unsteady: the flow at three-quarter chord sets the lift, and apparent mass adds to it.",
         "Attached flow is steady.", title="Unsteady flow",
     ),
     _switch("dynamic_stall",
-        "Separation follows the angle of attack with a lag, and stall sheds a vortex (Leishman and Beddoes).",
-        "Sections stall as the steady data say.",
+        "Separation lags the angle of attack, and stall sheds a vortex (Leishman and Beddoes).",
+        "Sections stall as in the steady data.",
     ),
     _switch("swirl",
-        "The rotor turns the air it works in, which takes power and meets the blade more slowly.",
+        "The rotor swirls the air; this takes power and lowers the speed at the blade.",
         "The air in the disk moves along the shaft only.",
     ),
     _switch("fuselage",
@@ -114,8 +114,8 @@ _SWITCHES = (
         "Drag area 0: no parasite power.", source="3.19", title="Fuselage drag",
     ),
     _switch("download",
-        "The wake presses on the airframe: in hover the thrust exceeds the weight by what the rotor file states.",
-        "Thrust carries the weight alone.",
+        "The wake presses on the airframe: in hover, thrust exceeds weight by the download in the rotor file.",
+        "Thrust equals weight.",
     ),
 )  # fmt: skip
 
@@ -156,8 +156,8 @@ _CONDITION = (
         plain="a standard day", low=-60.0, high=60.0, default=0.0, examples=(10, 0, 20), key="isa_offset_c",
         word="isa", section="fixed", input="isa_offset_c", in_place="density_kg_m3",
         slider=Slider("ISA offset [°C]", -40.0, 40.0, 1.0, 10.0, "/10 °C"),
-        hint="Temperature above the standard atmosphere at this pressure altitude: density, speed of sound and "
-        "viscosity follow; the power of the engines does not. | section 2",
+        hint="Temperature above the standard atmosphere at this pressure altitude. It changes density, speed of sound "
+        "and viscosity, but not engine power. | section 2",
     ),
     Quantity(
         "climb_m_s", "number",
@@ -170,7 +170,7 @@ _CONDITION = (
         aviation=Slider(
             "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0
         ),
-        hint="Rate of climb, negative in descent; µ is of the horizontal speed. On a test stand: wind from above. "
+        hint="Rate of climb, negative in descent; µ uses the horizontal speed. On a test stand: wind from above. "
         "| section 2",
     ),
     Quantity(
@@ -180,7 +180,7 @@ _CONDITION = (
         place="condition.rotor_speed_percent", what="rotor speed", short="rotor speed", plain="its own rotor speed",
         low=70.0, high=110.0, default=100.0, examples=(90, 100, 95), key="rotor_speed_percent", word="rpm",
         section="fixed", input="rotor_speed_percent", slider=Slider("Rotor speed [%]", 70.0, 110.0, 0.5, 1.0, "/%"),
-        hint="Rotor speed over that of the rotor file; µ stays, and the tail rotor is geared to it. | section 2",
+        hint="Rotor speed in per cent of that in the rotor file. µ stays, and the tail rotor follows. | section 2",
     ),
     Quantity(
         "load_factor", "number",
@@ -188,8 +188,8 @@ _CONDITION = (
         place="condition.load_factor", what="load factor", short="load factor", plain="straight flight", low=0.1,
         high=5.0, default=1.0, in_flight=True, examples=(1.2, 1.0, 1.5), key="load_factor", word="n", section="fixed",
         input="load_factor", slider=Slider("Load factor n", 0.5, 3.0, 0.01, 0.1, "/0.1"),
-        hint="Lift over weight in a steady turn, n = 1/cos of the bank angle; the propulsive force is that of straight "
-        "flight. The body's rate of turn and heavier blades are left out. | section 2",
+        hint="Lift over weight in a steady turn, n = 1/cos of the bank angle; propulsive force as in straight flight. "
+        "The turn rate of the body and heavier blades are ignored. | section 2",
     ),
 )  # fmt: skip
 
@@ -237,8 +237,8 @@ _MODELS = (
         "low_speed", "choice",
         "hover (preset flight): near µ = 0 the inflow becomes that of the hover model; wake (thesis): it does not",
         place="models.low_speed", choices=LOW_SPEEDS, key="low_speed", input="low_speed", title="At low speed",
-        hint="Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any "
-        "speed. | section 9",
+        hint="Blends the forward wake into the hover model as speed falls to zero, or keeps it at any speed. "
+        "| section 9",
     ),
     Quantity(
         "loss_on", "choice",
@@ -275,8 +275,8 @@ _MODELS = (
     Quantity(
         "trim", "text", "trim in flight (the first two) or on a test stand",
         place="models.trim", choices=TRIMS, key="trim", section="models", input="trim", title="Flight or test",
-        hint="Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; "
-        "with the conditions of its tests, where a rotor was measured.",
+        hint="Flight: the rotor carries weight and drag. Test stand: wind tunnel, rotor without torque, or given "
+        "controls. Measured rotors also offer the conditions of their tests.",
     ),
     Quantity(
         "stand", "object",
@@ -289,7 +289,7 @@ _MODELS = (
 _HOVER_INFLOW = Quantity(
     "hover_inflow", "choice", place="models.hover_inflow", choices=HOVER_INFLOWS, key="hover_inflow",
     input="hover_inflow", title="Inflow in hover",
-    hint="Hover: momentum balance of each annulus, or one equation. | 3.3",
+    hint="Inflow in hover: a momentum balance for each annulus, or one closed equation. | 3.3",
 )  # fmt: skip
 _ACTIVE_TWIST = Quantity("active_twist", "object", key="active_twist")
 

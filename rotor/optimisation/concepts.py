@@ -217,7 +217,7 @@ _THREE = (("inboard", "Inboard"), ("middle", "Middle"), ("outboard", "Outboard")
 _DIVISION = ("division", "Division", 0.25, 0.92)
 
 TWO_SEGMENT_FREE = SegmentsConcept(
-    "two-segment-free", "Two segments, free division", "Two straight segments with a free division.", _TWO,
+    "two-segment-free", "Two segments, free break", "Two straight segments with a free break point.", _TWO,
     (_DIVISION,),
 )  # fmt: skip
 TWO_AIRFOILS = SegmentsConcept(
@@ -243,7 +243,7 @@ def _two_segment(division: float) -> Concept:
         {"division": division},
         name="two-segment",
         title="Two segments",
-        explanation=f"Two straight segments, divided at {division:g} R.",
+        explanation=f"Two straight segments that meet at {division:g} R.",
     )
 
 

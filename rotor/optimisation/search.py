@@ -231,7 +231,7 @@ class _Run:
             status = SearchStatus.STOPPED
             message = f"Stopped after {evaluate.count} evaluations; the best design so far is kept."
             if self.groups and evaluate.phase == "band":
-                message = "Stopped while measuring the band; the search itself was complete."
+                message = "Stopped while computing the band; the search itself was complete."
         elif best is None:
             status = SearchStatus.NOT_CONVERGED
             trimmed = any(record.power is not None for record in evaluate.records)

@@ -18,7 +18,7 @@ from rotor.trim.solve import solve
 from rotor.units import power_unit
 
 SURE, LIKELY = 2.0, 1.0
-"""A change this many times its band is sure, or likely; a smaller one cannot be told."""
+"""A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
 LEAST_TOLD = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
 
@@ -85,7 +85,7 @@ class Doubt:
 
     @property
     def sureness(self) -> str | None:
-        """`sure`, `likely` or `cannot be told`: whether the sign of the change is known; None without a change."""
+        """`sure`, `likely` or `unclear`: whether the sign of the change is known; None without a change."""
         change, band, least = self.change, self.change_band, 0.01 * LEAST_TOLD * abs(self.against or 0.0)
         return None if change is None or band is None or max(abs(change), band) < least else sureness(change, band)
 
@@ -140,7 +140,7 @@ class Doubt:
 def sureness(change: float, band: float) -> str:
     """Whether the sign of a change is known within its band."""
     ratio = math.inf if band == 0.0 else abs(change) / band
-    return "sure" if ratio >= SURE else "likely" if ratio >= LIKELY else "cannot be told"
+    return "sure" if ratio >= SURE else "likely" if ratio >= LIKELY else "unclear"
 
 
 def decimals(band: float) -> int:

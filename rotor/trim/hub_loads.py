@@ -74,9 +74,9 @@ def why_no_hub_loads(design: Design) -> Caveat | None:
     elif not design.flaps:
         sentence = "No hub loads: the blades are rigid, or flapping is switched off."
     elif not has_hub_loads(rotor.blades):
-        sentence = f"No hub loads: those of {rotor.blades} blades lie beyond the harmonics that are solved for."
+        sentence = f"No hub loads: those of {rotor.blades} blades are at harmonics that are not solved for."
     elif design.hovering or design.condition.advance_ratio < SLOWEST:
-        sentence = f"No hub loads below µ {SLOWEST:g}, where they depend on the wake model more than on the rotor."
+        sentence = f"Hub loads are not shown below µ {SLOWEST:g}, where they depend on the wake model."
     else:
         return None
     return Caveat("no-hub-loads", sentence)

@@ -105,21 +105,22 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
             )
     if design.tail_rotor is None and models.tail_rotor_solved and not trim.on_stand:
         said["no-tail-rotor"] = (
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead."
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power stands in for it."
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
         said["thesis-models"] = (
-            f"The thesis does not treat the {design.aircraft.name}: its models are applied to this rotor's blade."
+            f"The source document does not cover the {design.aircraft.name}; its models are used with this blade."
         )
     stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
         said["small-aspect-ratio"] = (
-            f"At a given collective, blades of aspect ratio {ratio:.1f} get too much thrust: those of Caradonna and "
-            "Tung, of 6, get a quarter to two thirds more than measured in hover. Give the thrust instead."
+            f"At a given collective, blades of aspect ratio {ratio:.1f} get too much thrust here: that of the "
+            "Caradonna and Tung blades (6) is a quarter to two thirds above the one measured in hover. Give the thrust "
+            "instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         said["no-blade-structure"] = (
-            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "The rotor file has no blade structure, so the blade is rigid in torsion here; real blades twist by "
             "degrees in flight."
         )
     return said
@@ -135,7 +136,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
         said["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
             said["rigid-blades-linear-inflow"] = (
-                "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low."
+                "Linear inflow does not respond to unequal lift, so the induced power of rigid blades is too low."
             )
     if design.active_twist and design.hovering:
         said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
@@ -147,19 +148,19 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)  # ωc/2V at 0.75 R.
     if frequency > FAST_PITCH and not trim.problem.unsteady:
         said["fast-pitch"] = (
-            f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and only "
-            "the shed wake of a lifting line and the pitch-rate damping respond to it."
+            f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}, but section data are steady: only "
+            "the shed wake of a lifting line and pitch-rate damping respond to it."
         )
     control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         said["control-power"] = (
-            f"Pitch links and actuators put {power_text(control_power, 1)} into the pitching blades, which is not "
-            "included in the power."
+            f"Pitch links and actuators feed {power_text(control_power, 1)} into the pitching blades; the power here "
+            "does not include it."
         )
     if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
         said["torque-without-drag"] = (
-            f"Only the thrust is trimmed, so the shaft's torque carries {power_text(power.shaft)}; with the drag of "
-            f"the airframe the rotor takes {power_text(power.main_rotor)}, the sum of its parts."
+            f"Only thrust is trimmed, so the shaft delivers {power_text(power.shaft)}; with the drag of the airframe "
+            f"the rotor needs {power_text(power.main_rotor)}, the sum of its parts."
         )
     return said
 
@@ -175,45 +176,45 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
         )
     if hover_share(design) and trim.problem.joined is None:
         said["low-speed-not-matched"] = (
-            "The hover model has no solution at this weight, so the inflow does not change over to hover at low speed."
+            "The hover model has no solution at this weight, so the inflow is not blended into hover at low speed."
         )
     if design.vertical_speed < 0.0:
         inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
         descent, edge = (-design.vertical_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
         if descent > -VORTEX_RING_ONSET and edge < math.inf:
             said["vortex-ring"] = (
-                f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
-                f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {edge:.2f} the vortex ring "
-                "state begins."
+                f"The rate of descent is {descent:.2f} of the induced velocity in hover. At this low speed, measured "
+                f"inflow exceeds momentum theory above {-VORTEX_RING_ONSET:g}, and the vortex ring state begins at "
+                f"{edge:.2f}."
             )
     if power.main_rotor < 0.0 and not trim.on_stand:
         said["beyond-autorotation"] = (
-            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
-            "engine off the rotor turns faster."
+            "The air drives the rotor: above the rate of descent of autorotation, power is negative, and with the "
+            "engine off the rotor speeds up."
         )
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
         said["installed-power"] = (
-            f"The rotors need {power_text(power.total)}; the engines deliver {power_text(installed)} at sea level on "
+            f"The rotors need {power_text(power.total)}; the engines give {power_text(installed)} at sea level on "
             "a standard day, and less at altitude or in warmer air."
         )
     elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
         said["engines-of-a-standard-day"] = (
-            f"The engine power of {power_text(installed)} holds on a standard day at sea level; the loss in warmer "
-            "air is not included."
+            f"The engines give {power_text(installed)} at sea level on a standard day. In warmer air they give less, "
+            "which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
         said["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
     if mu > HIGH_SPEED:
         said["high-speed"] = (
-            f"Above advance ratio {HIGH_SPEED:.2f} reverse flow and stall dominate, which the section data describe "
+            f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; the section data describe them "
             "only roughly."
         )
     loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         said["blade-loading"] = (
-            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift governs, and the computed power "
-            f"is too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
+            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift limits the rotor, and computed "
+            f"power is too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
         )
     return said
 
@@ -228,8 +229,8 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
         said["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
     if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
         said["no-dynamic-stall"] = (
-            f"Inflow model {design.models.inflow} balances the load at each point separately, which rules out stall "
-            "with a lag: sections are steady here."
+            f"The inflow {design.models.inflow} balances the load at each point separately, which excludes dynamic "
+            "stall: sections are steady here."
         )
     if held := _held_reynolds(trim):
         said["reynolds-outside-data"] = held
@@ -247,8 +248,8 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
         )
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
         said["mixed-section-data"] = (
-            f"Part of the blade uses the polynomials {THESIS_NAME} of one Mach number and transition, the rest tables "
-            "with Mach number: they differ in their data, not as airfoils."
+            f"Part of the blade uses the polynomials {THESIS_NAME} for one Mach number and transition, the rest tables "
+            "over Mach number, so the sections differ by their data, not by their airfoils."
         )
     low, high = disk.fit_range
     outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)

@@ -173,5 +173,5 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     address = page.url
     page.goto(address)  # As a colleague gets it: it opens where the dot stands.
     page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
-    page.get_by_role("button", name="Power it needs").click()
+    page.get_by_role("button", name="Extra power").click()
     page.wait_for_function("() => !RX.state.suppose && !location.search.includes('i=')", timeout=VERDICT)

@@ -35,7 +35,7 @@ def test_a_drag_on_the_dial_is_foreseen_and_one_undo(watched: Watched):
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 0.25 * radius, y - 0.433 * radius, steps=6)
-    watched.until(lambda: "foreseen" in watched.text("dial-read"))
+    watched.until(lambda: "predicted" in watched.text("dial-read"))
     assert "Vibration" in watched.text("dial-read")
     page.mouse.up()
     watched.answered()

@@ -143,7 +143,7 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
     watched.drawer("share")
     with zipfile.ZipFile(saved(watched, "Tables", tmp_path)) as tables:
         assert b"8320 kg, 0 m" in tables.read("power.csv")
-    assert "the sliders have none" in watched.text("export")
+    assert "the sliders has no trim" in watched.text("export")
 
 
 @pytest.mark.slow

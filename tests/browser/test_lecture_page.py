@@ -120,7 +120,7 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
     page = presenter.page
     follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
-    follower.reads("presence", "controlled by the presenter")
+    follower.reads("presence", "the presenter controls")
     page.keyboard.press("t")
     for k in (1, 2, 3):
         stands_at(page, k)
@@ -163,7 +163,7 @@ def test_others_follow_the_presenter_and_may_leave(visit: Visit):
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
     follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
-    follower.reads("presence", "controlled by the presenter")
+    follower.reads("presence", "the presenter controls")
     presenter.reads("presence", "1 follower")
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)

@@ -40,7 +40,7 @@ READ = """name => {
         for (const part of ['fly', 'earns']) found.push(RX.part(part).innerText);
     return name === 'actuate' ? [...found, JSON.stringify([flight, earns])] : found;
 }"""
-COURSE = re.compile(r"[\d.]+ ms|10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|\d+ iterations")
+COURSE = re.compile(r"[\d.]+ ms|10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|\d+ iterations?")
 """What a solve took from where it began."""
 Readings = dict[tuple[str, str], list[str]]
 

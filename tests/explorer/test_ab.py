@@ -182,7 +182,7 @@ class TestReadOut:
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
         noted = cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
         assert noted == ["Stalled.", "B: Fast."]
-        assert "fly at different conditions" in cautions(b, a)[0]
+        assert "fly in different conditions" in cautions(b, a)[0]
         other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
         assert "different models" in cautions(b, other)[0]
         assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]

@@ -265,7 +265,7 @@ def test_a_task_ended_after_its_time_is_begun_again_by_itself():
     until(lambda: pool.asked == [late])
     pool.jobs[-1][1](JobEnded(None, stopped=True, late=True))
     assert pool.asked == [late, other]
-    assert "within 10 minutes" in answers.answer(late)
+    assert "after 10 minutes" in answers.answer(late)
     pool.end("quick")
     assert pool.asked == [late, other, late]
     pool.end("found")

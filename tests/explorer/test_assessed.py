@@ -109,9 +109,9 @@ def screen(now: Now) -> dict[str, list[str]]:
     read("power over the flight", "here, (?:needs |saves )?# ±", part.said)
     read("power over the flight", "(?:needs|saves) # ±", report)
     found["power over the flight"] += [total.lstrip("+−")]
-    found["power here"].append(balance_here(now)["in all"].lstrip("+−"))
+    found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     told = min(settled.index) * max(settled.index) > 0.0
-    read("vibration", r"vibration # %" if told else r"cannot be told \(#…", part.vibration)
+    read("vibration", r"vibration # %" if told else r"unclear \(#…", part.vibration)
     found["vibration"].append(f"{settled.index[0] if told else min(settled.index):+.0f}".replace("-", "−"))
     return found
 

@@ -102,7 +102,7 @@ def test_what_fails_is_a_sentence(answered: Now):
     failed = replace(answered, answers={calls["effect"]: "No trim.", calls["dial_answer"]: "No response."})
     assert (dial(failed).problem, dial(failed).words, dial(failed).computing) == ("No trim.", "No response.", False)
     slow = actuate(replace(BENDING, advance_ratio=0.02), actuator=SAME)
-    assert "No hub loads below" in dial(slow).words
+    assert "Hub loads are not shown below" in dial(slow).words
     assert list(asked(DIAL, slow)) == ["effect"]
     untrimmed = replace(answered, problem="No trim there.")
     assert list(DIAL.view(untrimmed)) == ["actuator.per_rev"]  # The last answer stays.
@@ -121,7 +121,7 @@ def test_it_says_what_is_set_that_it_does_not_show(asking: Now):
     waves, pitch = read_harmonics("8:15:20", "test"), read_harmonics("3:1.5:180", "test")
     shaped = replace(BENDING, twist_per_rev=waves, pitch_per_rev=pitch, active_shape=((0.3, 1.0), (0.0, 1.0)))
     words = DIAL.view(replace(asking, inputs=shaped))["actuator.per_rev"]
-    for part in ("Active twist of 15.00° at 8/rev", "root pitch of 1.50° at 3/rev", "shape of its design file"):
+    for part in ("Active twist of 15.00° at 8/rev", "root pitch of 1.50° at 3/rev", "shape given in its design file"):
         assert part in words
 
 

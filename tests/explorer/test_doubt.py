@@ -36,10 +36,10 @@ def test_what_is_nothing_but_rounding_is_no_row():
 def test_other_models_stand_beside_the_rows():
     models = OtherModels("bending", 980e3, -20e3), OtherModels("inflow uniform", 900e3)
     html = doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models)
-    assert "With another model: bending 980 kW, saves 2.0 %; inflow uniform 900 kW." in html
-    assert "another may lie outside" in html
+    assert "Other models: bending 980 kW, saves 2.0 %; inflow uniform 900 kW." in html
+    assert "other models may lie outside" in html
     assert "outside" not in doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models[:1])
-    assert "With another model" not in doubt_rows(Doubt(990e3, ROWS))
+    assert "Other models" not in doubt_rows(Doubt(990e3, ROWS))
 
 
 def test_ranges_of_the_best_twist_are_bars_on_one_scale():

@@ -124,7 +124,7 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
         assert bar.kind == ("" if value == 0.0 else "loss" if value > 0.0 else "gain")
     assert verdict.fuel_saving is not None
     burnt = -3600.0 * verdict.fuel_saving
-    assert state.fuel.replace("−", "-") == f"{burnt:+.1f} kg of fuel an hour"
+    assert state.fuel.replace("−", "-") == f"{burnt:+.1f} kg/h of fuel"
     assert state.fuel_kind == ("loss" if burnt > 0.0 else "gain")
 
 

@@ -55,7 +55,7 @@ class TestFlights:
         assert before.x == (0.14, 0.362, 0.2599, 0.3441)
         assert before.y == pytest.approx((172.5, 441.9, 221.4, 442.6))
         assert before.faint == [False, True, True, True]
-        assert "ours" not in before.words[1]
+        assert "computed" not in before.words[1]
         flown.trim_flights(solution, lambda: True, lambda: drawn.append(True))
         assert not drawn  # Newer input comes first.
         for _ in range(2):
@@ -118,7 +118,7 @@ class TestBand:
         solution = solve(GAZELLE.design())
         sentence = cautions(solution, None)[-1]
         assert sentence.startswith("Power in forward flight is indicative")
-        assert "0.80 to 1.17 m²; here it is 1.10 m²" in sentence
+        assert "0.80 to 1.17 m²; this design uses 1.10 m²" in sentence
         assert not any("indicative" in one for one in cautions(solve(OPENING.design()), None))
 
 
@@ -151,7 +151,7 @@ class TestAirloads:
         beside = beside_measured(solve(replace(FC1, law="linear", linear=-12.0).design()), 0.75)
         assert beside is not None
         html = measured_panel(beside, 0.0)
-        assert "Ours is of another twist." in html
+        assert "Computed with another twist." in html
         assert '"correlation ' not in html
 
     def test_the_correlation_is_that_of_the_waves_without_the_mean(self):
@@ -192,6 +192,6 @@ def test_the_chip_says_what_was_measured():
     percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
     assert validated(solution).words == f"measured: {percent:.1f} % (FC1)".replace("-", "−")
     changed = validated(solve(replace(FC1, law="linear", linear=-12.0).design()))
-    assert "Measured with the twist as built." in changed.sentence
+    assert "The measured blade has the twist as built." in changed.sentence
     assert validated(solve(with_rotor(OPENING, "hart2").design())).words == "airloads measured"
     assert validated(solve(replace(GAZELLE, advance_ratio=0.0).design())).words == "no test data at this condition"

@@ -316,7 +316,7 @@ class TestTwistCurve:
         assert now[0].two_outer > before.two_outer
         assert editor.held is not None
         assert editor.held.place == place_of(now[0], stations(now[0])[2])
-        assert editor.held.place.startswith("tip 1.00 R · jig ")
+        assert editor.held.place.startswith("tip 1.00 R · twist ")
         drag(["2", "end"])
         assert editor.held is None
         assert took == [True, False]

@@ -168,8 +168,8 @@ class TestShare:
         [
             ("", "not of version 1"),
             ("2;linear:-8", "not of version 1"),
-            ("1;table:/etc/passwd", "a file on the machine"),
-            ("1;uh60a+table:/etc/passwd", "a file on the machine"),
+            ("1;table:/etc/passwd", "a file on the sender"),
+            ("1;uh60a+table:/etc/passwd", "a file on the sender"),
             ("1;linear:-8;mu", "not of the form key=value"),
             ("1;linear:-8;mu=fast", "not a number: write for example 1.0"),
             ("1;linear:-8;mu=NaN", "advance_ratio is nan, outside"),

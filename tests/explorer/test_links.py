@@ -147,12 +147,12 @@ class TestUnreadable:
         written: list[str] = []
         problems: list[tuple[str, str]] = []
         address = Address(query, written.append, pause=0.0)
-        assert address.read(DESIGN, inputs_from, OPENING, "Not the design of the link", problems) == OPENING
+        assert address.read(DESIGN, inputs_from, OPENING, "Link: design not used", problems) == OPENING
         return address, written, problems
 
     def test_it_is_said_and_stays_in_the_address_until_the_design_changes(self):
         address, written, problems = self.opened("?d=1;bent:3;mu=0.3&v=1;field=mach")
-        assert [title for title, _ in problems] == ["Not the design of the link"]
+        assert [title for title, _ in problems] == ["Link: design not used"]
         assert "'bent:3' is not known" in problems[0][1]
         opening = code_of(OPENING.design())
         for _ in range(3):

@@ -121,7 +121,7 @@ def test_words():
     assert any("root pitch: 3/rev" in line for line in provenance_lines(after))
     assert "Root pitch at 3/rev and 5/rev" in why(before, after)
     assert "No n/rev root pitch" in why(after, before)
-    assert "collective and cyclic alone" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
+    assert "collective and cyclic only" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
 
 
 BENDING = make_design(twist="builtin", mu=0.3, bending=True)
@@ -231,7 +231,7 @@ def test_published_programmes_are_told_with_their_sources():
     shown = [one for one in programmes() if one.together]
     assert list(points.x) == [one.power_change_percent for one in shown]
     assert [one.source in words for one, words in zip(shown, points.words, strict=True)] == [True] * 3
-    assert "lost 50 to 95 % of their vibration" in validation_words()
+    assert "reduced vibration by 50 to 95 %" in validation_words()
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():
@@ -239,7 +239,7 @@ def test_only_where_wakes_agree_in_sign_is_anything_best():
     assert agreed.agreed
     assert not apart.agreed
     labels = [one.label for one in front_chart((agreed, apart)).series if isinstance(one, Points)]
-    assert labels[-2:] == ["front", "models disagree"]
+    assert labels[-2:] == ["models agree", "models disagree"]
     words = [one.words for one in front_chart((apart,)).series if isinstance(one, Points)][-1]
     assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
 

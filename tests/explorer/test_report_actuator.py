@@ -41,7 +41,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     sentence = re.findall(r'data-report="verdict">([^<]*)<', page)
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert one.net_band is not None
-    assert sentence == [f"Against {reference(one)} it {needs(one, SI)} over the flight."]
+    assert sentence == [f"Compared with {reference(one)}, it {needs(one, SI)} over the flight."]
     assert f"± {kw(one.net_band)}" in printed.splitlines()[0]
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
@@ -89,7 +89,7 @@ def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     assert driven is not None
     words, against, kind = on_board(driven, SI)
     assert (words, kind) == (card.here, "more")
-    assert against == f"with {card.mass} on board, against the same blade without it"
+    assert against == f"with {card.mass} on board, compared with the same blade without it"
     baseline = ReportEntry("Baseline", solve(baseline_of(state.solution.design)))
     page = report_html(DesignReport(baseline, [ReportEntry("Now", state.solution)], ViewState(), driven=driven), None)
     headline = page[page.index('<article class="card"') : page.index("</article>")]

@@ -126,7 +126,7 @@ class TestShelf:
         [
             ("photo.png", b"\x89PNG", "photo.png is not UTF-8 text"),
             ("my.toml", b"\xff\xfe\x00", "my.toml is not UTF-8 text"),
-            ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: a rotor's files have 2 MB at most"),
+            ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: the limit for rotor files is 2 MB"),
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
         ],

@@ -141,7 +141,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert marks.scatter == pytest.approx([0.1] * 4)
     ours = dict(zip(line.x, line.y, strict=True))
     assert ours[FORWARD.advance_ratio] == pytest.approx(here.y[0], rel=1e-5)
-    assert "ours 6.0" in marks.words[0]
+    assert "computed 6.0" in marks.words[0]
 
 
 @pytest.mark.parametrize("name", [name for name in SETS if load_set(name).against is None])
@@ -160,10 +160,10 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert "twist as built" in validated(solve(replace(FORWARD, law="linear", linear=-30.0).design())).sentence
     fast = validated(solve(replace(FORWARD, advance_ratio=0.35).design()))
     assert fast.words == "outside the test range"
-    assert "µ 0.35, compared 0.125…0.2" in fast.sentence
+    assert "µ 0.35, tested 0.125…0.2" in fast.sentence
     uh60a = validated(solve(OPENING.design()))
     assert uh60a.words == "no test data at this condition"
     rising = validated(solve(replace(OPENING, advance_ratio=0.0, climb_m_s=3.0).design()))
     assert rising.words == "outside the test range"
-    assert "rate of climb 3 m/s, compared in level flight" in rising.sentence
+    assert "rate of climb 3 m/s, tested in level flight" in rising.sentence
     assert "in hover only" in uh60a.sentence

@@ -132,7 +132,8 @@ class TestPowerChange:
         assert chart.span("y")[0] <= -150.0
         assert chart.value == "autorotation"
         assert chart.note == (
-            "Autorotation between µ 0.1 and 0.2: the air drives the rotor. No answer below µ 0.075: vortex ring state."
+            "Autorotation between µ 0.1 and 0.2: the air drives the rotor. "
+            "No solution below µ 0.075: vortex ring state."
         )
         (tinted,) = [np.array(one.y) for one in lines(chart) if one.filled]
         assert (tinted[np.isfinite(tinted)] < 0.0).all()

@@ -175,7 +175,7 @@ class TestPowerCurves:
         words = autorotation_words(curve)
         driven = [mu for mu, one in zip(plots.SWEEP, answers, strict=True) if one.converged and one.power.total < 0.0]
         assert words.startswith(f"Autorotation between µ {driven[0]:g} and {driven[-1]:g}")
-        assert words.endswith("No answer below µ 0.075: vortex ring state.")
+        assert words.endswith("No solution below µ 0.075: vortex ring state.")
 
     def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(self, monkeypatch: pytest.MonkeyPatch):
         """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""

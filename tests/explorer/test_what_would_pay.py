@@ -70,7 +70,7 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: Now, li
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
     assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 kW over the flight", (2.0, 4.3))
-    assert shown.note == "With this range it pays below 11 kg; with this mass, from 0.6° on."
+    assert shown.note == "With this range it pays below 11 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
     heavy = done(now, place_it(now, SupposePress(2.0, 50.0)))
     assert (PAY.view(heavy)["suppose"].kind, PAY.view(heavy)["actuator.pays"]) == ("loss", False)

@@ -143,7 +143,7 @@ def test_another_model_or_rotor_is_named():
     cases: tuple[tuple[dict[str, Any], dict[str, Any], str], ...] = (
         (SLOW, {"inflow": "uniform"}, "Uniform instead of Lifting line: "),
         ({"mu": 0.0}, {"hover_inflow": "closed-form"}, "Closed form instead of annulus balance in hover: "),
-        ({"mu": 0.05}, {"low_speed": "wake"}, "Without passage to hover at low speed: "),
+        ({"mu": 0.05}, {"low_speed": "wake"}, "Without transition to hover at low speed: "),
         ({"mu": 0.0}, {"elements": 20}, "Another model: "),
         (FAST, {"bending": True}, "With blade bending: "),
     )

@@ -26,7 +26,7 @@ class ActuatorPanel:
         """`address` may hold a supposed actuator; `problems` get a title and a sentence where it cannot be read."""
         self._context, self._address = context, address
         self._blade = LiftedScene(context.client, context.bridge)
-        place = address.read(SUPPOSED, place_of, None, "Not the supposed actuator of the link", problems)
+        place = address.read(SUPPOSED, place_of, None, "Link: supposed actuator not used", problems)
         self._hand, self._lock = Hand(on_stage=place is not None, place=place), threading.Lock()
         self._opened = False
         """Whether the blade ever was out of the rotor."""

@@ -83,7 +83,7 @@ class PageSnapshot:
         context.set_inputs(inputs)
 
 
-_WORDS = "Ten steps: each sets the page, asks for a guess and answers it. End gives your own design back."
+_WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
 
 
 class LecturePanel(Tab):
@@ -213,9 +213,9 @@ class LecturePanel(Tab):
                 case JobEnded(str(text)):
                     context.download("lecture.html", text.encode("utf-8"))
                 case JobEnded():
-                    context.notify("No file of the lecture", "It took too long: try again when fewer use this server.")
+                    context.notify("Lecture not saved", "It took too long: try again when the server is less busy.")
                 case JobFailed(message):
-                    context.notify("No file of the lecture", message)
+                    context.notify("Lecture not saved", message)
                 case _:
                     return
             self._file.disabled, self._file.label = False, "Lecture as one file"

@@ -22,10 +22,11 @@ _CAMERA_EVERY = 0.1
 """[s] between two poses of the presenter's camera."""
 _LONGEST = 40
 """Characters of a name in the address that are looked at."""
-_WORDS = "Copies a link. Anyone with the link sees what you set here, as you set it, and may leave at any time."
-_FOLLOWING = "Following a presentation: controlled by the presenter."
+_WORDS = "Copies a link. Anyone with the link follows your settings live and can leave at any time."
+_FOLLOWING = "Following a presentation: the presenter controls this page."
 _DUPLICATE = (
-    "Another tab of this browser presents already: this one follows it. Close that one and reload to present here."
+    "Another tab of this browser is already presenting; this one follows it. To present here, close that tab and "
+    "reload."
 )
 
 

@@ -24,7 +24,7 @@ TIME_LIMIT = 120.0
 """[s] a map may take."""
 _URGENCY = 2
 """After searches and schedules."""
-_KEY = f"★ least · ● on the sliders, ○ nearest to them · white outline: within {100 * BAND:g} % of the least"
+_KEY = f"★ least · ● your design, ○ nearest point to it · white outline: within {100 * BAND:g} % of the least"
 
 
 class MapPanel(BackgroundWork):
@@ -34,7 +34,7 @@ class MapPanel(BackgroundWork):
         self._context = context
         self._search, gui = search, context.gui
         self.map: Map | None = None
-        self.line = "Power over two parameters, the others fixed. Click the map to take a point."
+        self.line = "Power over two parameters, the others fixed. Click the map to set a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._title = gui.add_html("")

@@ -189,7 +189,7 @@ class OptimisePanel(BackgroundWork):
             self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
             self._frame.content = text.frame_line(run, units)
         elif on_offer:
-            words = "The sliders have changed. Apply takes the optimum."
+            words = "The sliders have changed. Apply sets the optimum."
             self._frame.content = tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
         self._headline.content = text.headline(run, units)
 
@@ -261,7 +261,7 @@ class Rival:
         """`problems` get a title and a sentence where the address cannot be read."""
         self._context, self._address = context, address
         self._solved = BaselineCache(by=context.analyses.solve)
-        self._design = address.read(RIVAL, design_from, None, "Not the optimiser's design of the link", problems)
+        self._design = address.read(RIVAL, design_from, None, "Link: optimum not used", problems)
         self.solution: Solution | None = None
         """The optimiser's trim in the present flight; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())

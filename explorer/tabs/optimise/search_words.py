@@ -132,7 +132,7 @@ def _where(run: SearchRun) -> str:
             if progress is None:
                 return "Trimming the starting design …"
             if progress.phase == "band":
-                return "Measuring the 0.1 % band"
+                return "Computing the 0.1 % band"
             return f"Starting point {progress.start + 1} of {progress.starts}"
         case "done":
             return "Done"

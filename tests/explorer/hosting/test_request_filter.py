@@ -138,9 +138,9 @@ UPGRADE = b"Upgrade: websocket\r\n"
     [
         (b"HEAD / HTTP/1.1", OWN, 200, b""),
         (b"HEAD /place HTTP/1.1", OWN + UPGRADE, 400, b""),
-        (b"POST / HTTP/1.1", OWN, 405, b"GET and HEAD alone"),
+        (b"POST / HTTP/1.1", OWN, 405, b"only GET and HEAD"),
         (b"OPTIONS / HTTP/1.1", OWN, 405, b"Allow: GET, HEAD"),
-        (b"GET / HTTP/1.0", OWN, 505, b"HTTP/1.1 alone"),
+        (b"GET / HTTP/1.0", OWN, 505, b"only HTTP/1.1"),
         (b"GET / HTTP/1.1", b"Host: caf\xc3\xa9.example\r\n", 403, b"--allow-host"),
         (b"GET / HTTP/1.1", OWN + 2 * UPGRADE, 400, b"Upgrade"),
         (b"GET /first-answer?d=1;linear:-8 HTTP/1.1", OWN + b"Sec-Fetch-Site: cross-site\r\n", 403, b"other sites"),

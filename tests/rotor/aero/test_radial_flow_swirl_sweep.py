@@ -134,4 +134,4 @@ def test_the_document_has_none_of_them():
         on, off = solve(design).require(), solve(with_switches(design, BEYOND_DOCUMENT)).require()
         assert on.power == off.power
         for name in BEYOND_DOCUMENT:
-            assert no_effect(design, name) == "the document does not have it"
+            assert no_effect(design, name) == "the source document does not have it"

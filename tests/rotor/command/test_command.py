@@ -64,7 +64,7 @@ def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
 def test_without_hub_loads_a_note_says_why(capsys: pytest.CaptureFixture[str]):
     slow, unknown = solved(capsys, "--mu", "0.1"), solved(capsys, "--rotor", "r22", "--mu", "0.25")
     assert slow["hub_loads"] is unknown["hub_loads"] is unknown["blade_frequencies_per_rev"] is None
-    assert "No hub loads below µ 0.2" in slow["hub_loads_note"]
+    assert "Hub loads are not shown below µ 0.2" in slow["hub_loads_note"]
     assert "blade in flap and lag is not known" in unknown["hub_loads_note"]
     assert slow["caveats"] == [one.sentence for one in solve(make_design(mu=0.1)).caveats]
     code, out, _ = run(capsys, "solve", "--mu", "0.3", "--bending")
@@ -178,7 +178,7 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     [
         (["--twist", "linear:-30"], "built with about 20"),
         (["--twist", "linear:8"], "give the opposite sign, as in linear:-8"),
-        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "in their data, not as airfoils"),
+        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "by their data, not by their airfoils"),
     ],
 )
 def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, capsys: pytest.CaptureFixture[str]):

@@ -39,10 +39,10 @@ def test_more_power_than_the_engines_give_is_a_caveat():
     assert slow.power.total < 124.0 * 745.7 < fast.power.total
     assert "installed-power" not in {one.name for one in slow.caveats}
     (caveat,) = [one for one in fast.caveats if one.name == "installed-power"]
-    assert f"need {1e-3 * fast.power.total:.0f} kW; the engines deliver 92 kW" in caveat.sentence
+    assert f"need {1e-3 * fast.power.total:.0f} kW; the engines give 92 kW" in caveat.sentence
     hot = solve(make_design(rotor="r22", speed_kt=60.0, isa_offset_c=20)).require()
     (caveat,) = [one for one in hot.caveats if one.name == "engines-of-a-standard-day"]
-    assert "the loss in warmer air is not included" in caveat.sentence
+    assert "In warmer air they give less, which is not counted" in caveat.sentence
 
 
 def test_stops_of_the_uh60a_follow_from_its_mixer():
