@@ -135,7 +135,7 @@ def parsers() -> list[OneLineParser]:
     """Of all commands."""
     (commands,) = (one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
     page = (explorer.__main__._parser(), report._parser(), story_file._parser(), blade._parser())
-    return [*commands.choices.values(), *page]
+    return typing.cast(list[OneLineParser], [*commands.choices.values(), *page])
 
 
 def test_every_help_has_examples_with_flags_that_exist():

@@ -32,7 +32,7 @@ def add_parser(commands: Any) -> None:
         "--actuator", metavar="ID", default="MFC_P1", help="actuator (default MFC_P1); --table 5.1 lists all"
     )
     parser.add_argument("--plies", type=int, default=2, metavar="N", help=common.PLIES_HELP)
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=f"{common.CONCEPT_HELP} (default linear)")
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     for flag, value, metavar, words in (
         ("--from-mu", 0.0, "MU", "advance ratio of the first condition (default hover)"),

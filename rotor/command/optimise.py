@@ -22,7 +22,7 @@ from rotor.units import power_text
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "optimise", run)
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=common.CONCEPT_HELP)
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=f"{common.CONCEPT_HELP} (default linear)")
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     parser.add_argument(
         "--objective",

@@ -25,7 +25,11 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "schedule", run)
     parser.add_argument(
-        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"{common.CONCEPT_HELP} | all"
+        "--concept",
+        nargs="+",
+        default=list(DEFAULT_CONCEPTS),
+        metavar="NAME",
+        help=f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})",
     )
     parser.add_argument("--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
