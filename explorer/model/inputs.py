@@ -72,7 +72,7 @@ INFLOW_MENUS = {
     "inflow": {name: model.title for name, model in INFLOW_MODELS.items()},
     "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
     "low_speed": {"wake": "Forward wake at any speed", "hover": "Blends into hover"},
-    "loss_on": {"lift": "On the lift", "inflow": "On the inflow, eq. (3.3)"},
+    "loss_on": {"lift": "Less lift", "inflow": "More inflow, eq. (3.3)"},
 }
 """Inputs that choose the inflow: name → title of each choice."""
 

@@ -181,7 +181,7 @@ class Form:
 _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""
 _TRIM, _TEST, _POINT, _LOAD, _FLAPPING = "trim", "measured_test", "measured_point", "stand_load", "stand_flapping"
-_FLAPPINGS: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "For hub moments"}
+_FLAPPINGS: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "Gives moments"}
 _SLIDERS = {row.input: row.slider for row in STAND.values() if row.slider}
 """By the field of `StandInputs`, or by what is given."""
 

@@ -108,7 +108,7 @@ class SettingsPanel(Tab):
         self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
-        self._times = gui.add_dropdown("Twist drawn", tuple(_TIMES), hint=hint("times"))
+        self._times = gui.add_dropdown("Drawn twist", tuple(_TIMES), hint=hint("times"))
         by_hand(self._units, lambda title: self._change(units=title))
         by_hand(self._dark, lambda dark: self._change(dark=dark))
         by_hand(self._times, lambda title: self._change(exaggeration=_TIMES[title]))

@@ -77,7 +77,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With the actuator on board. ± from uncertain inputs; vibration with its range over inflow models. Blades bend here.')}
+          'With its mass. ± from uncertain inputs; vibration: range over inflow models. Blades bend here.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.here ? one.said : `${one.said} ${wait}`)} </span>${pays}
       </p>`);

@@ -72,7 +72,7 @@
     if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
         <button class="rxf-push" data-do="fails" data-value="${flight.frozen === null ? 'on' : 'off'}"
-          aria-pressed="${flight.frozen !== null}" title="Fails the actuator: its twist freezes while the flight goes on">
+          aria-pressed="${flight.frozen !== null}" title="The actuator fails: its twist freezes as the flight goes on">
           Actuator stops here</button></div>
       <div class="rxf-num" data-words></div>
       <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>

@@ -334,7 +334,7 @@ def _savings(verdict: Verdict) -> str:
     """Each part of the net saving, and what unlimited variable twist would save."""
     installed, concept = verdict.installed, verdict.baseline.concept.name
     start = verdict.reference_power - verdict.bare_power
-    parts = [f"Against {reference(verdict)} its twist {_change(verdict.gross_saving)}"]
+    parts = [f"Against {reference(verdict)}, its twist {_change(verdict.gross_saving)}"]
     if abs(start) >= PRINTED:
         parts[0] += f", and its built-in twist alone {_change(start)}"
     if abs(verdict.stiffness_cost) >= PRINTED:

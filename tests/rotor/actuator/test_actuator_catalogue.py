@@ -43,7 +43,7 @@ def test_strain_is_coefficient_times_field(sheet: PiezoPly):
 
 def test_grades_of_the_file_are_those_of_the_lists():
     """Every number of the table is followed by its grade; R and A ones are those that the program warns about."""
-    assert "AFC: assumed: capacitance" in " ".join(ply("AFC").provenance.warnings("AFC"))
+    assert "AFC: assumed values: capacitance" in " ".join(ply("AFC").provenance.warnings("AFC"))
     text = asset_path("actuators.toml").read_text(encoding="utf-8")
     for row, block in zip(tomllib.loads(text)["ply"], text.split("[[ply]]")[1:], strict=True):
         marked: dict[str, set[str]] = {"R": set(), "A": set()}

@@ -262,7 +262,7 @@ def test_command_json(capsys: pytest.CaptureFixture[str]):
     assert err == ""
     assert list(answer) == KEYS
     assert answer["actuator"] == "AFC"
-    assert any("recalled" in caveat for caveat in answer["caveats"])
+    assert any("from memory" in caveat for caveat in answer["caveats"])
     assert answer["net_saving_w"] < answer["gross_saving_w"]
 
 
