@@ -16,7 +16,7 @@ from rotor.trim.distribution import distribution
 from rotor.trim.export import solution_record
 from rotor.trim.forward import first_guess
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import newton
+from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.validity import MOST_STALLED
 from tests.rotor.check_jacobian import check_along
 
@@ -156,6 +156,9 @@ def test_beyond_all_measured_stall_there_is_no_power():
     assert solve(turn({"mu": float(mu), "mass_kg": 3896.0})).converged
     with pytest.raises(RuntimeError, match="56 % of the thrust"):
         refused.require()
+    short = solve(refused.design, options=SolverOptions(remedy=False))
+    assert short.message.startswith("Not trimmed: 56 % of the thrust")
+    assert "The largest" not in short.message
 
 
 @pytest.mark.parametrize("name", ["rotor_speed_percent", "mass_kg"])
