@@ -120,14 +120,18 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
         beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
         stalled, cells, lift = beyond & ~reverse, disk.cells, disk.dr[:, None] * elements.fz
     else:
-        limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
-        pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
-        theta, u_t, u_p, lift, low, high = matrix @ np.stack((pitch, elements.u_t, elements.u_p, elements.fz, *limits))
-        alpha = np.empty_like(theta)
-        angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
+        u_t, lift = matrix @ np.stack((elements.u_t, elements.fz))
         reverse, cells = u_t < 0.0, cells / len(disk.psi)
-        beyond = (alpha > high) | (alpha < low) if unsteady is None else matrix @ unsteady.separation < STALLED
+        if unsteady is None:
+            limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
+            pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
+            theta, u_p, low, high = matrix @ np.stack((pitch, elements.u_p, *limits))
+            alpha = np.empty_like(theta)
+            angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
+            beyond = (alpha > high) | (alpha < low)
+        else:
+            beyond = matrix @ unsteady.separation < STALLED
         stalled = beyond & ~reverse
     thrust = float(lift.sum())
     reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
