@@ -9,7 +9,7 @@ from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.colours import PARTS
 from explorer.export.figures import figure
 from explorer.picture.fields import FIELDS
-from rotor.chart import Axis, Chart, Line
+from rotor.support.chart import Axis, Chart, Line
 
 _COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5")
 

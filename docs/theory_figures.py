@@ -12,13 +12,13 @@ from explorer.colours import PARTS
 from explorer.export.figures import figure
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import axial_inflow, vortex_ring_edge
 from rotor.airfoil.sections import load_section
-from rotor.assets import asset_path
-from rotor.chart import AZIMUTH, COLOURS, Axis, Chart, Line, Points
 from rotor.study.series import waterfall
+from rotor.support.assets import asset_path
+from rotor.support.chart import AZIMUTH, COLOURS, Axis, Chart, Line, Points
 from rotor.trim.analysis import power_gradient
 
 SPEEDS = np.arange(0.08, 0.361, 0.04)
@@ -222,7 +222,7 @@ def actuator() -> str:
     design = rotor.make_design()
     series = []
     r = np.linspace(design.rotor.blade.root_cutout, 1.0, 60)
-    for k, (title, host) in enumerate({"as built": Host(), "half the stiffness": Host("new", 0.5)}.items()):
+    for k, (title, host) in enumerate({"as built": HostBlade(), "half the stiffness": HostBlade("new", 0.5)}.items()):
         installed = install(find_actuator("MFC_P1"), default_placement(), host, design.rotor)
         whole = installed.change(np.ones(len(installed.shapes)), r)
         series.append(Line(title, r, np.degrees(whole), COLOURS[1 + k]))

@@ -20,12 +20,12 @@ import webbrowser
 from collections.abc import Sequence
 from importlib import import_module
 
-from explorer.hosting.gate import SESSIONS
 from explorer.hosting.request_filter import host_name, is_loopback, warning
+from explorer.hosting.server_limits import SESSIONS
 from rotor import __version__
-from rotor.compiled import compiling
-from rotor.terminal import OneLineParser, StopSignal, called, run_command
-from rotor.user_input import did_you_mean, shorten
+from rotor.support.compiled import compiling
+from rotor.support.terminal import OneLineParser, StopSignal, command_words, run_command
+from rotor.support.user_input import did_you_mean, shorten
 
 _COMMANDS = {"report": "explorer.export.report", "blade": "explorer.export.blade", "story": "explorer.story.story_file"}
 """Modules with commands of their own, loaded when one is asked for."""
@@ -58,16 +58,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.hosting.gate import ServerLimits, few_pools, limit_log
+    from explorer.hosting.server_limits import ServerLimits, limit_log, limit_memory_pools
     from explorer.model.inputs import OPENING, inputs_of
     from rotor import load_design
-    from rotor.blas_threads import keep_one_blas_thread
-    from rotor.compiled import tell_in_a_log
+    from rotor.support.blas_threads import keep_one_blas_thread
+    from rotor.support.compiled import log_compiling
 
-    few_pools()
+    limit_memory_pools()
     keep_one_blas_thread()
     limit_log()
-    tell_in_a_log()
+    log_compiling()
     try:
         start = inputs_of(load_design(options.design)) if options.design is not None else OPENING
         limits = ServerLimits(sessions=options.max_sessions, allow_hosts=tuple(options.allow_host))
@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog=called("explorer", "rotor-explorer"),
+        prog=command_words("explorer", "rotor-explorer"),
         description="Explore helicopter blade twist in a browser.",
         epilog="Further commands with their own --help: report (designs side by side as an HTML file), "
         "story (the lecture as an HTML file), blade (its shape as STL).",

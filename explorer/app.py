@@ -12,12 +12,12 @@ from functools import partial
 import viser
 
 from explorer import web
-from explorer.hosting import gate as memory
+from explorer.hosting import server_limits as memory
 from explorer.hosting import viser_compat
 from explorer.hosting.browser import call, page_facts
-from explorer.hosting.gate import ServerLimits
 from explorer.hosting.messages import PageFacts
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
+from explorer.hosting.server_limits import ServerLimits
 from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, units_of
 from explorer.picture import picture
@@ -29,8 +29,8 @@ from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
 from explorer.workers import solver
 from rotor import solve
-from rotor.compiled import compiling
-from rotor.processes import Processes
+from rotor.support.compiled import compiling
+from rotor.support.processes import Processes
 from rotor.trim.newton import SolverOptions
 
 FIRST = 0.6
@@ -72,7 +72,7 @@ class ClientConnection:
                 return
             viser_compat.guard_uploads(self.client, self._refused)
             viser_compat.guard_values(self.client, self._ignored)
-            with viser_compat.at_once(self.client):
+            with viser_compat.in_one_piece(self.client):
                 try:
                     self.session = make(self.client, self._facts)
                     self.session.start()
@@ -253,7 +253,7 @@ class App:
         connection.leave()
         with self._lock:
             self._seated.discard(connection)
-        memory.give_back_soon()
+        memory.release_memory_soon()
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
         shared = SharedServices(self.pool, self.presentations)

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 Rgb = tuple[int, int, int]
 Scheme = Literal["sequential", "diverging", "margin"]
@@ -45,7 +45,7 @@ LIMIT = "#b5179e"
 PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "climb": "#2f9e44", "tail": "#983a6e"}
 """Power parts, told apart by every eye (tested, as are the lines of charts and the maps)."""
 
-PINNED_GHOST: Rgb = (96, 58, 214)
+PINNED_OVERLAY: Rgb = (96, 58, 214)
 """The blade of A, in the violet that A has in the frame; an albedo."""
 RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""
@@ -134,7 +134,7 @@ class DiskInk:
 
 
 @dataclass(frozen=True)
-class Light:
+class SceneLight:
     colour: Rgb
     intensity: float
     position: tuple[float, float, float]
@@ -143,12 +143,12 @@ class Light:
 _WARM, _COOL, _PALE = (255, 247, 236), (214, 228, 255), (220, 232, 255)
 
 
-def _lights(key: float, fill: float, rim: float) -> tuple[Light, ...]:
+def _lights(key: float, fill: float, rim: float) -> tuple[SceneLight, ...]:
     """Key from port above, fill and rim from starboard: opposite the camera they would whiten the blades."""
     return (
-        Light(_WARM, key, (3.0, -9.0, 10.0)),
-        Light(_COOL, fill, (2.0, 10.0, 4.0)),
-        Light(_PALE, rim, (-5.0, 9.0, 2.6)),
+        SceneLight(_WARM, key, (3.0, -9.0, 10.0)),
+        SceneLight(_COOL, fill, (2.0, 10.0, 4.0)),
+        SceneLight(_PALE, rim, (-5.0, 9.0, 2.6)),
     )
 
 
@@ -158,7 +158,7 @@ class SceneTheme:
 
     blade: Rgb = (30, 33, 40)
     reference_blade: Rgb = (168, 22, 6)
-    ghost: Rgb = (120, 130, 146)
+    overlay: Rgb = (120, 130, 146)
     head: Rgb = (52, 56, 64)
     body: Rgb = (96, 104, 117)
     glass: Rgb = (38, 46, 58)
@@ -172,7 +172,7 @@ class SceneTheme:
     """A tip vortex where it leaves the blade."""
     vortex_end: Rgb = (196, 208, 224)
     """Where it fades, close to the background."""
-    lights: tuple[Light, ...] = _lights(2.3, 0.7, 0.7)
+    lights: tuple[SceneLight, ...] = _lights(2.3, 0.7, 0.7)
     sky: float = 1.1
     """Intensity of the hemisphere light."""
     environment: float = 0.26
@@ -184,7 +184,7 @@ LIGHT = SceneTheme()
 DARK = SceneTheme(
     blade=(96, 104, 118),
     reference_blade=(186, 28, 8),
-    ghost=(150, 160, 176),
+    overlay=(150, 160, 176),
     head=(70, 76, 88),
     body=(62, 69, 82),
     glass=(10, 13, 18),

@@ -6,12 +6,12 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.gate import ServerLimits
 from explorer.hosting.request_filter import host_name
+from explorer.hosting.server_limits import ServerLimits
 from explorer.model.inputs import inputs_of
 from rotor import Design
 from rotor.design.design import require_design
-from rotor.markup import tag
+from rotor.support.markup import tag
 
 _LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")
 """Where notebooks on this machine are shown."""

@@ -22,7 +22,7 @@ from explorer.parts.presses import IdlePress
 from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
-from explorer.scene.overlays import ghost_of
+from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
@@ -32,14 +32,14 @@ from explorer.tabs.controls import DesignControls, SessionCallbacks
 from explorer.tabs.design_files import FilePanel, add_rotor_upload
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel
-from explorer.tabs.follower import Follower
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.tabs.layout import Keyboard, Layout, Sections
 from explorer.tabs.lecture.lecture_panel import LecturePanel
-from explorer.tabs.lecture.presence import Presence
+from explorer.tabs.lecture.presentation_banner import PresentationBanner
 from explorer.tabs.optimise.map_panel import MapPanel
-from explorer.tabs.optimise.optimise_panel import OptimisePanel, Rival
+from explorer.tabs.optimise.optimise_panel import OptimisedDesign, OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
+from explorer.tabs.panel_updater import PanelUpdater
 from explorer.tabs.probe_panel import ProbePanel
 from explorer.tabs.results import drawer_texts
 from explorer.tabs.twist_curve import TwistCurveEditor
@@ -52,14 +52,14 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
-from explorer.views.now import Effect, Grab, Move, Now, Ui
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, SetGrabbed
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from rotor import Design, Solution, solve
-from rotor.user_input import brief
+from rotor.support.user_input import brief
 
 _BRAND = (37, 99, 235)
 _ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
@@ -115,7 +115,7 @@ class Page:
         )
         with banner:
             secret = facts.kept.get(PRESENT, "")
-            self._presence = Presence(context, shared.presentations, address, secret, facts.page)
+            self._presentation = PresentationBanner(context, shared.presentations, address, secret, facts.page)
         self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
         self.camera = FittedCamera(client, rotor.radius)
@@ -132,7 +132,7 @@ class Page:
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self.actuator.inputs()
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
-        self._now = Now(start, None, None, analyses=context.analyses)
+        self._now = PageState(start, None, None, analyses=context.analyses)
         """As of the last update; `now` has the rest."""
         texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
@@ -144,18 +144,20 @@ class Page:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self.rival = Rival(context, address, problems)
-        self.optimise.challenge = self.rival.begin
+        self.optimised = OptimisedDesign(context, address, problems)
+        self.optimise.challenge = self.optimised.begin
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera)
-            self._presence.begin(self.lecture, self._hold)
+            self._presentation.begin(self.lecture, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
-        self.follower = Follower(PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform)
-        following = self.probe, settings, self.history, self.file, export, self.lecture, self._presence
+        self.follower = PanelUpdater(
+            PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform
+        )
+        following = self.probe, settings, self.history, self.file, export, self.lecture, self._presentation
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
@@ -222,11 +224,11 @@ class Page:
 
         `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
         """
-        ghost = ghost_of(reading.sliders if reading.previewed else None, self.pin)
+        overlay = overlay_of(reading.sliders if reading.previewed else None, self.pin)
         self.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
         if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
-            self.scene.draw(solution, reading.view, ghost, pinned)
+            self.scene.draw(solution, reading.view, overlay, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
@@ -235,21 +237,21 @@ class Page:
             design = reading.sliders or solution.design
             self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
 
-    def now(self) -> Now:
+    def now(self) -> PageState:
         """All that is known, for the panels that are functions of it; safe from any thread."""
         return replace(
             self._now,
-            ui=Ui(self.layout.mode, self.layout.drawer, self.context.held),
+            ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held),
             station=self._curve.held,
             change=self.context.tracker.change,
-            rival=self.rival.solution,
+            optimised=self.optimised.solution,
             searching=self.optimise.notice(self._now.sliders),
             index=self.vibration.chart,
             memory=self.follower.memory,
             answers=self.follower.answers(),
         )
 
-    def _pressed(self) -> Now:
+    def _pressed(self) -> PageState:
         """All that is known, with what the widgets mean at this moment; where they mean no design, with the last."""
         now = self.now()
         sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
@@ -266,7 +268,7 @@ class Page:
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
 
-    def _read(self, reading: Reading) -> Now:
+    def _read(self, reading: Reading) -> PageState:
         """What was read in this update, in place of that of the last."""
         hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
         return replace(self._now, inputs=reading.inputs, sliders=reading.sliders, hand=hand)
@@ -286,7 +288,7 @@ class Page:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._now = replace(self._now, state=state, curve=curve)
         with self._client.atomic():  # Each message by itself would wake the thread that sends.
-            self.rival.show(state)
+            self.optimised.show(state)
             self._refresh(reading)
             self.vibration.show(state)
             self._curve.show(state)
@@ -413,9 +415,9 @@ class Page:
     def _perform(self, effect: Effect) -> None:
         """Do what a press says."""
         match effect:
-            case Move(inputs, by_hand):
+            case MoveSliders(inputs, by_hand):
                 (self.context.drag_to if by_hand else self.context.set_inputs)(inputs)
-            case Grab(held):
+            case SetGrabbed(held):
                 self._grabbed(held)
             case _:
                 self.actuator.perform(effect)
@@ -437,5 +439,5 @@ class Page:
         self.context.tracker.reset()
         self.optimise.withdraw()
         self.actuator.reset()
-        self.rival.begin(None)
+        self.optimised.begin(None)
         self.controls.set_inputs(self._opening)

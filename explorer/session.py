@@ -31,7 +31,7 @@ import viser
 from explorer.charts.measured import set_shown
 from explorer.charts.plots import PowerCurve, PowerCurves
 from explorer.hosting.messages import PageFacts
-from explorer.hosting.viser_compat import until_called
+from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page
@@ -40,7 +40,7 @@ from explorer.tabs.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Solution
-from rotor.blas_threads import one_blas_thread
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim import DEFAULT_OPTIONS
 
 _log = logging.getLogger(__name__)
@@ -216,7 +216,7 @@ class Session:
 
     def _until_idle(self, wholly: bool) -> None:
         """Wait until all that the page sent before is answered; `wholly`: and nothing is computed for it any more."""
-        until_called(self._client)
+        wait_for_callbacks(self._client)
         self._worker.until_answered(wholly)
 
     def _overtaken(self) -> bool:

@@ -22,14 +22,14 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
-from rotor.terminal import stop_while_read  # Before what takes half a second to read.
+from rotor.support.terminal import stop_while_read  # Before what takes half a second to read.
 
 stop_while_read()
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from rotor.assets import package_version
+from rotor.support.assets import package_version
 
 if TYPE_CHECKING:
     from rotor.public import *  # noqa: F403

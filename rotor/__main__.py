@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from importlib import import_module
 
 from rotor import __version__
-from rotor.blas_threads import keep_one_blas_thread
 from rotor.command.names import COMMANDS
-from rotor.terminal import OneLineParser, called, run_command
+from rotor.support.blas_threads import keep_one_blas_thread
+from rotor.support.terminal import OneLineParser, command_words, run_command
 
 _COMPLETION = "completion"
 
@@ -17,7 +17,7 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
     """The parser of all commands, or of one with its flags where its name is given: to read the others takes a
     second."""
     parser = OneLineParser(
-        prog=called("rotor", "rotor"),
+        prog=command_words("rotor", "rotor"),
         description="Helicopter main rotors: trim, power, twist.",
         epilog="For the flags and examples of a command: COMMAND --help",
     )

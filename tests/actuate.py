@@ -11,38 +11,38 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
-from explorer.views.now import Effect, Hand, Move, Now, Panel, SetHand, Ui
+from explorer.views.page_state import Effect, HandSettings, MoveSliders, OpenPanels, PageState, Panel, SetHand
 from explorer.workers.call import Call
 from rotor.design import Harmonic
 from rotor.trim.solve import solve
 
 
-def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> Now:
+def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> PageState:
     """The page in Actuate with this design, the blade lifted out; `hand`: fields of `Hand`."""
-    own = Hand(**{"lifted": True, **hand})
+    own = HandSettings(**{"lifted": True, **hand})
     design = inputs.design()
     solution = solve(own.actuator.apply(design)).require()
     state = SessionState(inputs, ViewState(), solution, solution, None)
-    return Now(inputs, design, state, ui=Ui("actuate"), hand=own, answers=answers or {})
+    return PageState(inputs, design, state, ui=OpenPanels("actuate"), hand=own, answers=answers or {})
 
 
-def asked(panel: Panel, now: Now) -> dict[str, Call]:
+def asked(panel: Panel, now: PageState) -> dict[str, Call]:
     """What is asked, by the names of the functions; the first of each."""
     calls = [call for one in panel.asks(now) for call in one.calls]
     return {call.function.__name__: call for call in reversed(calls)}
 
 
-def told(panel: Panel, now: Now, **answers: Any) -> Now:
+def told(panel: Panel, now: PageState, **answers: Any) -> PageState:
     """With answers to what it asks, by the names of the functions."""
     calls = asked(panel, now)
     return replace(now, answers={**now.answers, **{calls[name]: answer for name, answer in answers.items()}})
 
 
-def done(now: Now, effects: tuple[Effect, ...]) -> Now:
+def done(now: PageState, effects: tuple[Effect, ...]) -> PageState:
     """What effects leave behind: sliders, the hand, widgets of the actuator in whole per cent."""
     for effect in effects:
         match effect:
-            case Move(inputs):
+            case MoveSliders(inputs):
                 now = replace(now, inputs=inputs)
             case SetHand(changes, moved):
                 whole = {"drives": tuple(map(round, moved["drives"]))} if "drives" in moved else {}

@@ -1,6 +1,6 @@
 """The lines and points of a chart, for tests that read their values."""
 
-from rotor.chart import Band, Chart, Line, Points
+from rotor.support.chart import Band, Chart, Line, Points
 
 
 def curves(chart: Chart) -> list[Line | Points]:

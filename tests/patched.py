@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from rotor.reproduce.runs import CachedFunction
+from rotor.validation.thesis.runs import CachedFunction
 
 Patch = Callable[[str, object], None]
 """Sets the name in a module to a value."""

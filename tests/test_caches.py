@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rotor.arrays import Array, bytes_cache
+from rotor.support.arrays import Array, bytes_cache
 
 ROTOR = Path(__file__).parent.parent / "rotor"
 FIXED = {

@@ -26,7 +26,7 @@ from explorer.story import story_file
 from rotor.__main__ import build_parser
 from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
-from rotor.terminal import OneLineParser
+from rotor.support.terminal import OneLineParser
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent

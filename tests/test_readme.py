@@ -11,9 +11,9 @@ import pytest
 import rotor
 from explorer.__main__ import main as explorer_main
 from rotor.__main__ import main as rotor_main
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.reproduce.actuation import table_5_2
-from rotor.reproduce.optimum_twist import table_4_1
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.validation.thesis.actuation import table_5_2
+from rotor.validation.thesis.optimum_twist import table_4_1
 from tests.tools import readme
 
 ROOT = Path(__file__).parent.parent

@@ -26,7 +26,7 @@ def test_it_is_the_wheel_that_runs(installed: Path, tmp_path: Path):
 
 
 def test_the_data_files_are_all_there(installed: Path, tmp_path: Path):
-    code = "import rotor.assets; print(rotor.assets.asset_path('uh60a.toml').parent)"
+    code = "import rotor.support.assets; print(rotor.support.assets.asset_path('uh60a.toml').parent)"
     shipped = Path(release.run(installed, "-c", code, cwd=tmp_path).strip())
     assert "site-packages" in shipped.parts
 

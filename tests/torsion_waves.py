@@ -3,8 +3,8 @@ off a solution."""
 
 import numpy as np
 
-from rotor.arrays import Array
 from rotor.dynamics.torsion import TorsionBeam
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 
 

@@ -28,7 +28,7 @@ import matplotlib.pyplot as plt
 
 import explorer
 import rotor
-from rotor.reproduce import ladder, readings
+from rotor.validation.thesis import ladder, readings
 
 # %%
 # From the thesis to today

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
-from rotor.markup import Markup, tag
 from rotor.optimisation.results import BestTwist, TwistRange
+from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import Doubt, OtherModels, decimals
 
 _SQUARE_METRE = Unit("m²", 1.0)

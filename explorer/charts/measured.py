@@ -11,9 +11,9 @@ from explorer.model.stand import as_measured, flight_powers
 from explorer.model.units import Units, number
 from explorer.text.status import validated
 from rotor import Design, FlightCondition, Solution, solve
-from rotor.chart import Axis, Chart, Points
 from rotor.design import Stand
 from rotor.study.series import between_drag_areas
+from rotor.support.chart import Axis, Chart, Points
 from rotor.validation import Comparison, MeasuredSet, compare_point, design_at
 from rotor.validation.compare import ComparedPoint, quantity_of
 from rotor.validation.flown import POWER_REPORTS, MeasuredPower
@@ -252,7 +252,7 @@ def source_of(design: Design) -> str:
 def _shown(design: Design) -> tuple[MeasuredPower, ...]:
     """The flights of this rotor; none on a stand, in climb, at another rotor speed, and with another blade."""
     here = design.condition
-    level = here.stand is None and not here.beside and not design.pitch_per_rev
+    level = here.stand is None and not here.unusual and not design.pitch_per_rev
     return flight_powers(design.aircraft.key) if level and as_measured(design) else ()
 
 

@@ -18,8 +18,8 @@ from explorer.picture.polar import stall_angles
 from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
 from rotor import Design, Solution, solve
-from rotor.arrays import Array
 from rotor.study.series import between_drag_areas
+from rotor.support.arrays import Array
 from rotor.trim import Guess
 from rotor.trim.low_speed import passes_over, vortex_ring
 from rotor.trim.validity import LOW_SPEED
@@ -139,7 +139,7 @@ class PowerCurves:
             self._band = family
         # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
         near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
-        level = near is not None and near.condition.beside == design.condition.beside
+        level = near is not None and near.condition.unusual == design.condition.unusual
         band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
         reference_total = self._curves.get(_family(reference), blank)[0]
         return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)

@@ -14,8 +14,8 @@ from scipy.interpolate import CubicSpline
 from explorer.charts.plots import SWEEP, PowerCurve, Range, alpha_along, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor import Design, Solution
-from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Line, Points, Rule, Values
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Band, Chart, Line, Points, Rule, Values
 
 Role = Literal["this", "reference", "pinned", "limit", "saving", "earlier", "flown"]
 """What a line stands for.
@@ -24,8 +24,8 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
     "this": ("var(--rx-blade)", 2.1, ""),
     "saving": ("var(--rx-accent)", 2.0, ""),
     "flown": ("var(--rx-accent)", 1.7, ""),
-    "earlier": ("var(--rx-ghost)", 1.6, ""),
-    "reference": ("var(--rx-ghost)", 1.5, "4 3"),
+    "earlier": ("var(--rx-overlay)", 1.6, ""),
+    "reference": ("var(--rx-overlay)", 1.5, "4 3"),
     "pinned": ("var(--rx-pinned)", 1.7, "6 3"),
     "limit": ("var(--rx-stall)", 1.3, "3 3"),
 }

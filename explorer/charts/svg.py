@@ -12,10 +12,10 @@ from explorer.model.units import SI, Units
 from explorer.picture import disk_image
 from explorer.picture.fields import Field
 from explorer.picture.picture import disk_png
-from explorer.picture.polar import ALL_MARKS, Drawn, MarkedRegion, polar_grid, region_codes
+from explorer.picture.polar import ALL_MARKS, DrawnSolution, MarkedRegion, polar_grid, region_codes
 from rotor import Solution
-from rotor.chart import bar_ticks
-from rotor.markup import Attribute, Markup, group, tag
+from rotor.support.chart import bar_ticks
+from rotor.support.markup import Attribute, Markup, group, tag
 
 Point = tuple[float, float]
 
@@ -91,7 +91,7 @@ def words(
     return tag("text", text, subscript, x=at[0], y=at[1], text_anchor=anchor, fill=colour, **look, **_HALO)
 
 
-def spread(wanted: list[float], apart: float) -> list[float]:
+def spread_heights(wanted: list[float], apart: float) -> list[float]:
     """Heights as near those wanted as lets each be `apart` from the next; in the same order."""
     order = sorted(range(len(wanted)), key=lambda k: wanted[k])
     placed = [wanted[k] for k in order]
@@ -207,7 +207,7 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
 
 def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
     """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
-    drawn, grid, ink = Drawn(solution), polar_grid(solution.disk, 80, 240), DiskInk()
+    drawn, grid, ink = DrawnSolution(solution), polar_grid(solution.disk, 80, 240), DiskInk()
     codes = region_codes(drawn, grid, ALL_MARKS, 0.02)
     entries: list[tuple[str, Markup]] = []
     for region, title, colour, dashes in (

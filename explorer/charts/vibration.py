@@ -13,8 +13,8 @@ from explorer.charts.plots import SWEEP, Range, held_range
 from explorer.charts.strip import Role, now_dot, role_line
 from explorer.model.units import number
 from rotor import Design, Solution, hub_loads
-from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Rule
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Chart, Rule
 from rotor.trim import DEFAULT_OPTIONS, Analysis, Guess, analyse, why_no_hub_loads
 from rotor.trim.hub_loads import SLOWEST
 

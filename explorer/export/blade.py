@@ -13,12 +13,12 @@ import numpy as np
 import trimesh
 
 from explorer.export.provenance import PROGRAM, file_name
-from explorer.picture.blade_mesh import Detail, blade_shape, blade_vertices
+from explorer.picture.blade_mesh import LoftDetail, blade_shape, blade_vertices
 from explorer.text.design_words import title_words
 from rotor import Design, load_design, make_design
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
-from rotor.terminal import OneLineParser, called, run_command
-from rotor.user_input import write_whole
+from rotor.support.terminal import OneLineParser, command_words, run_command
+from rotor.support.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
@@ -33,7 +33,7 @@ def blade_mesh(design: Design) -> trimesh.Trimesh:
     """
     active = () if design.active_twist is None else design.active_twist.stations
     places = tuple(sorted({*kinks(design.twist), *active}))
-    shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
+    shape = blade_shape(design.rotor, LoftDetail(POINTS, STATIONS, places))
     hinge = design.rotor.blade.flap_hinge * design.rotor.radius
     return trimesh.Trimesh(blade_vertices(shape, design.twist) + np.array([hinge, 0.0, 0.0]), shape.faces)
 
@@ -78,7 +78,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog=called("explorer", "rotor-explorer") + " blade",
+        prog=command_words("explorer", "rotor-explorer") + " blade",
         description="Write one blade as STL in metres, with its twist as built.",
         examples=(("The blade of a UH-60A", "--out cad"),),
     )

@@ -19,11 +19,11 @@ from explorer.text.design_words import inflow_words, physics_words, title_words
 from explorer.text.glossary import COLUMNS
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
-from rotor.arrays import Array
-from rotor.assets import commit
+from rotor.support.arrays import Array
+from rotor.support.assets import commit
+from rotor.support.units import KNOT
+from rotor.support.user_input import csv_text
 from rotor.trim import DiskFields
-from rotor.units import KNOT
-from rotor.user_input import csv_text
 
 PROGRAM = "rotor explorer"
 LONGEST_NAME = 60
@@ -54,7 +54,7 @@ def condition_line(design: Design) -> str:
     load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
     if condition.stand is not None:
         load = f"{design.models.trim}: {condition.stand}"
-    return ", ".join((speed, *condition.beside, load))
+    return ", ".join((speed, *condition.unusual, load))
 
 
 def provenance_lines(solution: Solution) -> list[str]:

@@ -24,9 +24,9 @@ from explorer.text.design_words import flight_words, model_words, title_words, w
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
-from rotor.markup import Markup, group, tag
-from rotor.terminal import OneLineParser, called, run_command
-from rotor.user_input import write_whole
+from rotor.support.markup import Markup, group, tag
+from rotor.support.terminal import OneLineParser, command_words, run_command
+from rotor.support.user_input import write_whole
 
 
 def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None) -> str:
@@ -173,7 +173,7 @@ def _write(path: str, html: str) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog=called("explorer", "rotor-explorer") + " report",
+        prog=command_words("explorer", "rotor-explorer") + " report",
         description="Write designs side by side as one HTML file that opens without a server.",
         examples=(("Two designs", "a.json b.json --out report.html"),),
     )

@@ -15,7 +15,7 @@ from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of
-from rotor.markup import Content, Markup, group, tag
+from rotor.support.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
 from rotor.trim.doubt import decimals
 
@@ -210,7 +210,7 @@ def _least_induced(solution: Solution, units: Units) -> str:
 
 
 def _speed(design: Design, units: Units) -> Content:
-    climb = ", ".join(units.beside(design.condition))
+    climb = ", ".join(units.unusual(design.condition))
     if design.hovering:
         return _below("hover", climb) if climb else "hover"
     speed = units.speed[0].text(design.airspeed) + (f", {climb}" if climb else "")

@@ -20,11 +20,11 @@ from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
 from explorer.views.assessed import Assessed
 from rotor import Solution
-from rotor.chart import bar_ticks
+from rotor.support.chart import bar_ticks
 
 Ink = tuple[int, int, int]
 _NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
-_INK, _DIM, _GHOST = (24, 33, 47), (95, 107, 128), (141, 152, 170)
+_INK, _DIM, _OVERLAY = (24, 33, 47), (95, 107, 128), (141, 152, 170)
 _KINDS = {"more": ((194, 65, 12), (255, 146, 43)), "less": ((11, 122, 94), (56, 217, 169))}
 """Of power, light and dark."""
 _SKY = (243, 246, 250), (25, 31, 41)
@@ -53,7 +53,7 @@ def view_png(
     picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
     picture.paste(drawn, (0, _STRIP), drawn)
     draw = ImageDraw.Draw(picture)
-    ink, dim = (_PALE, _GHOST) if dark else (_INK, _DIM)
+    ink, dim = (_PALE, _OVERLAY) if dark else (_INK, _DIM)
 
     def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)

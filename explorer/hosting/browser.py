@@ -36,7 +36,7 @@ def page_facts(client: viser.ClientHandle) -> PageFacts:
     return read_facts(text or "{}")
 
 
-def keep(client: viser.ClientHandle, name: str, text: str) -> None:
+def store_text(client: viser.ClientHandle, name: str, text: str) -> None:
     """Give the page a text to keep until its window is closed, also while it is loaded again.
 
     One too long for the browser's store (some megabytes) is not kept, nor what stood there before.

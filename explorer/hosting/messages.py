@@ -14,7 +14,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from explorer.parts.presses import PRESSES
-from rotor.user_input import brief
+from rotor.support.user_input import brief
 
 LONGEST_HEAD = 2**16
 """[bytes] of a request's head."""
@@ -151,7 +151,7 @@ def message_fault(message: bytes) -> str:
     return ""
 
 
-def dropped(what: str) -> None:
+def log_dropped(what: str) -> None:
     """Tell that something was dropped."""
     _log.warning("dropped from a page: %s", what)
 
@@ -190,7 +190,7 @@ def checked_press(text: Any) -> tuple[str, Any] | None:
         # A button has its number as text: not strictly.
         return press.name, None if kind is None else msgspec.json.decode(press.value, type=kind, strict=False)
     except ValueError as error:
-        dropped(f"press {_shown(text)}: {error}{_choices(str(error), kind)}")
+        log_dropped(f"press {_shown(text)}: {error}{_choices(str(error), kind)}")
         return None
 
 
@@ -202,7 +202,7 @@ class PageFacts(Struct, frozen=True):
     query: Annotated[str, Meta(max_length=LONGEST_HEAD)] | None = ""
     """The query of the page's address, from the question mark on; None where the browser did not tell."""
     kept: dict[str, str] = {}
-    """Texts that it was given to keep by name: see `browser.keep`."""
+    """Texts that it was given to keep by name: see `browser.store_text`."""
     page: Annotated[str, Meta(max_length=40)] = ""
     """Another one each time that a tab is loaded; the same when a page connects again."""
 
@@ -212,7 +212,7 @@ def read_facts(text: str) -> PageFacts:
     try:
         return msgspec.json.decode(text, type=PageFacts)
     except ValueError as error:
-        dropped(f"facts {_shown(text)}: {error}")
+        log_dropped(f"facts {_shown(text)}: {error}")
         return PageFacts(query=None)
 
 

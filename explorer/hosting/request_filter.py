@@ -24,10 +24,10 @@ from websockets.http11 import Request, Response
 from websockets.protocol import Event
 
 from explorer import web
-from explorer.hosting.gate import FRAMES, LARGEST_MESSAGE, RateLimiter
-from explorer.hosting.messages import LONGEST_HEAD, dropped, message_fault
-from rotor.compiled import compiling
-from rotor.markup import end_of, start_of, with_title
+from explorer.hosting.messages import LONGEST_HEAD, log_dropped, message_fault
+from explorer.hosting.server_limits import FRAMES, LARGEST_MESSAGE, RateLimiter
+from rotor.support.compiled import compiling
+from rotor.support.markup import end_of, start_of, with_title
 
 _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _DEFAULT_PORTS = {"http": 80, "https": 443}
@@ -324,7 +324,7 @@ class GuardedConnection(ServerConnection):
             fault = message_fault(message) if isinstance(message, bytes) else ""  # A text is no message of viser's.
             if not fault:
                 return message
-            dropped(fault)
+            log_dropped(fault)
 
 
 def _contained(handler: Handler) -> Handler:

@@ -10,7 +10,7 @@
 | the handlers of `ShareUrl…` messages | any client could open a public tunnel | `remove_share_tunnel` |
 | the handlers of `FileTransfer…` messages | uploads have no limit | `guard_uploads` |
 | the handler of `GuiUpdateMessage` messages | any value is taken | `guard_values` |
-| the threads of callbacks | a thread costs more than a quick callback takes | `quick` |
+| the threads of callbacks | a thread costs more than a quick callback takes | `on_event_loop` |
 
 `tests/explorer/hosting/test_viser_compat.py` has a test for each, or says where it is. What is changed in viser's
 client is in `explorer/web/viser.js`: its docks stay in a narrow window, no edit is lost to the next, we hear when it
@@ -38,10 +38,10 @@ from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from explorer.hosting.gate import refuse_upload
 from explorer.hosting.messages import LONGEST_HEAD, accepted_value
 from explorer.hosting.request_filter import RequestFilter
-from rotor.arrays import Array
+from explorer.hosting.server_limits import refuse_upload
+from rotor.support.arrays import Array
 
 VISER, WEBSOCKETS = "1.1.1", "16.1"
 """The versions that this file is for."""
@@ -252,7 +252,7 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
 Callback = Callable[[viser.GuiEvent[Any]], None]
 
 
-def quick(callback: Callback) -> Callback:
+def on_event_loop(callback: Callback) -> Callback:
     """A callback that takes no time and waits for nothing: it is called on the event loop.
 
     Another thread would cost more than it does, and have to wait for its turn of the interpreter.
@@ -282,7 +282,7 @@ class _Callbacks:
         return done
 
 
-def until_called(client: viser.ClientHandle) -> None:
+def wait_for_callbacks(client: viser.ClientHandle) -> None:
     """Wait until the callbacks of all that has come from a page with `guard_values` have ended."""
     threads = client.gui._thread_executor
     assert isinstance(threads, _Callbacks)
@@ -297,7 +297,7 @@ def set_png(handle: viser.ImageHandle, png: bytes) -> None:
     handle._data = np.frombuffer(png, dtype=np.uint8)  # pyright: ignore[reportAttributeAccessIssue]
 
 
-def place(handle: viser.SceneNodeHandle, wxyz: Array, position: Array | None = None) -> None:
+def set_pose(handle: viser.SceneNodeHandle, wxyz: Array, position: Array | None = None) -> None:
     """Turn and move a node within its parent, where that changes anything: the public setters take ten times as long
     to see that."""
     node = handle._impl
@@ -331,7 +331,7 @@ def run_in_page(client: viser.ClientHandle, script: str) -> None:
 
 
 @contextlib.contextmanager
-def at_once(client: viser.ClientHandle) -> Iterator[None]:
+def in_one_piece(client: viser.ClientHandle) -> Iterator[None]:
     """Send everything queued in the block as one piece, so that the page is laid out once. Otherwise it comes in pieces
     of 128 messages, and the layout jumps at each. Nothing in the block may wait for an answer of the page."""
     client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE

@@ -17,11 +17,11 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, actuato
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, divisions_of, twisted
-from rotor.actuator.section import BladeKind, Host, Placement, default_placement
+from rotor.actuator.section import BladeKind, HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Against, Verdict, judge
-from rotor.arrays import Array
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept
+from rotor.support.arrays import Array
 
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Concepts whose divisions an actuator can be laid out for before any optimum is known."""
@@ -53,8 +53,8 @@ class ActuatorInputs:
     """Fibres laid the other way, so that positive voltage turns the tip down."""
 
     @property
-    def mounting(self) -> tuple[Placement, Host]:
-        host = Host() if self.blade == "retrofit" else Host("new", self.stiffness)
+    def mounting(self) -> tuple[Placement, HostBlade]:
+        host = HostBlade() if self.blade == "retrofit" else HostBlade("new", self.stiffness)
         return Placement(self.span, self.chord, self.plies), host
 
     def installed(self, rotor: Rotor) -> InstalledActuator:
@@ -117,22 +117,22 @@ class ActuatorInputs:
 
 
 @dataclass(frozen=True)
-class Question:
+class VerdictInputs:
     """All that a verdict depends on."""
 
     pair: ConditionPair
     concept: str
     actuator: str
     placement: Placement
-    host: Host
+    host: HostBlade
     against: Against = "same-blade"
 
 
-def question_of(inputs: ActuatorInputs, design: Design) -> Question:
+def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
     """What the tab asks about a design; ValueError for a pair of equal conditions."""
     start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
     pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
-    return Question(pair, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
+    return VerdictInputs(pair, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
 
 
 def swing_of(actuator: Actuator, drive: float) -> float:
@@ -163,13 +163,13 @@ Outcome = Verdict | str
 """A verdict, or the sentence that says why there is none."""
 
 
-def verdict_on(question: Question) -> Verdict:
+def verdict_on(question: VerdictInputs) -> Verdict:
     """The verdict on the actuator asked about; ValueError or RuntimeError with a sentence where there is none."""
     actuator, concept = find_actuator(question.actuator), find_concept(question.concept)
     return judge(actuator, question.pair, concept, question.placement, question.host, against=question.against)
 
 
-def lean_verdict(question: Question) -> Verdict:
+def lean_verdict(question: VerdictInputs) -> Verdict:
     """A verdict, its trims with their disks left behind: a few kilobytes for three megabytes."""
     verdict = verdict_on(question)
     base = verdict.baseline
@@ -179,7 +179,7 @@ def lean_verdict(question: Question) -> Verdict:
     return replace(verdict, baseline=base, resting=resting, optimum=optimum)
 
 
-def verdict_tasks(question: Question) -> dict[str, Call]:
+def verdict_tasks(question: VerdictInputs) -> dict[str, Call]:
     """By actuator: the chosen one first, then all others."""
     ids = dict.fromkeys((question.actuator, *actuators()))
     return {id: Call(lean_verdict, (replace(question, actuator=id),)) for id in ids}

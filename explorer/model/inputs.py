@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from explorer.model.stand import StandInputs, stand_of, tested
 from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design import (
     ActiveTwist,
     Harmonic,
@@ -31,6 +30,7 @@ from rotor.design.quantities import CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 
 OWN = "own"
 """Name in `Inputs` of the user's own rotor."""
@@ -222,7 +222,7 @@ OPENING = Inputs(law="builtin")
 
 
 @dataclass(frozen=True)
-class Law:
+class MenuLaw:
     """A twist law of the menu, and the fields of `Inputs` that belong to it."""
 
     title: str
@@ -259,19 +259,19 @@ def _built(inputs: Inputs) -> TwistLaw | str:
     return SumTwist(_builtin_twist(inputs), _segments(inputs))
 
 
-LAWS: dict[str, Law] = {
-    "builtin": Law("As built + two-segment change", _built, ("built_inner", "built_outer"), ("built_division",)),
-    "linear": Law("Linear", lambda i: LinearTwist(*_radians(i)), ("linear",)),
-    "quadratic": Law(
+LAWS: dict[str, MenuLaw] = {
+    "builtin": MenuLaw("As built + two-segment change", _built, ("built_inner", "built_outer"), ("built_division",)),
+    "linear": MenuLaw("Linear", lambda i: LinearTwist(*_radians(i)), ("linear",)),
+    "quadratic": MenuLaw(
         "Quadratic", lambda i: QuadraticTwist(*_radians(i)), ("quadratic_curvature", "quadratic_difference")
     ),
-    "two": Law("Two segments", _segments, ("two_inner", "two_outer"), ("two_division",)),
-    "three": Law(
+    "two": MenuLaw("Two segments", _segments, ("two_inner", "two_outer"), ("two_division",)),
+    "three": MenuLaw(
         "Three segments", _segments, ("three_inner", "three_middle", "three_outer"), ("three_first", "three_second")
     ),
-    "ideal": Law("Ideal (θtip/r)", lambda i: "ideal"),
-    "given": Law("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
-    "optimised": Law("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
+    "ideal": MenuLaw("Ideal (θtip/r)", lambda i: "ideal"),
+    "given": MenuLaw("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
+    "optimised": MenuLaw("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
 }
 NOT_ALWAYS = ("given", "optimised")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""

@@ -8,7 +8,7 @@ from explorer.model.inputs import FLIGHT, Inputs, ViewState
 from explorer.workers.solver import BaselineCache, Solve
 from rotor import Design, Solution, solve
 from rotor.design import SumTwist
-from rotor.design.quantities import BESIDE
+from rotor.design.quantities import UNUSUAL
 from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 
 Order = Literal["pin", "unpin", "swap", "back"]
@@ -37,7 +37,7 @@ class Pinned:
         design = self.solution.design
         tested = design.condition.stand is not None, present.condition.stand is not None
         trim = present.models.trim if any(tested) else design.models.trim
-        level = {row.field: row.default for row in BESIDE.values() if row.axial and not design.models.disk_axial_flow}
+        level = {row.field: row.default for row in UNUSUAL.values() if row.axial and not design.models.disk_axial_flow}
         condition = replace(present.condition, **level)
         return replace(design, condition=condition, models=replace(design.models, trim=trim))
 
@@ -65,7 +65,9 @@ class PinResult:
     sentence: str = ""
 
 
-def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult:
+def apply_order(
+    order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool
+) -> PinResult:
     """What a button leads to. `solution`: of `inputs`, None where they have no trim."""
     present = None if solution is None else Pinned(inputs, solution)
     match order:
@@ -115,7 +117,7 @@ class Pinboard:
             answer = None if given is None else self._by(given.design(), None)
             self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
         while self._asked and (outcome is None or outcome.inputs is None):
-            outcome = act(self._asked.popleft(), self.pinned, inputs, solution, self.along)
+            outcome = apply_order(self._asked.popleft(), self.pinned, inputs, solution, self.along)
             self.pin(outcome.pinned)
         return outcome
 

@@ -21,10 +21,10 @@ from explorer.model.inputs import FLIGHT, LAWS, ROWS, Inputs, mass_range
 from explorer.model.undo import differing
 from explorer.model.units import AVIATION, POUND, SI, Units, form_of, meant, number
 from rotor import Aircraft, Solution, solve
-from rotor.assets import SHIPPED_ROTORS
 from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation import CONCEPTS, Concept
+from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim import PitchGradient
 
 _CONCEPTS: dict[str, Concept] = {
@@ -210,7 +210,7 @@ PIECES = {name: (LAWS[name].angles, LAWS[name].breaks) for name in ("linear", "b
 
 
 @dataclass(frozen=True)
-class Station:
+class BladeStation:
     """A place of the blade that can be grabbed, at r/R, counted from the root; sliding it changes `division`."""
 
     index: int
@@ -234,19 +234,19 @@ def grabbed_inputs(inputs: Inputs) -> Inputs:
     )
 
 
-def stations(inputs: Inputs) -> tuple[Station, ...]:
+def stations(inputs: Inputs) -> tuple[BladeStation, ...]:
     """Where the law on the sliders can be grabbed, root to tip; none for a law without sliders."""
     root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
     if inputs.law == "quadratic":
-        return Station(0, root, "root"), Station(1, 0.5 * (root + 1.0), "middle"), Station(2, 1.0, "tip")
+        return BladeStation(0, root, "root"), BladeStation(1, 0.5 * (root + 1.0), "middle"), BladeStation(2, 1.0, "tip")
     if inputs.law not in PIECES:
         return ()
     divisions = PIECES[inputs.law][1]
-    middle = [Station(k + 1, getattr(inputs, name), "break point", name) for k, name in enumerate(divisions)]
-    return Station(0, root, "root"), *middle, Station(len(divisions) + 1, 1.0, "tip")
+    middle = [BladeStation(k + 1, getattr(inputs, name), "break point", name) for k, name in enumerate(divisions)]
+    return BladeStation(0, root, "root"), *middle, BladeStation(len(divisions) + 1, 1.0, "tip")
 
 
-def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
+def with_station_turned(inputs: Inputs, station: BladeStation, degrees: float) -> Inputs:
     """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
     slopes = turn_slopes(inputs, station)
     (lowest, _), (highest, _) = turn_ends(inputs, station)
@@ -255,7 +255,7 @@ def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
     return replace(inputs, **values)
 
 
-def turn_ends(inputs: Inputs, station: Station) -> tuple[tuple[float, str], tuple[float, str]]:
+def turn_ends(inputs: Inputs, station: BladeStation) -> tuple[tuple[float, str], tuple[float, str]]:
     """The least and the greatest turn [°] of a station, each with the input that meets its limit there first."""
     ends = [
         sorted(((end - getattr(inputs, name)) / slope, name) for end in limits(name))
@@ -264,7 +264,7 @@ def turn_ends(inputs: Inputs, station: Station) -> tuple[tuple[float, str], tupl
     return max(low for low, _ in ends), min(high for _, high in ends)
 
 
-def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
+def turn_slopes(inputs: Inputs, station: BladeStation) -> dict[str, float]:
     """By how much each input moves for a degree that a station is turned nose up."""
     if inputs.law == "quadratic":
         root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
@@ -283,7 +283,7 @@ def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
     return slopes
 
 
-def place_of(inputs: Inputs, station: Station) -> str:
+def place_of(inputs: Inputs, station: BladeStation) -> str:
     """A station and its jig twist, in words."""
     twist = LAWS[inputs.law].make(inputs)
     law = inputs.design().twist if isinstance(twist, str) else twist
@@ -291,7 +291,7 @@ def place_of(inputs: Inputs, station: Station) -> str:
     return f"{station.title} {station.r:.2f} R · twist {angle:+.1f}°".replace("-", "−")
 
 
-def slid(inputs: Inputs, station: Station, r: float) -> Inputs:
+def slid(inputs: Inputs, station: BladeStation, r: float) -> Inputs:
     """The inputs with a division at another r/R, between its neighbours and within its slider."""
     if station.division is None:
         return inputs
@@ -303,17 +303,17 @@ def slid(inputs: Inputs, station: Station, r: float) -> Inputs:
 
 
 @dataclass(frozen=True)
-class Grab:
+class StationDrag:
     """One drag of a station, from the press to the release."""
 
     inputs: Inputs
     """When it began, with a law that can be grabbed."""
-    station: Station
+    station: BladeStation
 
     def turned(self, degrees: float, best: float | None = None) -> Inputs:
         """The inputs with the station turned so far; `best`: a turn [°] at which it is held for a while."""
         held = best is not None and abs(degrees - best) < DETENT
-        return turned(self.inputs, self.station, best if best is not None and held else degrees)
+        return with_station_turned(self.inputs, self.station, best if best is not None and held else degrees)
 
     def turn_to(self, inputs: Inputs) -> float | None:
         """By how much the station has been turned in `inputs` [°]; None where they have another law."""
@@ -391,11 +391,11 @@ class BestTurn:
         return best, p + 0.5 * s * (best - t)
 
 
-def begin(inputs: Inputs, r: float) -> Grab | None:
+def drag_from(inputs: Inputs, r: float) -> StationDrag | None:
     """A press on the blade at r/R takes the nearest station. None where there is nothing to grab."""
     ready = grabbed_inputs(inputs)
     choice = stations(ready)
-    return Grab(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
+    return StationDrag(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
 
 
 def _onto(name: str, value: float) -> float:

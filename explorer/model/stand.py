@@ -9,7 +9,7 @@ from typing import Any
 from rotor import Aircraft, Design, Solution, make_design
 from rotor.design import Flapping, Harmonic, Stand
 from rotor.design.aircraft import read_stand
-from rotor.design.quantities import BESIDE, LOAD_KEYS, STAND, STAND_TRIMS, StandTrim
+from rotor.design.quantities import LOAD_KEYS, STAND, STAND_TRIMS, UNUSUAL, StandTrim
 from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.flown import MeasuredPower, measured_powers
@@ -179,7 +179,7 @@ class MeasuredCondition:
         """What it sets of the page's inputs, by name."""
         shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
         tested = self.stand is not None
-        shared |= {row.input: row.default for row in BESIDE.values() if row.applies(tested=tested, axial=True)}
+        shared |= {row.input: row.default for row in UNUSUAL.values() if row.applies(tested=tested, axial=True)}
         return shared if tested else {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude}
 
 

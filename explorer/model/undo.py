@@ -12,7 +12,7 @@ PAUSE = 1.2
 """[s] without movement after which the same slider begins a new step."""
 
 
-class Pauses:
+class LongestPause:
     """The longest pause between the movements since it was last asked for.
 
     Measured where widgets move, not where answers come: a drag stays one step however slow the answers are.
@@ -147,7 +147,7 @@ class PowerTracker:
     def solved(self, inputs: Inputs, power: float | None, pause: float) -> float | None:
         """Take a solution's inputs and total power [W], None without trim; `change` afterwards.
 
-        `pause`: the longest rest of the inputs [s] since the last call, as `Pauses` measures it.
+        `pause`: the longest rest of the inputs [s] since the last call, as `LongestPause` measures it.
         """
         if self._inputs is not None and inputs.aircraft != self._inputs.aircraft:
             self._clear()  # Another rotor: its power is no change of this one's.

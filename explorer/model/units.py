@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotor import Aircraft, FlightCondition, units
+from rotor import Aircraft, FlightCondition
 from rotor.design.aircraft import SEA_LEVEL_DENSITY
-from rotor.design.quantities import BESIDE
+from rotor.design.quantities import UNUSUAL
 from rotor.design.quantity import Quantity, Slider
+from rotor.support import units
 
 BLANK = "–"
 """Shown in place of a missing number."""
@@ -98,7 +99,7 @@ class Units:
         """A power [W] in the other unit, with hundredths where the main one is the watt."""
         return self.power[1].text(value, 2 if self.power[0] is WATT else 0)
 
-    def said(self, row: Quantity, value: float) -> str:
+    def in_words(self, row: Quantity, value: float) -> str:
         """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""
         if value == row.default:
             return ""
@@ -106,9 +107,9 @@ class Units:
         unit = Unit(form.unit or row.unit, form.size)
         return f"{row.below if falls else row.short} {unit.text(abs(value) if falls else value, form.digits)}"
 
-    def beside(self, condition: FlightCondition) -> list[str]:
+    def unusual(self, condition: FlightCondition) -> list[str]:
         """What is not as in most flights, in words."""
-        return [words for row in BESIDE.values() if (words := self.said(row, getattr(condition, row.field)))]
+        return [words for row in UNUSUAL.values() if (words := self.in_words(row, getattr(condition, row.field)))]
 
     def airspeed(self, value: float) -> str:
         """A speed [m/s] in all three units; `hover` for zero."""

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypedDict
 
 from explorer.parts import actuate, frame, results, stage
-from rotor.chart import DrawnChart
+from rotor.support.chart import DrawnChart
 
 
 class Parts(TypedDict, total=False):
@@ -36,7 +36,7 @@ class Parts(TypedDict, total=False):
     probe_label: Sequence[stage.SceneLabel]
     prompt: stage.SceneLabel | None
     ride: stage.RidePart | None
-    rubber: stage.RubberPart | None
+    twisting: stage.TwistingPart | None
     steps: Sequence[frame.StepPart]
     strip: Sequence[results.StripChart]
     suppose: actuate.SupposePart | None
@@ -46,4 +46,4 @@ class Parts(TypedDict, total=False):
     views: frame.ViewsPart
     wipe: bool
     wiped: float
-    worth: Mapping[str, results.Worth]
+    worth: Mapping[str, results.SliderSaving]

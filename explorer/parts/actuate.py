@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from rotor.chart import DrawnChart
+from rotor.support.chart import DrawnChart
 
 Kind = Literal["ready", "computing", "problem"]
 Sign = Literal["", "gain", "loss"]
 
 
 @dataclass(frozen=True)
-class Settled:
+class ModelChanges:
     """Changes of power, in the unit of the dial, and of the index [%]: with the inflow model of the design first."""
 
     power: tuple[float, ...]
@@ -34,7 +34,7 @@ class DialPart:
     rings: tuple[tuple[float, str], ...]
     words: str
     computing: bool
-    settled: Settled | None
+    settled: ModelChanges | None
     problem: str
     against: str
     where: str
@@ -87,7 +87,7 @@ class FlightPart:
 
 
 @dataclass(frozen=True)
-class Bar:
+class PowerBar:
     """Power that one cause needs."""
 
     name: str
@@ -105,7 +105,7 @@ class EarnsPart:
     unit: str
     here: bool = False
     where: str = ""
-    bars: tuple[Bar, ...] = ()
+    bars: tuple[PowerBar, ...] = ()
     fuel: str = ""
     fuel_kind: Sign = ""
     fuel_note: str = ""

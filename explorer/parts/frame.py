@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.chart import DrawnChart
+from rotor.support.chart import DrawnChart
 
 Button = tuple[str, str]
 """What a press says to the page, and the title."""

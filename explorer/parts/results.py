@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from rotor.chart import DrawnChart
+from rotor.support.chart import DrawnChart
 
 Kind = Literal["", "good", "bad"]
 """The colour of a change."""
@@ -20,7 +20,7 @@ class Status:
 
 
 @dataclass(frozen=True)
-class Share:
+class PowerShare:
     """A part of the power; `share`: of all parts that need power."""
 
     part: str
@@ -53,7 +53,7 @@ class PowerPart(Sureness):
     change: str = "–"
     kind: Kind = ""
     against: str = "as built"
-    parts: Sequence[Share] = ()
+    parts: Sequence[PowerShare] = ()
     ideal: float | None = None
     ideal_title: str = ""
     moved: str = ""
@@ -63,7 +63,7 @@ class PowerPart(Sureness):
 
 
 @dataclass(frozen=True)
-class Worth:
+class SliderSaving:
     """What a step up of a slider changes, its `size` 0…1, and which way saves power.
 
     `stale`: it belongs to the design before this one.
@@ -78,7 +78,7 @@ class Worth:
 
 
 @dataclass(frozen=True)
-class Speeds:
+class MarkedSpeeds:
     """Advance ratios on the chart of power: now, and of the last trim or where the engines give no more."""
 
     mu: float
@@ -93,33 +93,34 @@ class StripChart:
     kind: Kind
     faded: bool
     chart: DrawnChart
-    speeds: Speeds | None = None
+    speeds: MarkedSpeeds | None = None
 
 
 @dataclass(frozen=True)
-class Cut:
+class InsetSection:
     """A section of the inset: points [forward, up] about the quarter chord, in reference chords, and angles [°]."""
 
     r: float
     outline: Sequence[Sequence[float]]
     theta: float
-    ghost: float | None
+    overlay: float | None
 
 
 @dataclass(frozen=True)
 class InsetBlade:
-    """The blade of the inset from the side of its tip, and its ghost; angles are true twist [°].
+    """The blade of the inset from the side of its tip, and its overlay; angles are true twist [°].
 
-    They are drawn `times` as large about the twist at 0.75 R, the `datum`. `theta` and `ghost` are at the stations `r`.
+    They are drawn `times` as large about the twist at 0.75 R, the `datum`. `theta` and `overlay` are at the stations
+    `r`.
     """
 
     times: float
     r: Sequence[float]
     datum: float
-    ghost_datum: float
+    overlay_datum: float
     theta: Sequence[float]
-    ghost: Sequence[float] | None
-    cuts: Sequence[Cut]
+    overlay: Sequence[float] | None
+    cuts: Sequence[InsetSection]
 
 
 @dataclass(frozen=True)
@@ -128,12 +129,12 @@ class InsetPart(InsetBlade):
 
     name: str
     name_hint: str
-    ghost_name: str
-    ghost_hint: str
+    overlay_name: str
+    overlay_hint: str
 
 
 @dataclass(frozen=True)
-class Best:
+class LeastPower:
     """The twist [°] and the least power of the station in the hand, and whether it is held there.
 
     Power is in the unit of the page.
@@ -148,7 +149,7 @@ class Best:
 class HandPart:
     """Power beside the blade, while a station of it is held; numbers are in the unit of the page.
 
-    `rival`: power of the optimiser's design.
+    `optimised`: power of the optimiser's design.
     """
 
     power: str
@@ -158,5 +159,5 @@ class HandPart:
     before: float
     digits: int
     place: str
-    best: Best | None
-    rival: float | None
+    best: LeastPower | None
+    optimised: float | None

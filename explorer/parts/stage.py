@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from rotor.chart import DrawnChart
+from rotor.support.chart import DrawnChart
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,7 @@ class RidePart:
 
 
 @dataclass(frozen=True)
-class RubberPart:
+class TwistingPart:
     """The blade that is twisted by hand, seen from the tip.
 
     `press`: another number each time that it is taken. `knot`: the station that is held, `by` a "hand" on the blade, a

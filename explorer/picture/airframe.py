@@ -11,9 +11,9 @@ from functools import cache, lru_cache
 import numpy as np
 import trimesh
 
-from explorer.picture.blade_mesh import Mesh, joined, revolved, tube
+from explorer.picture.blade_mesh import Mesh, joined_meshes, revolved, tube
 from rotor import Rotor
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 
 _DRAWN_FOR = 8.1788
 """Radius [m] that the fixed measures are given for; on other rotors they grow and shrink with it."""
@@ -39,7 +39,7 @@ def rotor_head(rotor: Rotor) -> Mesh:
         parts += _arm(2.0 * math.pi * k / rotor.blades, hinge)
     if rotor.name in _ABSORBERS:
         parts += _absorber(rotor.blades)
-    return joined(parts).scaled(scale)
+    return joined_meshes(parts).scaled(scale)
 
 
 def mast(radius: float) -> Mesh:
@@ -107,7 +107,11 @@ def airframe(rotor: Rotor) -> Airframe:
     if rotor.name == "UH-60A":
         name, body, dark = "uh60a", parts["uh60a-body"], parts["uh60a-dark"]
     elif rotor.radius > _LARGE:
-        name, body, dark = "generic", joined((parts["generic-body"], parts["generic-legs"])), parts["generic-wheels"]
+        name, body, dark = (
+            "generic",
+            joined_meshes((parts["generic-body"], parts["generic-legs"])),
+            parts["generic-wheels"],
+        )
     else:
         name, body, dark = "generic", parts["generic-body"], parts["generic-skids"]
     glass = parts[f"{name}-glass"]

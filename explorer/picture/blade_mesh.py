@@ -1,5 +1,5 @@
-"""Closed surfaces from lofts and tubes, and the blade: lofted from its sections, its ghost, its sections end-on for the
-inset.
+"""Closed surfaces from lofts and tubes, and the blade: lofted from its sections, its overlay, its sections end-on for
+the inset.
 
 Arrays, in metres.
 """
@@ -12,12 +12,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from explorer.parts.results import Cut, InsetBlade
+from explorer.parts.results import InsetBlade, InsetSection
 from rotor import Rotor
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array
 from rotor.design import REFERENCE_RADIUS, TwistLaw
+from rotor.support.arrays import Array
 
 Faces = NDArray[np.uint32]
 
@@ -34,7 +34,7 @@ class Mesh:
         return Mesh(factor * self.vertices, self.faces)
 
 
-def joined(meshes: Iterable[Mesh]) -> Mesh:
+def joined_meshes(meshes: Iterable[Mesh]) -> Mesh:
     """All triangles of several meshes as one mesh; surfaces that cut each other stay separate."""
     parts = list(meshes)
     starts = np.cumsum([0] + [len(part.vertices) for part in parts[:-1]])
@@ -55,7 +55,7 @@ def loft(rings: ArrayLike) -> Mesh:
     tip = (count - 1) * points
     faces = np.concatenate(
         (
-            sides(count, points),
+            ring_faces(count, points),
             np.stack((k, following, np.full(points, first)), 1),
             np.stack((tip + following, tip + k, np.full(points, last)), 1),
         )
@@ -64,7 +64,7 @@ def loft(rings: ArrayLike) -> Mesh:
     return Mesh(vertices, faces if _volume(vertices, faces) > 0.0 else faces[:, ::-1])
 
 
-def sides(rings: int, points: int) -> NDArray[np.intp]:
+def ring_faces(rings: int, points: int) -> NDArray[np.intp]:
     """Triangles between neighbouring rings of so many points, numbered ring by ring."""
     start = np.arange(rings - 1)[:, None] * points
     a = (start + np.arange(points)).ravel()
@@ -120,7 +120,7 @@ SWEPT_TIPS = {"UH-60A": (0.929, math.radians(20.0))}
 
 
 @dataclass(frozen=True)
-class Detail:
+class LoftDetail:
     """How finely a blade is lofted."""
 
     points: int = 29
@@ -131,7 +131,7 @@ class Detail:
     """r/R of further sections, such as kinks of the twist."""
 
 
-PAGE = Detail()
+PAGE = LoftDetail()
 """Coarse enough to be shaped anew at every step of a slider: about 1,300 vertices."""
 
 
@@ -166,7 +166,7 @@ def swept_back(rotor: Rotor, r: ArrayLike) -> Array:
 
 
 @lru_cache(maxsize=4)
-def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
+def blade_shape(rotor: Rotor, detail: LoftDetail = PAGE) -> BladeShape:
     """The untwisted loft: round shank from the hinge, a fairing, then the blade's own sections to the tip."""
     blade = rotor.blade
     hinge, cutout = blade.flap_hinge, blade.root_cutout
@@ -229,30 +229,31 @@ def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0
     return BladeForm(shape.pitch(twist, exaggeration)).vertices(shape)
 
 
-def ghost_form(
-    shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float, bent: Array | None = None
+def overlay_form(
+    shape: BladeShape, overlay: TwistLaw, twist: TwistLaw, exaggeration: float, least: float, bent: Array | None = None
 ) -> BladeForm:
-    """The straight blade with twist `ghost`, shown only where it differs from one with `twist`, and `bent` where given.
+    """The straight blade with twist `overlay`, shown only where it differs from one with `twist`, and `bent` where
+    given.
 
     Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one and a half:
     two surfaces in one place would flicker.
     """
-    apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0))
+    apart = np.abs(shape.pitch(overlay, 1.0) - shape.pitch(twist, 1.0))
     size = np.clip(apart / least - 0.5, 0.0, 1.0)
     if bent is not None:  # Whole where the blade is bent away by half of its thickness.
         thick = np.ptp(shape.rings[:, :, 1], axis=1)
         size = np.maximum(size, np.clip(2.0 * np.linalg.norm(bent, axis=1) / thick - 0.5, 0.0, 1.0))
-    return BladeForm(shape.pitch(ghost, exaggeration), size=size)
+    return BladeForm(shape.pitch(overlay, exaggeration), size=size)
 
 
-def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
+def overlay_segments(rotor: Rotor, overlay: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
     """The blade's leading and trailing edge as lines, where the twists differ by `least` [rad]; (n, 2, 3).
 
     A section closes each stretch at both ends.
     """
     shape = blade_shape(rotor)
-    rings = _turned(shape, shape.pitch(ghost, exaggeration))
-    apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0)) > least
+    rings = _turned(shape, shape.pitch(overlay, exaggeration))
+    apart = np.abs(shape.pitch(overlay, 1.0) - shape.pitch(twist, 1.0)) > least
     apart[:_SHANK_RINGS] = False
     points = rings.shape[1]
     both = apart[:-1] & apart[1:]
@@ -285,7 +286,7 @@ def _loft_faces(rings: int, points: int) -> Faces:
     after = (around + 1) % points
     root_cap = np.stack((root + around, root + after, np.full(points, root_centre)), 1)
     tip_cap = np.stack((tip + after, tip + around, np.full(points, tip_centre)), 1)
-    return np.concatenate((sides(rings, points), root_cap, tip_cap)).astype(np.uint32)
+    return np.concatenate((ring_faces(rings, points), root_cap, tip_cap)).astype(np.uint32)
 
 
 def circle_segments(radius: float, count: int = 180) -> Array:
@@ -301,22 +302,22 @@ _EDGE_POINTS = 40
 _OUTLINE_POINTS = 25
 
 
-def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: float) -> InsetBlade:
+def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exaggeration: float) -> InsetBlade:
     """What the page draws the inset from, about 4 kB: eight sections, and edges between them."""
     r, cuts = _places(rotor)
     places = np.concatenate((r, cuts, [REFERENCE_RADIUS]))
     *angles, datum = _degrees(twist, places)
-    behind = None if ghost is None else _degrees(ghost, places)
+    behind = None if overlay is None else _degrees(overlay, places)
     other = [None] * len(cuts) if behind is None else behind[len(r) : -1]
     return InsetBlade(
         times=exaggeration,
         r=[round(float(at), 4) for at in r],
         datum=datum,
-        ghost_datum=0.0 if behind is None else behind[-1],
+        overlay_datum=0.0 if behind is None else behind[-1],
         theta=angles[: len(r)],
-        ghost=None if behind is None else behind[: len(r)],
+        overlay=None if behind is None else behind[: len(r)],
         cuts=[
-            Cut(float(at), outline, angle, before)
+            InsetSection(float(at), outline, angle, before)
             for at, outline, angle, before in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)
         ],
     )

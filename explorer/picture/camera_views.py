@@ -10,9 +10,17 @@ from numpy.typing import ArrayLike
 from explorer.model.inputs import ViewState
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.picture import compose, disk_drop, flown_form, rotate, rotor_pose, tip_path_pose, turned_blades
+from explorer.picture.picture import (
+    composed_rotation,
+    disk_drop,
+    flown_form,
+    rotate,
+    rotor_pose,
+    tip_path_pose,
+    turned_blades,
+)
 from rotor import Solution
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 View = Literal["3d", "disk", "top", "blade", "side"]
 """The aircraft from behind and starboard; the disk from behind and above; the plan; along the reference blade; level,
@@ -45,7 +53,7 @@ class Camera:
 
 
 @dataclass(frozen=True)
-class Cover:
+class Covered:
     """Fractions of the canvas's height that cards cover along its whole width, from above and from below."""
 
     above: float = 0.16
@@ -64,7 +72,7 @@ class Cover:
 
 
 @dataclass(frozen=True)
-class Shot:
+class CameraShot:
     """A camera from any side on a part of the rotor."""
 
     azimuth_deg: float
@@ -88,8 +96,8 @@ def direction(azimuth: float, elevation: float) -> Array:
     return np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
 
 
-USUAL_COVER = Cover()
-UNCOVERED = Cover(0.04, 0.04)
+USUAL_COVER = Covered()
+UNCOVERED = Covered(0.04, 0.04)
 """A margin: for pictures without cards."""
 
 
@@ -99,7 +107,7 @@ def fit(
     aspect: float,
     azimuth: float = 0.0,
     tilt: float = _USUAL_TILT,
-    cover: Cover = USUAL_COVER,
+    cover: Covered = USUAL_COVER,
 ) -> Camera:
     """The camera of a view, as close as its subject, words included, allows between the cards.
 
@@ -122,7 +130,7 @@ def fit(
     return between_cards(framed(points, backward, aspect / cover.free), cover)
 
 
-def _standing(size: float, aspect: float, backward: Array, cover: Cover) -> Camera:
+def _standing(size: float, aspect: float, backward: Array, cover: Covered) -> Camera:
     """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
     higher = USUAL_COVER.free / cover.free
     # Coming nearer blows up the near side, tail and all: only half the way.
@@ -143,7 +151,7 @@ def _lifted(camera: Camera, lift: float) -> Camera:
     return Camera(camera.position - lower, camera.look_at - lower)
 
 
-def between_cards(camera: Camera, cover: Cover) -> Camera:
+def between_cards(camera: Camera, cover: Covered) -> Camera:
     """From a camera that fills a canvas as high as the free part to one that fills that part of the whole canvas."""
     sight = (camera.position - camera.look_at) / cover.free
     return _lifted(Camera(camera.look_at + sight, camera.look_at), cover.lift)
@@ -202,7 +210,7 @@ def pick_blade(
     nearest, found = math.inf, None
     for k, pose in enumerate(turned_blades(solution, view, each=False).poses):
         psi_deg = (view.azimuth_deg + 360.0 * k / rotor.blades) % 360.0
-        back = compose(shaft, pose.wxyz) * _CONJUGATE
+        back = composed_rotation(shaft, pose.wxyz) * _CONJUGATE
         start = rotate(back, np.asarray(origin, dtype=np.float64) - rotate(shaft, pose.position))
         along = rotate(back, np.asarray(direction, dtype=np.float64))
         vertices = flown_form(solution, view, math.radians(psi_deg)).vertices(shape)
@@ -233,7 +241,7 @@ def pick(solution: Solution, origin: ArrayLike, direction: ArrayLike) -> tuple[f
     """(r/R, ψ [rad]) where a ray of the world meets the drawn disk; None where it misses the blades' annulus."""
     rotor, controls = solution.design.rotor, solution.controls
     shaft, disk = rotor_pose(controls), tip_path_pose(controls, disk_drop(rotor))
-    turn = compose(shaft.wxyz, disk.wxyz)
+    turn = composed_rotation(shaft.wxyz, disk.wxyz)
     centre = shaft.position + rotate(shaft.wxyz, disk.position)
     start, along = np.asarray(origin, dtype=np.float64), np.asarray(direction, dtype=np.float64)
     back = turn * _CONJUGATE

@@ -16,8 +16,8 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map, greyed
 from explorer.picture.airframe import Airframe
 from explorer.picture.polar import Bytes, MarkedRegion, Places, PolarGrid
-from rotor.arrays import Array
-from rotor.compiled import compiled
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
@@ -52,7 +52,7 @@ _SHARP = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Raster:
+class PixelGrid:
     """Where each pixel looks on the polar grid. Row 0 is at the nose (ψ = 180°), columns run to starboard."""
 
     index: Places
@@ -74,7 +74,7 @@ def grid_size(size: int) -> tuple[int, int]:
     return round(0.34 * size), round(1.5 * size)
 
 
-def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
+def _raster(inner: float, size: int, radii: int, azimuths: int) -> PixelGrid:
     """`inner`: root cut-out y/R; the polar grid has `radii` × `azimuths` points."""
     coordinate = (2.0 * (np.arange(size) + 0.5) / size - 1.0) * size / (size - 2)
     starboard, aft = np.meshgrid(coordinate, coordinate)
@@ -89,7 +89,7 @@ def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
     level = quarters[covered]
     kind = np.where(level == 4, np.where(stripe, 1, 0), 1 + level).astype(np.uint16)
     index = (row * azimuths + column).ravel()[covered]
-    return Raster(index.astype(np.int32), covered.astype(np.int32), kind * np.uint16(256))
+    return PixelGrid(index.astype(np.int32), covered.astype(np.int32), kind * np.uint16(256))
 
 
 @lru_cache(maxsize=1)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from explorer.colours import VOID, DiskInk, Scheme, colour_map, greyed
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import Field
-from explorer.picture.polar import CLEAR_OF_REVERSE, NO_MARKS, Drawn, Marks, divergence_margin, polar_grid
+from explorer.picture.polar import CLEAR_OF_REVERSE, NO_MARKS, DrawnSolution, RegionMarks, divergence_margin, polar_grid
 from rotor import Solution
 
 _GRID = 72, 240
@@ -24,11 +24,11 @@ _LIMITS = {"u_t": 0.1, "attached": 0.1, "diverging": 0.05}
 
 
 def disk_numbers(
-    solution: Solution, field: Field, colour_range: tuple[float, float], marks: Marks = NO_MARKS
+    solution: Solution, field: Field, colour_range: tuple[float, float], marks: RegionMarks = NO_MARKS
 ) -> dict[str, Any]:
     """What the page draws a disk from: 1…255 over the colour range, 0 where the field does not exist; margins."""
     grid = polar_grid(solution.disk, *_GRID)
-    drawn, (low, high) = Drawn(solution), colour_range
+    drawn, (low, high) = DrawnSolution(solution), colour_range
     flow = drawn.flow(grid)
     values = 1.0 + 254.0 * np.clip((field.sample(drawn, grid) - low) / (high - low), 0.0, 1.0)
     absent = None if field.absent is None else field.absent(drawn, grid)

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from explorer.colours import Scheme
 from explorer.model.inputs import ViewState
-from explorer.picture.polar import Drawn, PolarGrid, polar_grid
+from explorer.picture.polar import DrawnSolution, PolarGrid, polar_grid
 from rotor import Rotor, Solution
-from rotor.arrays import Array
-from rotor.chart import round_up
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.arrays import Array
+from rotor.support.chart import round_up
 from rotor.trim import DiskFields
 
 
@@ -27,11 +27,11 @@ class Field:
     """Lower end of the fixed colour range, in `unit`."""
     high: float
     colours: Scheme
-    sample: Callable[[Drawn, PolarGrid], Array]
+    sample: Callable[[DrawnSolution, PolarGrid], Array]
     """Values in `unit` on the polar grid, shape (radii, azimuths); finite everywhere."""
     void_in_reverse_flow: bool = False
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
-    absent: Callable[[Drawn, PolarGrid], NDArray[np.bool_]] | None = None
+    absent: Callable[[DrawnSolution, PolarGrid], NDArray[np.bool_]] | None = None
     """Where else the quantity is not defined, on the polar grid."""
     needs: str = ""
     """Field of `DiskFields` that holds the quantity, where a model may be off; empty: always there."""
@@ -48,11 +48,11 @@ class Field:
     def label(self) -> str:
         return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
 
-    def exists(self, solution: Solution | Drawn) -> bool:
+    def exists(self, solution: Solution | DrawnSolution) -> bool:
         """Whether the models of a solution have the quantity."""
         return not self.needs or getattr(solution.disk, self.needs) is not None
 
-    def void(self, drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_] | None:
+    def void(self, drawn: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_] | None:
         """Where there is no value on the polar grid, shape (radii, azimuths); None: nowhere."""
         if not self.exists(drawn):
             return np.ones(grid.shape, dtype=bool)
@@ -62,22 +62,22 @@ class Field:
         return np.logical_or.reduce(parts) if parts else None
 
 
-def reverse_flow(drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
+def reverse_flow(drawn: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where U_T < 0 on the polar grid, shape (radii, azimuths)."""
     return drawn.flow(grid).u_t < 0.0
 
 
-def _refined(name: str, least: float = -math.inf) -> Callable[[Drawn, PolarGrid], Array]:
+def _refined(name: str, least: float = -math.inf) -> Callable[[DrawnSolution, PolarGrid], Array]:
     """Samples a field of the disk as it is, at least `least`."""
     return lambda drawn, grid: np.maximum(grid.refine(getattr(drawn.disk, name)), least)
 
 
-def _degrees(name: str) -> Callable[[Drawn, PolarGrid], Array]:
+def _degrees(name: str) -> Callable[[DrawnSolution, PolarGrid], Array]:
     """Samples an angle that pictures read."""
     return lambda drawn, grid: np.degrees(getattr(drawn.flow(grid), name)).astype(np.float64)
 
 
-def _cl(drawn: Drawn, grid: PolarGrid) -> Array:
+def _cl(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
     disk = drawn.disk
     weight = disk.mach**2
@@ -86,15 +86,15 @@ def _cl(drawn: Drawn, grid: PolarGrid) -> Array:
     return np.clip(cl, disk.cl.min(), disk.cl.max())
 
 
-def _m2cn(drawn: Drawn, grid: PolarGrid) -> Array:
+def _m2cn(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     disk = drawn.disk
     return grid.refine(disk.mach**2 * (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)))
 
 
-def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[Drawn, PolarGrid], Array]:
+def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[DrawnSolution, PolarGrid], Array]:
     """Samples a force [kN/m] or power [kW/m] per length of one blade; `unit`: field of a design, what 1 stands for."""
 
-    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
+    def sample(drawn: DrawnSolution, grid: PolarGrid) -> Array:
         design = drawn.design
         scale: float = getattr(design, unit) / (design.rotor.blades * design.rotor.radius) / 1e3
         return grid.refine(of(drawn.disk)) * scale
@@ -102,7 +102,7 @@ def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[Drawn,
     return sample
 
 
-def _circulation(drawn: Drawn, grid: PolarGrid) -> Array:
+def _circulation(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Lift per length over ρU; weighted by U², which is smooth where the flow stands still."""
     rotor, condition, disk = drawn.design.rotor, drawn.design.condition, drawn.disk
     lift_times_speed = disk.dct * disk.u_t + disk.dcq * disk.u_p
@@ -124,7 +124,7 @@ _profile_power = _per_metre("power_unit", _dissipation)
 """Without the friction of the flow along the blade."""
 
 
-def _drag(drawn: Drawn, grid: PolarGrid) -> Array:
+def _drag(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
     rotor, disk = drawn.design.rotor, drawn.disk
     speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3))
@@ -132,15 +132,15 @@ def _drag(drawn: Drawn, grid: PolarGrid) -> Array:
     return np.maximum(force, 0.0) * (drawn.design.thrust_unit / (rotor.blades * rotor.radius))
 
 
-def _elastic_deg(drawn: Drawn, grid: PolarGrid) -> Array:
+def _elastic_deg(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     elastic = drawn.disk.elastic_twist
     return np.zeros(grid.shape) if elastic is None else np.degrees(grid.refine(elastic))
 
 
-def _unsteady(name: str) -> Callable[[Drawn, PolarGrid], Array]:
+def _unsteady(name: str) -> Callable[[DrawnSolution, PolarGrid], Array]:
     """Samples a field of dynamic stall."""
 
-    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
+    def sample(drawn: DrawnSolution, grid: PolarGrid) -> Array:
         unsteady = drawn.disk.unsteady
         if unsteady is None:
             return np.zeros(grid.shape)
@@ -237,14 +237,14 @@ def shown_field(view: ViewState, pinned: Solution | None) -> Field:
 
 def difference(field: Field, pinned: Solution) -> Field:
     """`field` of a solution minus that of the pinned one, centred on zero."""
-    a = Drawn(pinned)
+    a = DrawnSolution(pinned)
 
-    def sample(drawn: Drawn, grid: PolarGrid) -> Array:
+    def sample(drawn: DrawnSolution, grid: PolarGrid) -> Array:
         if not pinned.converged:
             return np.zeros(grid.shape)
         return field.sample(drawn, grid) - field.sample(a, _over(pinned, grid))
 
-    def absent(drawn: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
+    def absent(drawn: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_]:
         del drawn
         return _absent(field, a, grid)
 
@@ -262,7 +262,7 @@ def difference(field: Field, pinned: Solution) -> Field:
     )
 
 
-def _absent(field: Field, a: Drawn, grid: PolarGrid) -> NDArray[np.bool_]:
+def _absent(field: Field, a: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where A has no such quantity, on B's grid: beyond its blade, in its reverse flow, everywhere without a trim."""
     if not a.solution.converged:
         return np.ones(grid.shape, dtype=bool)

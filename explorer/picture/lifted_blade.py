@@ -11,13 +11,13 @@ import numpy as np
 
 from explorer.picture.blade_mesh import Mesh
 from explorer.picture.camera_views import Camera, framed
-from explorer.picture.picture import Pose, about, compose, rotate
+from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator, PiezoPly, TorqueTube
 from rotor.actuator.pictures import electronics_station
 from rotor.actuator.section import SectionSpec, section_spec, skin
-from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data, uh60a_structure
+from rotor.support.arrays import Array
 
 WIDER = 2.7
 """A blade is sixteen times as long as it is wide: drawn so, its plies would be threads."""
@@ -257,7 +257,7 @@ def _arc(blade: LiftedBlade, reach: float, angles: Array) -> Array:
     return _turned(blade, np.full(len(angles), 1.004), np.tile([[reach, 0.0]], (len(angles), 1))[:, None], angles)[:, 0]
 
 
-def anchor(blade: LiftedBlade, r: float, y: float, z: float, twist: float) -> Array:
+def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float) -> Array:
     """A point of the twisted blade, (3,)."""
     return _turned(blade, np.array([r]), np.array([[[y, z]]]), np.array([twist]))[0, 0]
 
@@ -314,7 +314,7 @@ def _view() -> tuple[Array, Array, Array]:
 def lifted_pose(radius: float) -> Pose:
     """Where the blade of a rotor of this radius [m] is held, in the world."""
     heading = _AROUND + 0.5 * math.pi - _NEARER
-    turn = compose(about(2, heading), about(1, -_RISING), about(0, _ROLLED))
+    turn = composed_rotation(axis_rotation(2, heading), axis_rotation(1, -_RISING), axis_rotation(0, _ROLLED))
     place = sum(share * axis for share, axis in zip(_FROM_HUB, _view(), strict=True))
     return Pose(turn, radius * np.asarray(place))
 

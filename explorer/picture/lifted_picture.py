@@ -14,11 +14,11 @@ from explorer.picture.blade_mesh import Mesh
 from explorer.text.readout import mass_parts
 from rotor import Design, Solution
 from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 
 @dataclass(frozen=True)
-class Surface:
+class PieceStyle:
     """How a piece of the lifted blade looks; albedos are dark, for the page's lights bleach."""
 
     colour: Rgb
@@ -27,18 +27,18 @@ class Surface:
 
 
 SURFACES = {
-    "skin": Surface((92, 106, 130), 0.34),
-    "spar": Surface((44, 50, 60), 0.42),
-    "web": Surface((30, 34, 42)),
-    "shank": Surface((40, 44, 52)),
-    "box": Surface((14, 42, 30)),
-    "ply": Surface((70, 40, 22)),
-    "tube": Surface((60, 34, 24)),
-    "laminate": Surface((90, 84, 60), 0.5),
+    "skin": PieceStyle((92, 106, 130), 0.34),
+    "spar": PieceStyle((44, 50, 60), 0.42),
+    "web": PieceStyle((30, 34, 42)),
+    "shank": PieceStyle((40, 44, 52)),
+    "box": PieceStyle((14, 42, 30)),
+    "ply": PieceStyle((70, 40, 22)),
+    "tube": PieceStyle((60, 34, 24)),
+    "laminate": PieceStyle((90, 84, 60), 0.5),
 }
 EDGE: Rgb = (178, 20, 6)
 """Colour of the lifted blade's edge, as of the reference blade."""
-GHOST: Rgb = (128, 133, 140)
+OVERLAY: Rgb = (128, 133, 140)
 LEAD: Rgb = (214, 136, 24)
 FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
@@ -49,11 +49,11 @@ TIMES = 8.0
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
+class StyledMesh:
     """A mesh, how it looks and how it glows."""
 
     mesh: Mesh
-    surface: Surface
+    surface: PieceStyle
     glow: tuple[Rgb, float] | None = None
     """Colour and strength, 0…1."""
 
@@ -62,7 +62,7 @@ class Solid:
 class LiftedPicture:
     """Solids and lines (segments, 2, 3) by name; labels: kind, text and where it stands [m]; the fibres shine 0…1."""
 
-    solids: dict[str, Solid]
+    solids: dict[str, StyledMesh]
     lines: dict[str, Array]
     labels: tuple[tuple[str, str, Array], ...]
     lit: float
@@ -103,8 +103,8 @@ def lifted_picture(
 ) -> LiftedPicture:
     """The blade with the actuator's part of its twist `TIMES` as large; `design` is without actuator.
 
-    With `flown` blade and ghost have their elastic twist; the ghost is the blade without voltage. `pays`: a supposed
-    actuator does, and what is driven lights green.
+    With `flown` blade and overlay have their elastic twist; the overlay is the blade without voltage. `pays`: a
+    supposed actuator does, and what is driven lights green.
     """
     rotor = design.rotor
     blade = lifted.lifted_blade(installed, rotor)
@@ -120,21 +120,21 @@ def lifted_picture(
         return still(r) + TIMES * moved(r)
 
     shares = inputs.drive_shares(installed)
-    solids: dict[str, Solid] = {}
+    solids: dict[str, StyledMesh] = {}
     fibres: list[Array] = []
     for part in blade.parts:
         driven = part.segment >= 0
         name = f"drive_{sum(key.startswith('drive') for key in solids)}" if driven else part.role
-        light = glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
+        light = drive_glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
         light = _PAYS if driven and pays else light
-        solids[name] = Solid(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
+        solids[name] = StyledMesh(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
         if part.role in ("ply", "laminate"):
             fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
     root = float(twist(np.array([rotor.blade.root_cutout]))[0])
     shank, box = lifted.root_parts(blade, rotor, root)
-    solids["shank"] = Solid(shank, SURFACES["shank"])
+    solids["shank"] = StyledMesh(shank, SURFACES["shank"])
     if not isinstance(installed.actuator, ExtensionTwist):
-        solids["box"] = Solid(box, SURFACES["box"])
+        solids["box"] = StyledMesh(box, SURFACES["box"])
     rings = twist(blade.r)
     ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
     labels, leaders = _labels(inputs, installed, blade, twist, inputs.tip(installed))
@@ -142,7 +142,7 @@ def lifted_picture(
         solids,
         {
             "edges": lifted.edge_segments(blade, rings),
-            "ghost": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
+            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
             "leads": lifted.lead_segments(blade, rings),
             "fibres": np.concatenate(fibres) if fibres else _NONE,
             "arrow": lifted.arc_segments(blade, *ends),
@@ -157,7 +157,7 @@ _NONE = np.zeros((0, 2, 3))
 _PAYS: tuple[Rgb, float] = (0, 150, 60), 0.6
 
 
-def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
+def drive_glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
     """Light of a driven piece at −1…1 of its range: amber, blue for negative voltage; the heat of a tube."""
     strength = min(abs(share), 1.0)
     if role == "tube":
@@ -167,11 +167,11 @@ def glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
 
 def drive_colour(share: float) -> Rgb:
     """Colour of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
-    colour, strength = glow(share)
-    return mixed(SURFACES["ply"].colour, colour, strength)
+    colour, strength = drive_glow(share)
+    return mixed_colour(SURFACES["ply"].colour, colour, strength)
 
 
-def mixed(rgb: Rgb, other: Rgb, share: float) -> Rgb:
+def mixed_colour(rgb: Rgb, other: Rgb, share: float) -> Rgb:
     """A colour on the way from one to another."""
     red, green, blue = (round(a + (b - a) * share) for a, b in zip(rgb, other, strict=True))
     return red, green, blue
@@ -195,7 +195,7 @@ def _labels(
     places: list[tuple[str, str, Array, Array]] = []
 
     def put(text: str, r: float, y: float, z: float, above: float, kind: str = "lifted") -> None:
-        foot = lifted.anchor(blade, r, y, z, float(twist(np.array([r]))[0]))
+        foot = lifted.twisted_point(blade, r, y, z, float(twist(np.array([r]))[0]))
         places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
 
     masses = mass_parts(installed)

@@ -17,10 +17,10 @@ from explorer.picture.blade_mesh import BladeForm, blade_shape
 from explorer.picture.disk_image import encode_png
 from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import ALL_MARKS, NO_MARKS, Drawn, Marks, polar_grid, region_codes
+from explorer.picture.polar import ALL_MARKS, NO_MARKS, DrawnSolution, RegionMarks, polar_grid, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
-from rotor.arrays import Array
 from rotor.design import ActiveTwist, TwistLaw
+from rotor.support.arrays import Array
 
 BENDING_SHOWN = 10.0
 """Times its bending that a blade is drawn with."""
@@ -34,7 +34,7 @@ class Pose:
     position: Array
 
 
-def about(axis: int, angle: float) -> Array:
+def axis_rotation(axis: int, angle: float) -> Array:
     """The rotation by `angle` [rad] about axis 0, 1 or 2."""
     quaternion = np.zeros(4)
     quaternion[0] = math.cos(angle / 2.0)
@@ -42,7 +42,7 @@ def about(axis: int, angle: float) -> Array:
     return quaternion
 
 
-def compose(*rotations: Array) -> Array:
+def composed_rotation(*rotations: Array) -> Array:
     """The product of quaternions; the last is applied first."""
     w, x, y, z = 1.0, 0.0, 0.0, 0.0
     for rotation in rotations:  # In plain numbers: for four of them arrays take five times as long.
@@ -65,7 +65,7 @@ def rotate(wxyz: Array, points: Array) -> Array:
 
 def rotor_pose(controls: TrimState) -> Pose:
     """The shaft, tilted forward by α (x is aft, so nose-down is a turn about −y)."""
-    return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
+    return Pose(axis_rotation(1, -controls.shaft_tilt), np.zeros(3))
 
 
 def pitch_series(controls: TrimState, design: Design | None = None) -> list[float]:
@@ -97,7 +97,10 @@ def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | N
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
     pitch = root_pitch(controls, psi, design)
-    return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
+    return Pose(
+        composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch)),
+        hinge * np.array([cos, sin, 0.0]),
+    )
 
 
 def tip_path_pose(controls: TrimState, drop: float) -> Pose:
@@ -105,7 +108,7 @@ def tip_path_pose(controls: TrimState, drop: float) -> Pose:
 
     z = β1c x + β1s y to first order: turned by −β1c about y and by β1s about x.
     """
-    tilt = compose(about(1, -controls.flap_1c), about(0, controls.flap_1s))
+    tilt = composed_rotation(axis_rotation(1, -controls.flap_1c), axis_rotation(0, controls.flap_1s))
     return Pose(tilt, rotate(tilt, np.array([0.0, 0.0, -drop])))
 
 
@@ -160,11 +163,11 @@ def at_azimuth(solution: Solution, values: Array, psi: float) -> Array:
     return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
 
 
-def ghost_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | None:
-    """The twist of the ghost of a blade whose jig twist is `other`, at ψ [rad]; None: there is nothing to compare.
+def overlay_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | None:
+    """The twist of the overlay of a blade whose jig twist is `other`, at ψ [rad]; None: there is nothing to compare.
 
     It has the elastic twist of this solution, so that only the change of jig twist tells the two apart. A blade with
-    the same jig twist leaves the ghost to the jig shape of this one.
+    the same jig twist leaves the overlay to the jig shape of this one.
     """
     jig = solution.design.twist
     if other != jig:
@@ -264,14 +267,14 @@ def make_picture(solution: Solution, view: ViewState, each: bool = True, bent: b
     return Picture(
         rotor=rotor_pose(controls),
         # In level flight: nose down by what the shaft tilt is more than its lean in the airframe.
-        airframe=Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3)),
+        airframe=Pose(axis_rotation(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3)),
         disk=tip_path_pose(controls, disk_drop(solution.design.rotor)),
         blades=turned_blades(solution, view, each, bent),
     )
 
 
-def marks_of(view: ViewState) -> Marks:
-    return Marks(view.stall, view.reverse_flow, view.drag_divergence)
+def marks_of(view: ViewState) -> RegionMarks:
+    return RegionMarks(view.stall, view.reverse_flow, view.drag_divergence)
 
 
 def page_disk_png(
@@ -288,7 +291,7 @@ def disk_png(
     colour_range: tuple[float, float],
     faded: bool = False,
     size: int = disk_image.SIZE,
-    marks: Marks = NO_MARKS,
+    marks: RegionMarks = NO_MARKS,
     ink: DiskInk | None = None,
 ) -> bytes:
     """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`.
@@ -298,7 +301,7 @@ def disk_png(
     size = min(size, disk_image.LARGEST)
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
     half_width = _LINE_PIXELS * 2.0 / max(size, 640)
-    drawn = Drawn(solution)
+    drawn = DrawnSolution(solution)
     regions = region_codes(drawn, grid, marks, half_width)
     void = field.void(drawn, grid)
     pixels = disk_image.indices(grid, field.sample(drawn, grid), *colour_range, void, size, regions)
@@ -314,7 +317,7 @@ def field_values(solution: Solution, field: Field) -> Array:
     # Rows at equal steps of r², which ring areas go with.
     r = np.sqrt(np.linspace(grid.r[0] ** 2, grid.r[-1] ** 2, 2 * len(grid.r)))
     rows = np.rint(np.interp(r, grid.r, np.arange(len(grid.r)))).astype(int)
-    drawn = Drawn(solution)
+    drawn = DrawnSolution(solution)
     values, void = field.sample(drawn, grid)[rows], field.void(drawn, grid)
     if void is None:
         return values.ravel()

@@ -12,10 +12,18 @@ from explorer.model.units import UNITS, number
 from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion
 from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import Drawn, PolarGrid, Refined, Single, divergence_margin, polar_grid, region_masks
+from explorer.picture.polar import (
+    DrawnSolution,
+    PolarGrid,
+    RefinedFlow,
+    Single,
+    divergence_margin,
+    polar_grid,
+    region_masks,
+)
 from rotor import Solution
-from rotor.arrays import Array
-from rotor.chart import AZIMUTH, Axis, Chart, drawn_chart
+from rotor.support.arrays import Array
+from rotor.support.chart import AZIMUTH, Axis, Chart, drawn_chart
 
 _OUTLINED = 80, 240
 """Radii and azimuths between which an outline is looked for."""
@@ -45,7 +53,7 @@ def stall_segments(solution: Solution) -> Array:
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
     grid = polar_grid(solution.disk, *_OUTLINED)
-    left = Refined(solution, grid).attached
+    left = RefinedFlow(solution, grid).attached
     return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
 
 
@@ -53,7 +61,7 @@ def drag_divergence_segments(solution: Solution) -> Array:
     """Where drag diverges, the reverse-flow region left out; shape (n, 2, 2), in radii."""
     disk = solution.disk
     grid = polar_grid(disk, *_OUTLINED)
-    slope = divergence_margin(Drawn(solution), grid).astype(np.float64)
+    slope = divergence_margin(DrawnSolution(solution), grid).astype(np.float64)
     # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
     return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5)
 
@@ -99,7 +107,7 @@ def crossings(x: Array, y: Array, above: Array) -> Array:
     return np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
 
 
-def joined(segments: Array) -> list[Array]:
+def joined_lines(segments: Array) -> list[Array]:
     """Segments (n, 2, 2) joined to lines where they share an end."""
     keys = [tuple(map(tuple, np.rint(segment / 1e-6).astype(int))) for segment in segments]
     at: dict[tuple[int, ...], list[int]] = {}
@@ -151,7 +159,9 @@ def plan(
     """
     alpha_a = None
     if at_rest and pinned is not None:
-        alpha_a = _packed(FIELDS[_READ["alpha"]].sample(Drawn(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS)))
+        alpha_a = _packed(
+            FIELDS[_READ["alpha"]].sample(DrawnSolution(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS))
+        )
     return PlanPart(
         disk=_disk(solution, field, colour_range),
         root=round(solution.design.rotor.blade.root_cutout, 4),
@@ -210,7 +220,7 @@ def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
     total = float(np.sum(thrust))
     shares = {
         name: (float(np.sum(area[inside])) * rings * steps / math.pi, float(np.sum(thrust[inside])) / total)
-        for name, inside in region_masks(Drawn(solution), grid).items()
+        for name, inside in region_masks(DrawnSolution(solution), grid).items()
     }
     return shares | {"stall": (solution.stalled_area, solution.stalled_thrust)}
 
@@ -219,11 +229,11 @@ def _lines(segments: Array) -> list[list[list[float]]]:
     """Segments (aft, starboard) as polylines (right, down), in radii."""
     if not len(segments):
         return []
-    return [np.round(line[:, ::-1], 3).tolist() for line in joined(segments)]
+    return [np.round(line[:, ::-1], 3).tolist() for line in joined_lines(segments)]
 
 
 def _values(solution: Solution, field: Field) -> dict[str, PackedTable]:
-    drawn, grid = Drawn(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    drawn, grid = DrawnSolution(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
     tables = {name: FIELDS[title].sample(drawn, grid) for name, title in _READ.items()}
     lower, upper = np.degrees(drawn.flow(grid).limits)
     tables |= {"lower": lower, "upper": upper, "field": field.sample(drawn, grid)}

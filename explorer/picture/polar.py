@@ -19,9 +19,9 @@ from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array, Booleans
-from rotor.compiled import compiled
 from rotor.design.blade import Blade
+from rotor.support.arrays import Array, Booleans
+from rotor.support.compiled import compiled
 from rotor.trim import DiskFields
 
 Single = NDArray[np.float32]
@@ -57,15 +57,15 @@ class PolarGrid:
         return self._single(fields)
 
     @cached_property
-    def _double(self) -> "Sums":
-        return Sums(self.along, self.around, np.float64)
+    def _double(self) -> "WeightedSums":
+        return WeightedSums(self.along, self.around, np.float64)
 
     @cached_property
-    def _single(self) -> "Sums":
-        return Sums(self.along, self.around, np.float32)
+    def _single(self) -> "WeightedSums":
+        return WeightedSums(self.along, self.around, np.float32)
 
 
-class Sums:
+class WeightedSums:
     """A field of the solver's grid between two matrices, such as those of a `PolarGrid`, which are mostly zeros."""
 
     def __init__(self, along: Array, around: Array, precision: "type[np.float32 | np.float64]") -> None:
@@ -208,7 +208,7 @@ def angles_of_attack(theta: Single, u_t: Single, u_p: Single) -> Single:
     return alpha
 
 
-class Refined:
+class RefinedFlow:
     """What pictures read of the flow of a solution on a polar grid, (radii, azimuths) each; not to be written into.
 
     All but U_T is worked out when it is first read.
@@ -250,16 +250,16 @@ class Refined:
         return np.minimum(upper - self.alpha, self.alpha - lower)
 
 
-class Drawn:
+class DrawnSolution:
     """A solution as one picture reads it: the field and the marked regions on it share its flow."""
 
     def __init__(self, solution: Solution) -> None:
         self.solution, self.disk, self.design = solution, solution.disk, solution.design
-        self._flows = dict[PolarGrid, Refined]()
+        self._flows = dict[PolarGrid, RefinedFlow]()
 
-    def flow(self, grid: PolarGrid) -> Refined:
+    def flow(self, grid: PolarGrid) -> RefinedFlow:
         if grid not in self._flows:
-            self._flows[grid] = Refined(self.solution, grid)
+            self._flows[grid] = RefinedFlow(self.solution, grid)
         return self._flows[grid]
 
 
@@ -289,16 +289,16 @@ class MarkedRegion(IntEnum):
 
 
 @dataclass(frozen=True)
-class Marks:
+class RegionMarks:
     stall: bool = True
     reverse_flow: bool = True
     drag_divergence: bool = True
 
 
-ALL_MARKS, NO_MARKS = Marks(), Marks(False, False, False)
+ALL_MARKS, NO_MARKS = RegionMarks(), RegionMarks(False, False, False)
 
 
-def region_codes(drawn: Drawn, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
+def region_codes(drawn: DrawnSolution, grid: PolarGrid, marks: RegionMarks, half_width: float) -> Bytes | None:
     """A `MarkedRegion` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
 
     `half_width`: of the lines, in radii.
@@ -332,7 +332,7 @@ def _dashes(grid: PolarGrid) -> Booleans:
     return dash & (grid.r[:, None] < 0.995)
 
 
-def divergence_margin(drawn: Drawn, grid: PolarGrid) -> Single:
+def divergence_margin(drawn: DrawnSolution, grid: PolarGrid) -> Single:
     """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
     slope = filled(drawn.disk, np.clip(drawn.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
     return _smoothing(grid)([slope])[0] - np.float32(DRAG_DIVERGENCE)
@@ -350,12 +350,12 @@ def filled(disk: DiskFields, values: Array) -> Array:
 
 
 @lru_cache(maxsize=4)
-def _smoothing(grid: PolarGrid) -> Sums:
+def _smoothing(grid: PolarGrid) -> WeightedSums:
     """Smoothing on the solver's grid and interpolation in one."""
     along, around = _SMOOTHING
     rows = ndimage.gaussian_filter1d(np.eye(grid.along.shape[1]), along, axis=0, mode="nearest", truncate=3.0)
     columns = ndimage.gaussian_filter1d(np.eye(grid.around.shape[0]), around, axis=1, mode="wrap", truncate=3.0)
-    return Sums(grid.along @ rows, columns @ grid.around, np.float32)
+    return WeightedSums(grid.along @ rows, columns @ grid.around, np.float32)
 
 
 @_compile
@@ -399,7 +399,7 @@ def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_wid
                     codes[i, j] = code
 
 
-def region_masks(drawn: Drawn, grid: PolarGrid) -> dict[str, Booleans]:
+def region_masks(drawn: DrawnSolution, grid: PolarGrid) -> dict[str, Booleans]:
     """Where each region lies on the polar grid, shape (radii, azimuths), by name; none of them in reverse flow but
     that itself.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from rotor import Solution
 from rotor.aero.disk import azimuths_of
 from rotor.aero.lifting_line import WakeCourse
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 from rotor.trim import DiskFields
 
 _TURNS = 0.8

@@ -10,7 +10,16 @@ import viser
 
 from explorer.hosting.browser import call
 from explorer.hosting.viser_compat import aim
-from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Cover, Shot, View, between_cards, fit
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    USUAL_COVER,
+    Camera,
+    CameraShot,
+    Covered,
+    View,
+    between_cards,
+    fit,
+)
 
 _MOST_COVERED = 0.75
 """From above and below. On a lower canvas the scene goes on behind the cards: there is no room beside them."""
@@ -108,7 +117,7 @@ class FittedCamera:
         """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""
         above, below = max(above, 0.0), max(below, 0.0)
         share = min(1.0, _MOST_COVERED / max(above + below, _MOST_COVERED))
-        cover = Cover(share * above, share * below)
+        cover = Covered(share * above, share * below)
         if abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below) < _LEAST_COVER:
             return
         self._cover = cover
@@ -121,7 +130,7 @@ class FittedCamera:
         if not held and self._following:
             self._aim()
 
-    def hold_shot(self, shot: Shot) -> None:
+    def hold_shot(self, shot: CameraShot) -> None:
         """Show a part of the rotor from one side; the camera flies there."""
         self.aim_with(lambda aspect: shot.fit(self.radius, aspect), eased=True)
 

@@ -1,4 +1,4 @@
-"""The picture of one session: rotor, disk, ghost and colour range; draws only what has changed.
+"""The picture of one session: rotor, disk, overlay and colour range; draws only what has changed.
 
 The page gets numbers: it twists the blades and colours the disk by `disk.js`. `draw_at_rest` adds what is seen at rest
 alone. The page also gives surfaces their gloss and turns the rotor smoothly, at the rate of the screen: `scene.js`
@@ -25,10 +25,10 @@ from explorer.picture.picture import field_values, make_picture, marks_of, pitch
 from explorer.picture.polar import NO_MARKS
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.camera import FittedCamera
-from explorer.scene.overlays import VORTICES, AirLines, Ghost, OtherBlade
+from explorer.scene.overlays import VORTICES, AirLines, OtherBlade, Overlay
 from explorer.scene.scene import COMPARED, ROTOR, Scene
 from rotor import Rotor, Solution
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 Range = tuple[float, float]
 _WITHIN = False, False
@@ -152,7 +152,7 @@ class _Drawn:
     """Where the disk shows the difference to it, or it is wiped."""
     view: ViewState
     colour_range: Range
-    ghost: OtherBlade
+    overlay: OtherBlade
     look: View
     """The camera's: labels on the disk face it."""
 
@@ -172,7 +172,7 @@ class SceneController:
         self._show_range = show_range
         theme = scene_theme(dark)
         self.scene = Scene(client.scene, rotor, theme)
-        self._ghost = Ghost(client.scene, rotor, theme)
+        self._overlay = Overlay(client.scene, rotor, theme)
         self._air = AirLines(client.scene)
         self._page = PageScene(client)
         self.camera = camera
@@ -199,15 +199,15 @@ class SceneController:
         self.scene.rotor.reference_blade.on_drag("left")(dragged)
 
     def draw(
-        self, solution: Solution, view: ViewState, ghost: OtherBlade | None, pinned: Solution | None = None
+        self, solution: Solution, view: ViewState, overlay: OtherBlade | None, pinned: Solution | None = None
     ) -> None:
-        """Show a converged solution, the ghost of another blade on the reference blade, and B − A or A if wanted."""
-        if ghost is None:
+        """Show a converged solution, the overlay of another blade on the reference blade, and B − A or A if wanted."""
+        if overlay is None:
             as_built = baseline_of(solution.design)
-            ghost = OtherBlade(as_built.rotor, as_built.twist, None)
+            overlay = OtherBlade(as_built.rotor, as_built.twist, None)
         field = _field(view, pinned)
         colour_range = self._range(solution, field)
-        wanted = _Drawn(solution, pinned, view, colour_range, ghost, self._look)
+        wanted = _Drawn(solution, pinned, view, colour_range, overlay, self._look)
         if self._drawn == wanted:
             return
         if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:
@@ -217,7 +217,7 @@ class SceneController:
                 if not self._page.playing:
                     self.scene.rotor.turn(blades)
                 if len(blades.forms) > 1:
-                    other = self._ghost.show(ghost, solution, view, at_rest=not self._page.playing)
+                    other = self._overlay.show(overlay, solution, view, at_rest=not self._page.playing)
                     self._page.form(self.scene.rotor.forms(blades) | other)
                 self._page.turn(blades.azimuth)
                 if not self._page.playing:  # Else the page moves them.
@@ -229,11 +229,11 @@ class SceneController:
         with self._client.atomic():
             theme = scene_theme(view.dark)
             self.scene.set_theme(theme)
-            self._ghost.set_theme(theme)
+            self._overlay.set_theme(theme)
             self.scene.fit(solution.design.rotor)
             self.scene.set_alone(solution.design.condition.stand is not None)
             self.scene.show(picture, still=not self._page.playing)
-            other = self._ghost.show(ghost, solution, view, at_rest=False)
+            other = self._overlay.show(overlay, solution, view, at_rest=False)
             self._page.form(self.scene.rotor.forms(picture.blades) | other)
             self._page.paint(solution, field, colour_range, view)
             self._page.move(solution)
@@ -243,7 +243,7 @@ class SceneController:
         self._drawn, self._rested = wanted, False
 
     def draw_at_rest(self) -> None:
-        """Nothing moves: draw the ghost's edges, vortices, and A to be wiped.
+        """Nothing moves: draw the overlay's edges, vortices, and A to be wiped.
 
         The colour range of a difference that no longer fits is fitted now; any other holds across designs.
         """
@@ -260,7 +260,7 @@ class SceneController:
         self._show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
         compared = drawn.pinned if view.wipe and drawn.pinned is not None and drawn.pinned.converged else None
         with self._client.atomic():
-            self._ghost.show(drawn.ghost, solution, view, at_rest=True)
+            self._overlay.show(drawn.overlay, solution, view, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
             if compared is not None:
                 self._air.hide_vortices()

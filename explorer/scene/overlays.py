@@ -1,4 +1,4 @@
-"""What lies on and about the rotor: the ghost of another blade, and tip vortices.
+"""What lies on and about the rotor: the overlay of another blade, and tip vortices.
 
 Handles are made once, then moved.
 """
@@ -14,17 +14,17 @@ from explorer import colours
 from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
-from explorer.picture.blade_mesh import BladeForm, blade_shape, ghost_form, ghost_segments, straight
-from explorer.picture.picture import drawn_bending, flown_twist, ghost_twist
+from explorer.picture.blade_mesh import BladeForm, blade_shape, overlay_form, overlay_segments, straight
+from explorer.picture.picture import drawn_bending, flown_twist, overlay_twist
 from explorer.picture.wake import tip_vortices
-from explorer.scene.scene import ROTOR, set_mesh, solid
+from explorer.scene.scene import ROTOR, add_solid, set_mesh
 from rotor import Design, Rotor, Solution
 from rotor.design import TwistLaw
 
 _BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 OTHER = f"{_BLADE}/other"
 _LEAST = math.radians(0.25)
-"""A ghost is drawn where its twist differs by about this [rad]."""
+"""An overlay is drawn where its twist differs by about this [rad]."""
 _OPACITY = 0.38
 
 
@@ -37,32 +37,32 @@ class OtherBlade:
     colour: colours.Rgb | None
 
 
-def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
+def overlay_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
     """The blade that the reference blade is seen against: what a shown search began from, else A's; None: as built."""
     if begun is not None:
         return OtherBlade(begun.rotor, begun.twist, None)
     if pinned is None:
         return None
     design = pinned.solution.design
-    return OtherBlade(design.rotor, design.twist, colours.PINNED_GHOST)
+    return OtherBlade(design.rotor, design.twist, colours.PINNED_OVERLAY)
 
 
-class Ghost:
+class Overlay:
     """A translucent blade in the reference blade's own axes, so that only twist tells the two apart; edges at rest."""
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._theme = theme
         self._rotor = rotor
-        self._surface = solid(api, OTHER, straight(rotor), theme.ghost)
+        self._surface = add_solid(api, OTHER, straight(rotor), theme.overlay)
         self._surface.opacity = _OPACITY
         self._surface.visible = False
-        self._lines = _unseen_lines(api, f"{_BLADE}/ghost", 1.4)
+        self._lines = _unseen_lines(api, f"{_BLADE}/overlay", 1.4)
 
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
 
     def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> dict[str, BladeForm]:
-        """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown.
+        """Show the overlay of another blade, or of the jig shape, where it differs from the reference blade as flown.
 
         The form of its surface by the name of the node, where it is seen.
         """
@@ -73,27 +73,27 @@ class Ghost:
         twist, bent = flown_twist(solution, psi), drawn_bending(solution, shape.r, psi)
         differs = other.twist != solution.design.twist
         # Where only bending differs, the straight blade as flown: its jig shape would hide it.
-        ghost = ghost_twist(solution, other.twist, psi) if differs or bent is None else twist
+        overlay = overlay_twist(solution, other.twist, psi) if differs or bent is None else twist
         # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
-        self._surface.visible = ghost is not None and (differs or bent is not None)
-        self._lines.visible = ghost is not None and (at_rest or bent is not None)
-        if ghost is None:
+        self._surface.visible = overlay is not None and (differs or bent is not None)
+        self._lines.visible = overlay is not None and (at_rest or bent is not None)
+        if overlay is None:
             return {}
         if other.rotor != self._rotor:
             self._rotor = other.rotor
             set_mesh(self._surface, straight(other.rotor))
-        colour = other.colour if other.colour is not None and differs else self._theme.ghost
+        colour = other.colour if other.colour is not None and differs else self._theme.overlay
         self._surface.color = colour
         if at_rest or bent is not None:  # Of the straight blade beside the bent one all edges.
             least = _LEAST if bent is None else -1.0
-            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, least).astype(np.float32)
+            segments = overlay_segments(other.rotor, overlay, twist, exaggeration, least).astype(np.float32)
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
                 self._lines.points, self._lines.colors = segments, even_colours(dark, len(segments))
         if not self._surface.visible:
             return {}
-        return {OTHER: ghost_form(shape, ghost, twist, exaggeration, _LEAST, bent)}
+        return {OTHER: overlay_form(shape, overlay, twist, exaggeration, _LEAST, bent)}
 
 
 class AirLines:

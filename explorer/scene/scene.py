@@ -14,8 +14,8 @@ from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.airframe import airframe, mast, rotor_head, size
-from explorer.picture.blade_mesh import BladeForm, Faces, Mesh, blade_shape, joined, straight
-from explorer.picture.picture import Blades, Picture, Pose, about
+from explorer.picture.blade_mesh import BladeForm, Faces, Mesh, blade_shape, joined_meshes, straight
+from explorer.picture.picture import Blades, Picture, Pose, axis_rotation
 from rotor import Rotor
 
 ROTOR, COMPARED = "/rotor", "/compared"
@@ -35,7 +35,7 @@ class RotorNodes:
         self._api, self._name, self._theme = api, name, theme
         self._fitted: Rotor | None = None
         self.frame = api.add_frame(name, show_axes=False)
-        self._head = solid(api, f"{name}/head", mast(1.0), theme.head)
+        self._head = add_solid(api, f"{name}/head", mast(1.0), theme.head)
         self._blades: list[viser.MeshHandle] = []
         """Meshes for the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame(f"{name}/disk", show_axes=False)
@@ -54,18 +54,18 @@ class RotorNodes:
         if rotor == self._fitted:
             return
         self._fitted, radius = rotor, rotor.radius
-        head = joined([rotor_head(rotor), mast(radius)])
+        head = joined_meshes([rotor_head(rotor), mast(radius)])
         set_mesh(self._head, head)
         start = straight(rotor)
         for blade in self._blades:
             set_mesh(blade, start)
         for k in range(len(self._blades), rotor.blades):
             colour = self._theme.blade if k else self._theme.reference_blade
-            blade = solid(self._api, f"{self._name}/blade_{k}", start, colour)
+            blade = add_solid(self._api, f"{self._name}/blade_{k}", start, colour)
             self._blades.append(blade)
             psi = math.radians(ViewState.azimuth_deg) + k * 2.0 * math.pi / rotor.blades
             hinge = rotor.blade.flap_hinge * radius * np.array([math.cos(psi), math.sin(psi), 0.0])
-            place(blade, Pose(about(2, psi), hinge))  # Until the first solution says more.
+            place_node(blade, Pose(axis_rotation(2, psi), hinge))  # Until the first solution says more.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
         self.words.render_width = self.words.render_height = 2.0 * disk_image.REACH * radius
@@ -73,16 +73,16 @@ class RotorNodes:
 
     def show(self, picture: Picture, still: bool = True) -> None:
         """Move everything; `still`: False while the page itself moves the blades."""
-        viser_compat.place(self.frame, picture.rotor.wxyz)
-        place(self._disk, picture.disk)
+        viser_compat.set_pose(self.frame, picture.rotor.wxyz)
+        place_node(self._disk, picture.disk)
         if still:
             self.turn(picture.blades)
 
     def turn(self, blades: Blades) -> None:
         """Move blades and head."""
-        viser_compat.place(self._head, about(2, blades.azimuth))
+        viser_compat.set_pose(self._head, axis_rotation(2, blades.azimuth))
         for handle, pose in zip(self._blades, blades.poses, strict=False):
-            place(handle, pose)
+            place_node(handle, pose)
 
     def forms(self, blades: Blades) -> dict[str, BladeForm]:
         """The form of each blade by the name of its node."""
@@ -126,9 +126,9 @@ class Scene:
         self._shadow = picture_plane(api, "/shadow", (0.0, 0.0, 0.0))
         self._airframe = api.add_frame("/airframe", show_axes=False)
         craft = airframe(rotor)
-        self._body = solid(api, "/airframe/body", craft.body, theme.body)
-        self._glass = solid(api, "/airframe/glass", craft.glass, theme.glass)
-        self._dark_parts = solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
+        self._body = add_solid(api, "/airframe/body", craft.body, theme.body)
+        self._glass = add_solid(api, "/airframe/glass", craft.glass, theme.glass)
+        self._dark_parts = add_solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
         self.rotor = RotorNodes(api, ROTOR, rotor, theme)
         self._compared: RotorNodes | None = None
         self._comparing = self._alone = False
@@ -144,7 +144,7 @@ class Scene:
     def show(self, picture: Picture, still: bool = True) -> None:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
         self.rotor.show(picture, still)
-        place(self._airframe, picture.airframe)
+        place_node(self._airframe, picture.airframe)
 
     def show_compared(self, rotor: Rotor, picture: Picture) -> RotorNodes:
         """A second rotor at the place of the first: the page draws it left of a handle and the first right of it."""
@@ -223,7 +223,7 @@ class Scene:
             self._compared.words.visible = not self._close
 
 
-def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:
+def add_solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:
     """A closed surface: only its front is drawn, which costs the page half."""
     vertices = mesh.vertices.astype(np.float32)
     return api.add_mesh_simple(
@@ -247,5 +247,5 @@ def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, 
     )
 
 
-def place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
-    viser_compat.place(handle, pose.wxyz, pose.position)
+def place_node(handle: viser.SceneNodeHandle, pose: Pose) -> None:
+    viser_compat.set_pose(handle, pose.wxyz, pose.position)

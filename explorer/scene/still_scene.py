@@ -20,7 +20,7 @@ from explorer.picture.picture import flown_twist, follows_azimuth, make_picture,
 from explorer.scene.controller import motion_of
 from explorer.scene.scene import ROTOR, Scene
 from rotor import Solution, parse_twist
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 HARMONICS = 4
 """Harmonics of the elastic twist in the trim."""

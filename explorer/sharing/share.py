@@ -29,7 +29,7 @@ from rotor import Design, make_design
 from rotor.design.aircraft import Aircraft
 from rotor.design.quantities import BY_KEY
 from rotor.files.design_file import design_from_record, parse_design
-from rotor.user_input import refusing
+from rotor.support.user_input import refusing
 
 VERSION = 1
 DESIGN = "d"
@@ -101,18 +101,20 @@ def design_from(code: str) -> Design:
     """The design of a text; ValueError with one sentence for an invalid one."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
-        raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
+        raise ValueError(
+            f"The design in the address, {clipped(code)!r}, is not of version {VERSION}: ask for a new link."
+        )
     if len(code) > LONGEST:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
     twist, *words = rest.replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
-        raise ValueError(f"The twist {cut(twist)!r} is a file on the sender's machine: ask for the design file.")
+        raise ValueError(f"The twist {clipped(twist)!r} is a file on the sender's machine: ask for the design file.")
     record: dict[str, Any] = {"twist": twist}
     for word in words:
         key, equals, value = word.partition("=")
         if not equals:
             raise ValueError(
-                f"The design in the address holds {cut(word)!r}, not of the form key=value: ask for a new link."
+                f"The design in the address holds {clipped(word)!r}, not of the form key=value: ask for a new link."
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
@@ -180,7 +182,7 @@ def _value(word: str) -> object:
         return word
 
 
-def cut(text: str) -> str:
+def clipped(text: str) -> str:
     """A text of the address, shortened for a sentence."""
     return text if len(text) <= 40 else text[:39] + "…"
 
@@ -264,12 +266,14 @@ def view_from(code: str) -> ViewState:
     """The view a text means; ValueError with one sentence for one that means none."""
     version, *words = code.strip().split(";")
     if version != str(VERSION):
-        raise ValueError(f"The view in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
+        raise ValueError(
+            f"The view in the address, {clipped(code)!r}, is not of version {VERSION}: ask for a new link."
+        )
     view = _PLAIN_VIEW
     for word in words:
         name, _, value = word.partition("=")
         if name not in _NAMES:
-            raise ValueError(f"The view in the address holds {cut(word)!r}: choose {', '.join(_NAMES)}.")
+            raise ValueError(f"The view in the address holds {clipped(word)!r}: choose {', '.join(_NAMES)}.")
         view = replace(view, **{name: _view_value(name, value)})
     return view
 
@@ -285,7 +289,7 @@ def _view_value(name: str, word: str) -> Any:
         return _number(name, word)
     choices: dict[str, Any] = _CHOICES.get(name, _SWITCHED)
     if word not in choices:
-        raise ValueError(f"The view in the address has {name}={cut(word)!r}: choose {', '.join(choices)}.")
+        raise ValueError(f"The view in the address has {name}={clipped(word)!r}: choose {', '.join(choices)}.")
     return choices[word]
 
 
@@ -296,7 +300,9 @@ def _number(name: str, word: str) -> float:
     except ValueError:
         value = float("nan")
     if not low <= value <= high:
-        raise ValueError(f"The view in the address has {name}={cut(word)!r}: give a number from {low:g} to {high:g}.")
+        raise ValueError(
+            f"The view in the address has {name}={clipped(word)!r}: give a number from {low:g} to {high:g}."
+        )
     return value
 
 

@@ -13,12 +13,21 @@ import numpy as np
 
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
-from explorer.story.steps import FRONT, SPEEDS, STEPS, LectureStep, angle_words, beside, on_one_line, speed_words
+from explorer.story.steps import (
+    FRONT,
+    SPEEDS,
+    STEPS,
+    LectureStep,
+    angle_words,
+    compared_inputs,
+    on_one_line,
+    speed_words,
+)
 from rotor import Solution, make_design, solve, vibration_front
 from rotor.actuator import try_actuator
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import LinearTwist
-from rotor.reproduce.ladder import RUNGS, TRIM, built, least, moving_twist
+from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist, rung_design
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"
@@ -88,7 +97,7 @@ class StepChart:
 
 
 @dataclass(frozen=True)
-class Stop:
+class ControlStop:
     """One position of the control."""
 
     words: str
@@ -99,10 +108,10 @@ class Stop:
 
 
 @dataclass(frozen=True)
-class Facts:
+class StepFacts:
     """What a step needs beside the trim that is seen."""
 
-    stops: tuple[Stop, ...]
+    stops: tuple[ControlStop, ...]
     numbers: Mapping[str, Number]
     right: int
     """Place of the right answer among those to choose from."""
@@ -113,17 +122,17 @@ class Facts:
         return {name: number.words(units) for name, number in self.numbers.items()}
 
 
-def facts_of(step: LectureStep) -> Facts:
+def facts_of(step: LectureStep) -> StepFacts:
     """Compute what a step tells. RuntimeError with a sentence where a design of the step does not trim."""
     return _FINDERS[step.name](step)
 
 
-def facts_at(number: int) -> Facts:
+def facts_at(number: int) -> StepFacts:
     """Facts of a step by its number, from 0: a step cannot be pickled for a worker process."""
     return facts_of(STEPS[number])
 
 
-def _trim(step: LectureStep) -> Facts:
+def _trim(step: LectureStep) -> StepFacts:
     flight = _Sweep(step)
     powers = [solution.power for solution in flight.b]
     values = step.control.values
@@ -143,7 +152,7 @@ def _trim(step: LectureStep) -> Facts:
     return flight.facts(numbers, ratio, chart, totals)
 
 
-def _hover_twist(step: LectureStep) -> Facts:
+def _hover_twist(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     a, b = blades.pair
     rigid = tuple(name for name in _BUILT if name != "elastic")
@@ -154,7 +163,11 @@ def _hover_twist(step: LectureStep) -> Facts:
         _named(step, a, b)
         | _of("percent", induced_saving=saving)
         | _of("angle", elastic=float(np.degrees(np.mean(elastic[0] - elastic[-1]))))
-        | _of("angle", best=least(_BUILT, 0.0, None).rate_deg, best_rigid=least(rigid, 0.0, None).rate_deg)
+        | _of(
+            "angle",
+            best=linear_optimum(_BUILT, 0.0, None).rate_deg,
+            best_rigid=linear_optimum(rigid, 0.0, None).rate_deg,
+        )
     )
     totals = tuple(solution.power.total for solution in blades.b)
     level = (a.power.total,) * len(totals)
@@ -163,7 +176,7 @@ def _hover_twist(step: LectureStep) -> Facts:
     return blades.facts(numbers, saving, chart, level, totals)
 
 
-def _changes(step: LectureStep) -> Facts:
+def _changes(step: LectureStep) -> StepFacts:
     """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
     blades = _Sweep(step)
     a, b = blades.pair
@@ -183,7 +196,7 @@ def _changes(step: LectureStep) -> Facts:
     return blades.facts(numbers, answer, chart, induced, profile)
 
 
-def _fast_twist(step: LectureStep) -> Facts:
+def _fast_twist(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
     rates, own = tuple(float(rate) for rate in range(0, -21, -2)), (_against(step).linear, step.inputs.linear)
@@ -200,7 +213,7 @@ def _fast_twist(step: LectureStep) -> Facts:
     fast = step.inputs.advance_ratio
 
     def rate(on: Sequence[str]) -> float:
-        return least(tuple(on), fast, None).rate_deg
+        return linear_optimum(tuple(on), fast, None).rate_deg
 
     before = _BUILT[: _BUILT.index(TRIM[0])]
     pairs = (before, (*before, *TRIM)), ((), TRIM), ([name for name in _BUILT if name not in TRIM], _BUILT)
@@ -215,7 +228,7 @@ def _fast_twist(step: LectureStep) -> Facts:
     return replace(facts, stops=stops)
 
 
-def _reverse_flow(step: LectureStep) -> Facts:
+def _reverse_flow(step: LectureStep) -> StepFacts:
     flight = _Sweep(step)
     a, b = flight.pair
     costs = tuple(solution.power.total - other.power.total for solution, other in zip(flight.b, flight.a, strict=True))
@@ -232,7 +245,7 @@ def _reverse_flow(step: LectureStep) -> Facts:
     return flight.facts(numbers, share, chart, costs)
 
 
-def _two_segments(step: LectureStep) -> Facts:
+def _two_segments(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     a, b = blades.pair
     changes = tuple(solution.power.total / a.power.total - 1.0 for solution in blades.b)
@@ -255,18 +268,18 @@ def _two_segments(step: LectureStep) -> Facts:
     return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, level, changes)
 
 
-def _fixed_or_moving(step: LectureStep) -> Facts:
-    best = [least(_BUILT, mu, None) for mu in SPEEDS]
+def _fixed_or_moving(step: LectureStep) -> StepFacts:
+    best = [linear_optimum(_BUILT, mu, None) for mu in SPEEDS]
     moving = moving_twist(_BUILT, SPEEDS, None)
     gains = [moving_twist(_BUILT, SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
-    baseline = built(_BUILT, SPEEDS[0]).twist
+    baseline = rung_design(_BUILT, SPEEDS[0]).twist
     assert isinstance(baseline, LinearTwist)
     fixed, rates = round(moving.fixed_deg, 2), tuple(round(twist.rate_deg, 2) for twist in best)
     low, high = zip(*(twist.band_deg for twist in best), strict=True)
 
-    def stop(mu: float, rate: float) -> Stop:
+    def stop(mu: float, rate: float) -> ControlStop:
         b, a = (replace(step.inputs, advance_ratio=mu, linear=twist) for twist in (rate, fixed))
-        return Stop(f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate)))
+        return ControlStop(f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate)))
 
     stops = tuple(map(stop, SPEEDS, rates))
     inside = sum(a <= fixed <= b for a, b in zip(low, high, strict=True))
@@ -286,15 +299,15 @@ def _fixed_or_moving(step: LectureStep) -> Facts:
     return _answered(step, stops, numbers, moving.gain, chart)
 
 
-def _power_or_vibration(step: LectureStep) -> Facts:
+def _power_or_vibration(step: LectureStep) -> StepFacts:
     front = vibration_front(step.inputs.design(), harmonics=_HARMONICS, reach_deg=_REACH, points=FRONT)
     changes = [(0.01 * power, 0.01 * index) for power, index in front.changes]
-    stops = list[Stop]()
+    stops = list[ControlStop]()
     for k, (point, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
         twist = point.design.active_twist
         waves = () if twist is None else twist.harmonics
         inputs = replace(step.inputs, twist_per_rev=waves)
-        stops.append(Stop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
+        stops.append(ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
     last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
     powers, indices = zip(*changes, strict=True)
     numbers = (
@@ -310,10 +323,10 @@ def _power_or_vibration(step: LectureStep) -> Facts:
     return _answered(step, tuple(stops), numbers, changes[0][1], chart)
 
 
-def _piezoelectric_ply(step: LectureStep) -> Facts:
+def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     flight = _Sweep(step)
     verdict = try_actuator(ACTUATOR, make_design())
-    best = [least(_BUILT, mu, None).rate_deg for mu in SPEEDS]
+    best = [linear_optimum(_BUILT, mu, None).rate_deg for mu in SPEEDS]
     span = 1.0 - flight.b[0].design.rotor.blade.root_cutout
     wanted = tuple((rate - best[0]) * span for rate in best)
     reach = math.degrees(verdict.attainable)
@@ -331,7 +344,7 @@ def _piezoelectric_ply(step: LectureStep) -> Facts:
     return flight.facts(numbers, verdict.net_saving, chart, level, wanted)
 
 
-_FINDERS: dict[str, Callable[[LectureStep], Facts]] = {
+_FINDERS: dict[str, Callable[[LectureStep], StepFacts]] = {
     "trim": _trim,
     "hover_twist": _hover_twist,
     "linear_inflow": _changes,
@@ -353,9 +366,9 @@ class _Sweep:
         """RuntimeError where one does not trim."""
         self._step, control = step, step.control
         b = [control.apply(step.inputs, value) for value in control.values]
-        a = [beside(step.against, step.inputs, inputs) for inputs in b]
+        a = [compared_inputs(step.against, step.inputs, inputs) for inputs in b]
         self.stops = tuple(
-            Stop(control.words(value), inputs, other, ())
+            ControlStop(control.words(value), inputs, other, ())
             for value, inputs, other in zip(control.values, b, a, strict=True)
         )
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
@@ -366,7 +379,9 @@ class _Sweep:
         start = self._step.control.start
         return self.a[start], self.b[start]
 
-    def facts(self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]) -> Facts:
+    def facts(
+        self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]
+    ) -> StepFacts:
         """With dots on these curves over the values of the control."""
         stops = tuple(
             replace(stop, dots=tuple((value, curve[k]) for curve in curves))
@@ -385,15 +400,15 @@ def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
 
 
 def _answered(
-    step: LectureStep, stops: tuple[Stop, ...], numbers: Mapping[str, Number], answer: float, chart: StepChart
-) -> Facts:
+    step: LectureStep, stops: tuple[ControlStop, ...], numbers: Mapping[str, Number], answer: float, chart: StepChart
+) -> StepFacts:
     """With the bounds between the answers, and the right one."""
     bounds = {
         f"bound_{k}" if len(set(map(abs, step.bounds)) - {0.0}) > 1 else "bound": Number("percent", abs(bound))
         for k, bound in enumerate(step.bounds, start=1)
         if bound
     }
-    return Facts(stops, {**bounds, **numbers}, bisect_right(step.bounds, answer), chart)
+    return StepFacts(stops, {**bounds, **numbers}, bisect_right(step.bounds, answer), chart)
 
 
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:

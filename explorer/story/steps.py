@@ -14,7 +14,7 @@ from typing import Any, Literal
 from explorer.model.inputs import LAWS, Inputs, ViewState
 from explorer.model.undo import differing
 from explorer.model.units import Units, degrees, number
-from explorer.picture.camera_views import Shot
+from explorer.picture.camera_views import CameraShot
 from explorer.text.readout import PART_TITLES
 from rotor import Solution, hub_loads
 
@@ -74,7 +74,7 @@ def step_text(name: str) -> StepText:
 
 
 @dataclass(frozen=True)
-class Control:
+class StepSlider:
     """What is moved at a step, through designs that can be computed beforehand."""
 
     label: str
@@ -111,8 +111,8 @@ class LectureStep:
     """Name of the lecture's file and of what finds its numbers."""
     text: StepText
     inputs: Inputs
-    control: Control
-    shot: Shot
+    control: StepSlider
+    shot: CameraShot
     figures: tuple[tuple[str, str], ...]
     """Three large numbers: name of the quantity, caption."""
     bounds: tuple[float, ...]
@@ -134,7 +134,7 @@ def view_of(step: LectureStep, view: ViewState) -> ViewState:
     return replace(view, field=step.field, difference=False, wipe=compared, reverse_flow=True, stall=True)
 
 
-def beside(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | None:
+def compared_inputs(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | None:
     """A for the inputs on the sliders, where a step sets `against` beside its `own` inputs; None without A.
 
     A and B differ by the twist and by what differs there, so only by the subject of the step, also after the user has
@@ -145,7 +145,7 @@ def beside(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | N
     return replace(inputs, **{name: getattr(against, name) for name in differing(against, stated) | MOVED})
 
 
-def quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
+def compared_quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
     """Numbers with their units, each on one line: of A (the reference), of B (the design), and of B − A."""
     before, after = a.power, b.power
 
@@ -193,13 +193,13 @@ def speed_words(advance_ratio: float) -> str:
     return f"µ\u00a0{advance_ratio:.3f}".rstrip("0").ljust(6, "0") if advance_ratio else "hover"
 
 
-def _control(label: str, start: float, moves: str = "", ends: Sequence[float] = (), **kind: Any) -> Control:
+def _control(label: str, start: float, moves: str = "", ends: Sequence[float] = (), **kind: Any) -> StepSlider:
     """`ends`: both, and the step between values; without them the speeds."""
     values = SPEEDS
     if ends:
         first, last, by = ends
         values = tuple(round(first + k * by, 4) for k in range(round((last - first) / by) + 1))
-    return Control(label, moves, values, values.index(start), **kind)
+    return StepSlider(label, moves, values, values.index(start), **kind)
 
 
 def _step(
@@ -218,7 +218,7 @@ def _step(
         step_text(name),
         Inputs(**inputs),
         _control(**control),
-        Shot(*shot[:2], *map(tuple, _FILE["boxes"][shot[2]])),
+        CameraShot(*shot[:2], *map(tuple, _FILE["boxes"][shot[2]])),
         tuple(figures.items()),
         tuple(bounds),
         None if against is None else Inputs(**against),

@@ -23,26 +23,26 @@ from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS, Units, number
 from explorer.parts.frame import StepAnswer, StepControl, StepPart
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.camera_views import Cover, between_cards
+from explorer.picture.camera_views import Covered, between_cards
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.scene.controller import SURFACES, TURN_RATE
 from explorer.scene.scene import COMPARED, ROTOR
 from explorer.scene.still_scene import embedded_viewer, point_record, shape_record, still_page
-from explorer.story.facts import Facts, StepChart, facts_of
-from explorer.story.steps import STEPS, LectureStep, angle_words, quantities, speed_words, view_of
+from explorer.story.facts import StepChart, StepFacts, facts_of
+from explorer.story.steps import STEPS, LectureStep, angle_words, compared_quantities, speed_words, view_of
 from rotor import Solution, solve
-from rotor.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
-from rotor.markup import end_of, with_title
-from rotor.terminal import OneLineParser, called, run_command
-from rotor.user_input import check_writable, write_whole
+from rotor.support.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
+from rotor.support.markup import end_of, with_title
+from rotor.support.terminal import OneLineParser, command_words, run_command
+from rotor.support.user_input import check_writable, write_whole
 
 _ASPECTS = (0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.1)
 """Widths over heights of the canvas that cameras are fitted to; the file takes the next smaller one."""
-_COVER = Cover(0.06, 0.2)
+_COVER = Covered(0.06, 0.2)
 _COLOURS = 17
 
 
-def step_record(step: LectureStep, facts: Facts | None, units: Units) -> StepPart:
+def step_record(step: LectureStep, facts: StepFacts | None, units: Units) -> StepPart:
     """What is said before the guess. `facts`: None while they are computed; a sentence that needs them is empty."""
     known, text, control = None if facts is None else facts.words(units), step.text, step.control
 
@@ -67,7 +67,7 @@ def step_record(step: LectureStep, facts: Facts | None, units: Units) -> StepPar
     )
 
 
-def answer_record(step: LectureStep, facts: Facts, units: Units) -> StepAnswer:
+def answer_record(step: LectureStep, facts: StepFacts, units: Units) -> StepAnswer:
     """What is said after it, with the chart in the page's units."""
     chart = facts.chart
     unit = units.power[0]
@@ -104,7 +104,7 @@ def answer_record(step: LectureStep, facts: Facts, units: Units) -> StepAnswer:
     )
 
 
-_ROLES = {"a": "pinned", "b": "blade", "limit": "ghost", "total": "ink"}
+_ROLES = {"a": "pinned", "b": "blade", "limit": "overlay", "total": "ink"}
 """Roles of colours on the page, by what a line of the lecture is."""
 
 
@@ -182,7 +182,7 @@ class _Points:
         return self._known[key]
 
 
-def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> dict[str, Any]:
+def _step(step: LectureStep, facts: StepFacts, view: ViewState, points: _Points) -> dict[str, Any]:
     units, field = UNITS[view.units], FIELDS[step.field]
     stops, before = list[dict[str, Any]](), None
     for stop in facts.stops:
@@ -190,7 +190,7 @@ def _step(step: LectureStep, facts: Facts, view: ViewState, points: _Points) -> 
         before = points.solutions[b]
         a = None if stop.against is None else points.add(stop.against, view, field, COMPARED, before)
         reference = solve(baseline_of(before.design)).require() if a is None else points.solutions[a]
-        values = {**facts.words(units), **quantities(before, reference, units)}
+        values = {**facts.words(units), **compared_quantities(before, reference, units)}
         stops.append({"b": b, "a": a, "figures": [(caption, values[name]) for name, caption in step.figures]})
     rotor = points.solutions[stops[0]["b"]].design.rotor
     cameras = [
@@ -243,7 +243,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
-        prog=called("explorer", "rotor-explorer") + " story",
+        prog=command_words("explorer", "rotor-explorer") + " story",
         description="Write the lecture as one HTML file that needs no server: ten questions with a rotor to drag.",
         examples=(("For a dark room", "lecture.html --dark"),),
     )

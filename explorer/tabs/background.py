@@ -15,8 +15,8 @@ import viser
 
 from explorer.text.glossary import hint
 from explorer.workers.call import Call
-from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
-from rotor.worker_process import Task
+from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
+from rotor.support.worker_process import Task
 
 FRAME = 0.1
 """Between two progress reports that wake the page [s]; the end always does."""

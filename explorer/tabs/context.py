@@ -17,8 +17,8 @@ from explorer.sharing.presentation import Presentations
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.display import Display
 from explorer.tabs.layout import Keyboard, Layout
-from rotor.processes import Processes
-from rotor.user_input import brief
+from rotor.support.processes import Processes
+from rotor.support.user_input import brief
 
 _log = logging.getLogger(__name__)
 

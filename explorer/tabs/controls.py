@@ -25,16 +25,16 @@ from explorer.model.inputs import (
 from explorer.model.session_state import SessionState
 from explorer.model.sliders import limits, slider
 from explorer.model.stand import condition_of
-from explorer.model.undo import Pauses, PowerTracker
+from explorer.model.undo import LongestPause, PowerTracker
 from explorer.model.units import SI, Units
-from explorer.tabs.form import Form, StandControls
+from explorer.tabs.form import StandControls, WidgetForm
 from explorer.text import readout
 from explorer.text.glossary import hint
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.design.aircraft import Aircraft
 from rotor.design.quantities import OPTIONS
-from rotor.markup import Markup, tag
+from rotor.support.markup import Markup, tag
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,10 @@ class DesignControls:
         self._own: Inputs | None = None
         """The user's own inputs while the sliders show those of a preview."""
         self._following = self._held = self._more = False
-        self.pauses = Pauses()
+        self.pauses = LongestPause()
         self._units = SI
         """Units of the sliders of mass, altitude and climb now."""
-        form = self._form = Form(gui, self._heard, ROWS, at_once=True)
+        form = self._form = WidgetForm(gui, self._heard, ROWS, at_once=True)
         curve = tag("div.rxp-curve", data_curve=True)
         gui.add_html(tag("div.rxp-head", "BUILT-IN TWIST", tag("span", "slopes in °/R")) + curve)
         form.menu("law", "Twist concept", _laws_of(start), start.law)

@@ -19,8 +19,8 @@ from explorer.text.glossary import hint
 from rotor import Aircraft, Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
-from rotor.markup import tag
-from rotor.user_input import refusing, shorten
+from rotor.support.markup import tag
+from rotor.support.user_input import refusing, shorten
 
 _ROTOR_FILE = ".toml"
 _MOST_FILES = 40
@@ -151,7 +151,7 @@ class FilePanel(Tab):
             text = json.dumps(record, ensure_ascii=False)
             if self._kept.get(name) != text:
                 self._kept[name] = text
-                browser.keep(self._context.client, name, text)
+                browser.store_text(self._context.client, name, text)
 
     def _code_of(self, name: str, design: Design) -> str:
         """What the address says of a design; one that it cannot hold, the page is to keep."""

@@ -13,7 +13,7 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.stage import FieldPart, TurnPart
 from explorer.picture.fields import FIELDS, Field, fields_of
-from rotor.chart import bar_ticks
+from rotor.support.chart import bar_ticks
 
 REGIONS = ("stall", "reverse_flow", "wake", "drag_divergence")
 """Fields of `ViewState` that a press switches."""

@@ -24,8 +24,8 @@ from rotor.aero.display import STALLED
 from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, drawn_chart
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Chart, Line, drawn_chart
 from rotor.trim import DiskFields
 
 _OUTLINE = 61
@@ -40,7 +40,7 @@ class FlowRegion(Enum):
 
 
 @dataclass(frozen=True)
-class Blend:
+class SectionBlend:
     """The section at a radius: between two spans, or two Reynolds numbers of its data, a mixture."""
 
     parts: tuple[tuple[Section, float], ...]
@@ -94,7 +94,7 @@ class Probe:
     """y [m]"""
     chord: float
     """[m]"""
-    section: Blend
+    section: SectionBlend
     theta: float
     """Pitch with twist."""
     elastic: float | None
@@ -171,7 +171,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     phi = math.atan2(u_p, u_t)
     per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
     thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
-    section = Blend(rotor.blade.mixture(r, design.reynolds_per_metre))
+    section = SectionBlend(rotor.blade.mixture(r, design.reynolds_per_metre))
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
@@ -220,7 +220,7 @@ def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) ->
     return UnsteadyProbe(at.held(unsteady.separation), at.held(unsteady.vortex), loop)
 
 
-def outline(section: Blend) -> Array:
+def outline(section: SectionBlend) -> Array:
     """The true outline, blended as the blade is; (y, z) in reference chords about the quarter chord."""
     return sum((share * blade_axes_outline(part, _OUTLINE) for part, share in section.parts), np.zeros(()))
 
@@ -232,7 +232,7 @@ def where(psi: float) -> str:
     return (*advancing, *retreating)[round(math.degrees(psi) / 45.0) % 8]
 
 
-def sections_of(section: Blend) -> str:
+def sections_of(section: SectionBlend) -> str:
     """Name of the section; of two where one goes over into the other."""
     return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.parts))
 
@@ -279,7 +279,7 @@ _LEAST_REACH = 14.0
 """The lift curve is drawn at least to this angle of attack either way [°]."""
 
 
-class Ride:
+class RideAlong:
     """The page moves camera, rotor and arrows by itself; a new answer during the turn changes what it reads."""
 
     def __init__(self, context: TabContext, scene: SceneController, playing: Callable[[], bool]) -> None:

@@ -23,8 +23,8 @@ from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
 from explorer.views.assessed import Assessed, assessed, effect_asked
-from explorer.views.now import Now
-from rotor.markup import tag
+from explorer.views.page_state import PageState
+from rotor.support.markup import tag
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
@@ -42,7 +42,7 @@ class ExportPanel(Tab):
         scene: SceneController,
         history: HistoryPanel,
         actuator: ActuatorPanel,
-        now: Callable[[], Now],
+        now: Callable[[], PageState],
     ) -> None:
         """`now`: all that is known."""
         self._context, self._scene, self._history, self._actuator = context, scene, history, actuator

@@ -9,7 +9,7 @@ from typing import Any
 
 import viser
 
-from explorer.hosting.viser_compat import quick
+from explorer.hosting.viser_compat import on_event_loop
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.stand import (
@@ -39,7 +39,7 @@ def key_of(titles: Titles, title: str) -> Any:
     return next(key for key, value in titles.items() if value == title)
 
 
-class Form:
+class WidgetForm:
     """Widgets of one page. Values are those of the inputs; titles of menus and units are the form's matter."""
 
     def __init__(
@@ -95,7 +95,7 @@ class Form:
         def heard(event: Any) -> None:
             self._moved(name, event.client is not None)
 
-        handle.on_update(quick(heard) if self._at_once else heard)
+        handle.on_update(on_event_loop(heard) if self._at_once else heard)
 
     def __getitem__(self, name: str) -> Any:
         """The value of a widget, in the unit of the input."""
@@ -203,7 +203,7 @@ class StandControls:
         """
         self._inputs, self._set_inputs, self._moved, self._state = inputs, set_inputs, moved, state
         self.stand: StandInputs | None = None
-        form = self.form = Form(gui, self._heard)
+        form = self.form = WidgetForm(gui, self._heard)
         form.menu(_TRIM, BY_INPUT[_TRIM].title, TRIM_TITLES)
         form.menu(_TEST, "Measured in", {_NONE: _NONE}, visible=False)
         form.menu(_POINT, "Point", {_NONE: _NONE}, visible=False)

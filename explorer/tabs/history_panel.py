@@ -19,7 +19,7 @@ from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
 from rotor import Solution, solve
-from rotor.markup import Markup, tag
+from rotor.support.markup import Markup, tag
 
 FIELD = "Take design"
 """Label of the text field that clicks are written to: `take 1`, `drop 1`."""
@@ -134,7 +134,7 @@ class HistoryPanel(Tab):
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
-            browser.keep(self._context.client, share.STEPS_KEPT, text)
+            browser.store_text(self._context.client, share.STEPS_KEPT, text)
 
     def solve_waiting(self, stop: Callable[[], bool]) -> None:
         """Solve the designs that were kept before a reload, until `stop`."""

@@ -14,7 +14,7 @@ from typing import Any, Literal
 import viser
 
 from explorer.hosting.browser import Bridge, call
-from rotor.markup import Markup, tag
+from rotor.support.markup import Markup, tag
 
 Mode = Literal["explore", "optimise", "actuate"]
 MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
@@ -137,7 +137,7 @@ COARSE = 10
 
 
 @dataclass(frozen=True)
-class Key:
+class Shortcut:
     group: str
     title: str
     key: str = ""
@@ -155,10 +155,10 @@ class Key:
         return tuple(_FILE["printed"].get(part, part) for part in (*held, self.key))
 
 
-KEYS = {name: Key(*row) for name, row in _FILE["commands"].items()}
+KEYS = {name: Shortcut(*row) for name, row in _FILE["commands"].items()}
 
 
-def leads(name: str) -> bool:
+def is_for_presenter(name: str) -> bool:
     """Whether a command is the presenter's while the page follows one: it moves the design, the disk or the lecture."""
     return KEYS[name].group in ("Design", "Flight") or name.startswith(("field", "lecture"))
 
@@ -205,7 +205,7 @@ class Keyboard:
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
 
         def act(_: Any) -> None:
-            if not (self._held and leads(name)):
+            if not (self._held and is_for_presenter(name)):
                 with self._acting:
                     action()
 

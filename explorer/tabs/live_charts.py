@@ -4,8 +4,8 @@ import msgspec
 import viser
 
 from explorer.charts.plots import Range
-from rotor.chart import Chart, DrawnChart, drawn_chart
-from rotor.markup import Markup, tag
+from rotor.support.chart import Chart, DrawnChart, drawn_chart
+from rotor.support.markup import Markup, tag
 
 _HEIGHT = 94.0
 """Height of the axes [px]."""

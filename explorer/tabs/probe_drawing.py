@@ -16,9 +16,9 @@ from explorer.tabs.probe_measured import lift_chart, with_indices
 from explorer.text.glossary import tip
 from explorer.text.readout import dash
 from rotor import Solution
-from rotor.arrays import Array
-from rotor.chart import drawn_chart
-from rotor.markup import Attribute, Content, Markup, group, tag
+from rotor.support.arrays import Array
+from rotor.support.chart import drawn_chart
+from rotor.support.markup import Attribute, Content, Markup, group, tag
 
 WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
@@ -42,7 +42,7 @@ _FAINT, _BOLD = 0.6, 600
 
 
 @dataclass(frozen=True)
-class Scales:
+class DrawingScales:
     """By how much things are drawn larger than true, or than on the scale of the whole disk."""
 
     velocity: int
@@ -70,7 +70,7 @@ class _Sketch:
         return self.probe.u_t < 0.0
 
 
-def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[Markup, Scales]:
+def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[Markup, DrawingScales]:
     """The SVG, and its scales.
 
     `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk. `opened`: small angles are drawn
@@ -78,7 +78,7 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
     """
     lift, drag = (_STRONGEST * abs(load) / strongest for load in (probe.lift, probe.drag))
     widest = max(abs(probe.theta), abs(probe.phi))
-    scales = Scales(
+    scales = DrawingScales(
         velocity=_factor(_FASTEST * probe.u / fastest, 24.0, (1, 2, 5, 10, 20)),
         lift=_factor(lift, 10.0, (1, 2, 5, 10, 20)) if probe.u_t < 0.0 else 1,
         drag=next((factor for factor in _DRAG_FACTORS if factor * drag < 0.8 * _STRONGEST), 1),
@@ -180,7 +180,7 @@ def _in_column(sketch: _Sketch) -> list[Point]:
     heights[0] += math.copysign(9.0, sketch.theta)
     heights[3] -= math.copysign(9.0, sketch.theta)
     edges = (_COLUMN, _COLUMN, _COLUMN, WIDTH - 1.0)
-    return [(x, height + 3.5) for x, height in zip(edges, svg.spread(heights, 12.5), strict=True)]
+    return [(x, height + 3.5) for x, height in zip(edges, svg.spread_heights(heights, 12.5), strict=True)]
 
 
 def _around(sketch: _Sketch) -> list[Point]:
@@ -249,7 +249,7 @@ def _head(probe: Probe) -> Markup:
     )
 
 
-def _key(scales: Scales) -> Markup:
+def _key(scales: DrawingScales) -> Markup:
     """The colours of the arrows, and what is drawn larger than true or than on the scale of the whole disk."""
     entries = (("velocity", "currentColor", scales.velocity), ("lift", LIFT, scales.lift), ("drag", DRAG, scales.drag))
     keys = [tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries]

@@ -14,10 +14,10 @@ from explorer.tabs.live_charts import chart_box
 from explorer.text.glossary import MEASURED, tip
 from explorer.text.readout import dash
 from rotor import Solution
-from rotor.arrays import Array
-from rotor.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series, drawn_chart
-from rotor.markup import Markup, group, tag
-from rotor.validation import FlownCase, MeasuredCurve, our_curve
+from rotor.support.arrays import Array
+from rotor.support.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series, drawn_chart
+from rotor.support.markup import Markup, group, tag
+from rotor.validation import FlownCase, MeasuredCurve, computed_curve
 from rotor.validation.airloads import REPORTS, harmonics
 
 LIFT = THIS
@@ -100,7 +100,7 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
         min((curve for curve in curves if curve.quantity == quantity), key=lambda curve: abs(curve.r - r))
         for quantity in dict.fromkeys(curve.quantity for curve in curves)
     ]
-    pairs = tuple((curve, *our_curve(curve, solution)) for curve in nearest)
+    pairs = tuple((curve, *computed_curve(curve, solution)) for curve in nearest)
     return BesideMeasured(case, is_at(case, design), as_measured(design), pairs)
 
 

@@ -17,18 +17,18 @@ from explorer.parts.presses import SectionPress
 from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
-from explorer.picture.picture import LINE_LIFT, about, drawn_bending, flown_twist, rotate
+from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, flown_twist, rotate
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.tabs.context import Player, Tab, TabContext
-from explorer.tabs.element import Probe, Ride, probe
+from explorer.tabs.element import Probe, RideAlong, probe
 from explorer.tabs.layout import COARSE, by_hand
 from explorer.tabs.probe_drawing import outline, probe_panel
 from explorer.tabs.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
 from rotor import Rotor, Solution
-from rotor.arrays import Array
-from rotor.markup import Markup
+from rotor.support.arrays import Array
+from rotor.support.markup import Markup
 
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
 """The dark line and the light one."""
@@ -42,7 +42,7 @@ _WIDER = 1.16
 """The dark ring about the light one, in its radii."""
 
 
-class Cursor:
+class ProbeCursor:
     """On the reference blade, where that is at the probe, else on the disk. Handles are made once."""
 
     def __init__(self, api: viser.SceneApi, bridge: Bridge) -> None:
@@ -64,7 +64,7 @@ class Cursor:
         node, at = f"{_DISK}/at", np.zeros(3)
         self._turned.visible = pitch is None
         if pitch is None:
-            self._turned.wxyz = about(2, probe.psi)
+            self._turned.wxyz = axis_rotation(2, probe.psi)
             self._at.position = np.array([probe.radius, 0.0, 0.0])
         else:
             node, at[0] = "/rotor/blade_0", probe.radius - rotor.blade.flap_hinge * rotor.radius
@@ -112,14 +112,14 @@ def _draw_ring(lines: Cased, rotor: Rotor, middle: Array, pitch: float = 0.0) ->
     """About a point [m], tilted by a pitch [rad]; the dark ring lies beside the light one, or it would cover it."""
     for handle, wider in zip(lines, (_WIDER, 1.0), strict=True):
         ring = circle_segments(wider * _RING * rotor.radius, 28)
-        handle.points = (middle + rotate(about(0, pitch), ring)).astype(np.float32)
+        handle.points = (middle + rotate(axis_rotation(0, pitch), ring)).astype(np.float32)
 
 
 def _on_upper_side(rotor: Rotor, probe: Probe, pitch: float) -> Array:
     """From the pitch axis to the middle of the probed section's upper side, in the blade's own axes [m]."""
     chord, top = float(rotor.blade.chord(probe.r)), float(outline(probe.section)[:, 1].max())
     aft = 0.25 * chord + float(swept_back(rotor, probe.r))
-    return rotate(about(0, pitch), np.array([0.0, -aft, top * chord]))
+    return rotate(axis_rotation(0, pitch), np.array([0.0, -aft, top * chord]))
 
 
 LONGEST = 600.0
@@ -144,7 +144,7 @@ class ProbePanel(Tab):
         self._seen = True
         self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = Markup()
-        self._cursor = Cursor(client.scene, context.bridge)
+        self._cursor = ProbeCursor(client.scene, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
@@ -166,7 +166,7 @@ class ProbePanel(Tab):
         for box in (self._follow, self._shown, self._opened):
             by_hand(box, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
-        self._ride = Ride(context, scene, lambda: self._player.playing)
+        self._ride = RideAlong(context, scene, lambda: self._player.playing)
         context.bridge.on("ride", self._take_along)
         context.bridge.on("section", self.point)
         context.bridge.on("play", lambda _: self.toggle())

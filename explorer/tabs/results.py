@@ -7,7 +7,7 @@ from typing import Any
 from explorer.tabs.context import TabContext
 from explorer.text.status import status_panel, trust_page
 from explorer.views.waterfall import WATERFALL_WORDS, waterfall_chart
-from rotor.markup import Markup, tag
+from rotor.support.markup import Markup, tag
 
 
 def drawer_texts(context: TabContext) -> Mapping[str, Callable[[Any], None]]:

@@ -10,17 +10,27 @@ import numpy as np
 from explorer.charts.strip import LOOKS, Role, role_line
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
-from explorer.model.sliders import BestTurn, Grab, begin, grabbed_inputs, place_of, slid, slider, stations, turn_ends
+from explorer.model.sliders import (
+    BestTurn,
+    StationDrag,
+    drag_from,
+    grabbed_inputs,
+    place_of,
+    slid,
+    slider,
+    stations,
+    turn_ends,
+)
 from explorer.model.units import SI
 from explorer.parts.presses import KnotMove, KnotPress
-from explorer.parts.results import Best
-from explorer.parts.stage import Knot, RoleLines, RubberPart, TwistPart
+from explorer.parts.results import LeastPower
+from explorer.parts.stage import Knot, RoleLines, TwistingPart, TwistPart
 from explorer.tabs.context import TabContext
-from explorer.views.now import HeldStation
+from explorer.views.page_state import HeldStation
 from rotor import Design, Solution
-from rotor.arrays import Array
-from rotor.chart import Axis, Band, Chart, Series, drawn_chart
 from rotor.design import REFERENCE_RADIUS as DATUM
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Band, Chart, Series, drawn_chart
 
 FLOWN = LOOKS["flown"][0]
 _POINTS = 70
@@ -38,7 +48,7 @@ class TwistCurveEditor:
     def __init__(self, context: TabContext, changed: Callable[[bool], None]) -> None:
         """`changed`: a station was taken (True) or let go."""
         self._context, self._changed = context, changed
-        self._grab: Grab | None = None
+        self._grab: StationDrag | None = None
         """While a station is held."""
         self._before: tuple[Inputs, Solution | None] | None = None
         """The inputs and their answer when it was taken."""
@@ -66,13 +76,13 @@ class TwistCurveEditor:
 
     def grab(self, r: float, by_key: bool = False) -> None:
         """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
-        grab = None if self._context.held else begin(self._context.inputs(), r)
+        grab = None if self._context.held else drag_from(self._context.inputs(), r)
         if grab is None:
             return
         self._begin(grab)
         self._show_blade(grab, "key" if by_key else "hand")
 
-    def _show_blade(self, grab: Grab, by: str) -> None:
+    def _show_blade(self, grab: StationDrag, by: str) -> None:
         """`by`: a "hand" on the blade, a "key", or a handle of the "curve"."""
         self._presses, self._shown = self._presses + 1, True
         places = stations(grab.inputs)
@@ -81,7 +91,7 @@ class TwistCurveEditor:
             (before + response * turn, slider(name, SI).label) for turn, name in turn_ends(grab.inputs, grab.station)
         )
         self._context.bridge.set(
-            rubber=RubberPart(
+            twisting=TwistingPart(
                 press=self._presses,
                 knot=str(grab.station.index),
                 by=by,
@@ -102,7 +112,7 @@ class TwistCurveEditor:
                 self._best.with_power(turn, power) if slope is None else self._best.with_turn(turn, power, slope)
             )
 
-    def _least(self, grab: Grab) -> Best | None:
+    def _least(self, grab: StationDrag) -> LeastPower | None:
         """The twist of least power of the held station; None while not known, or past the end of a slider."""
         turn, power = self._best.turn, self._best.power
         if turn is None or power is None:
@@ -113,7 +123,7 @@ class TwistCurveEditor:
         now = grab.turn_to(self._context.inputs())
         before, response = self._response(grab)
         held = now is not None and abs(now - turn) < _AT
-        return Best(round(before + turn * response, 2), power, held)
+        return LeastPower(round(before + turn * response, 2), power, held)
 
     def _act(self, press: KnotPress) -> None:
         name, change = press.name, press.change
@@ -121,18 +131,18 @@ class TwistCurveEditor:
             start = grabbed_inputs(self._context.inputs())
             station = next((station for station in stations(start) if str(station.index) == name), None)
             if station is not None and not self._context.held:
-                self._begin(Grab(start, station))
+                self._begin(StationDrag(start, station))
         elif change in ("end", "undo"):
             if self._grab is not None:
                 if change == "undo" and self._before is not None:
                     self._context.drag_to(self._before[0])
                 self._grab, self._place, self._shown = None, "", False
-                self._context.bridge.set(rubber=None)
+                self._context.bridge.set(twisting=None)
                 self._changed(False)
         elif isinstance(change, KnotMove) and not self._context.held:
             self._move(name, change)
 
-    def _begin(self, grab: Grab) -> None:
+    def _begin(self, grab: StationDrag) -> None:
         state = self._context.state()
         self._grab, self._best, self._place = grab, BestTurn(), place_of(grab.inputs, grab.station)
         self._before = self._context.inputs(), None if state is None else state.solution
@@ -143,7 +153,7 @@ class TwistCurveEditor:
         station = next((station for station in stations(start) if str(station.index) == name), None)
         if station is None:
             return
-        grab, r = Grab(start, station), place.r
+        grab, r = StationDrag(start, station), place.r
         if self._grab is not None and not self._shown:
             self._show_blade(self._grab, "curve")
         before, response = self._response(grab)
@@ -157,7 +167,7 @@ class TwistCurveEditor:
             self._context.drag_to(moved)
 
     @staticmethod
-    def _response(grab: Grab) -> tuple[float, float]:
+    def _response(grab: StationDrag) -> tuple[float, float]:
         """Twist [°] of the station less that at 0.75 R when it was taken, and its change with a degree of turn.
 
         The curve is drawn about 0.75 R, which may turn as well: so much more that the handle meets the pointer.

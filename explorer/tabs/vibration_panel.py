@@ -18,7 +18,7 @@ from explorer.tabs.context import TabContext
 from rotor import Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.chart import Chart
+from rotor.support.chart import Chart
 from rotor.trim import HubLoads, why_no_hub_loads
 from rotor.trim.hub_loads import band_inflows
 

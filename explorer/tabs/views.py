@@ -21,7 +21,7 @@ from explorer.tabs.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
 from rotor import Solution
-from rotor.markup import tag
+from rotor.support.markup import tag
 
 
 class TopBar:

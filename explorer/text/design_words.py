@@ -9,7 +9,6 @@ from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor import Design, Rotor
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design import (
     Harmonic,
     IdealTwist,
@@ -21,9 +20,10 @@ from rotor.design import (
     TableTwist,
     TwistLaw,
 )
-from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
+from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.user_input import shorten
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.support.user_input import shorten
 
 AS_BUILT = "as built"
 FEW_SEGMENTS = 3
@@ -111,7 +111,7 @@ def flight_words(design: Design, units: Units = SI) -> str:
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
-    beside = units.beside(condition)
+    beside = units.unusual(condition)
     if (stand := stand_of(design)) is not None:
         return " · ".join((where, *beside, stand_words(stand)))
     mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
@@ -159,7 +159,7 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
     off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
     off += "".join(f", {QUANTITIES[name].short}" for name in OPTIONS if getattr(inputs, name))
-    beside = [units.said(row, getattr(inputs, row.input)) for row in BESIDE.values() if inputs.counts(row)]
+    beside = [units.in_words(row, getattr(inputs, row.input)) for row in UNUSUAL.values() if inputs.counts(row)]
     speed = ", ".join(filter(None, (speed, *beside)))
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"

@@ -14,8 +14,8 @@ from explorer.model.units import BLANK, SI, WATT, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, PiezoPly, Verdict
-from rotor.markup import Content, Markup, tag
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
+from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import sureness
 from rotor.trim.solution import ElasticTwist
 

@@ -11,9 +11,9 @@ from explorer.text.glossary import SECTIONS, tip
 from explorer.text.readout import open_drag_area
 from rotor import Solution
 from rotor.aero.problem import grid_of
-from rotor.compiled import compiling
-from rotor.markup import Content, Markup, tag
-from rotor.units import typographic
+from rotor.support.compiled import compiling
+from rotor.support.markup import Content, Markup, tag
+from rotor.support.units import typographic
 from rotor.validation import MeasuredSet, TrustRow, sets_of, trust_rows
 from rotor.validation.airloads import PITCH_LINK, REPORTS
 from rotor.validation.flown import POWER_REPORTS

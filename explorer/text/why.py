@@ -14,8 +14,8 @@ from explorer.text.readout import part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
-from rotor.arrays import Array, Booleans
-from rotor.design.quantities import BESIDE, OPTIONS, QUANTITIES
+from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
+from rotor.support.arrays import Array, Booleans
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
@@ -126,10 +126,10 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         began = "flight instead of a test" if new.stand is None else "the rotor alone, on a test stand"
         causes.append(began if old.stand is None or new.stand is None else "another test")
         return causes
-    for row in BESIDE.values():
+    for row in UNUSUAL.values():
         before, now = (row.of(design) for design in (a, b))
         if before != now:
-            causes.append(SI.said(row, now) or row.plain)
+            causes.append(SI.in_words(row, now) or row.plain)
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
         causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")

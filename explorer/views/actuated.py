@@ -3,37 +3,44 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from explorer.model.actuator_inputs import Outcome, Question, flight_legs, flight_of, question_of, verdict_tasks
-from explorer.views.now import Now, Ui
+from explorer.model.actuator_inputs import (
+    Outcome,
+    VerdictInputs,
+    flight_legs,
+    flight_of,
+    verdict_inputs_of,
+    verdict_tasks,
+)
+from explorer.views.page_state import OpenPanels, PageState
 from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import ActuatorFlight, ActuatorStability, FlightLeg, InstalledActuator, Verdict, actuator_stability
 from rotor.dynamics.structure import check_blade
 
 
-def in_actuate(ui: Ui) -> bool:
+def in_actuate(ui: OpenPanels) -> bool:
     return ui.mode == "actuate"
 
 
-def built(now: Now) -> "Built | None":
+def actuated_blade(now: PageState) -> "ActuatedBlade | None":
     """One for all panels; None where the sliders mean no design, or one that cannot carry the actuator."""
     found = now.of(_built)
-    return found if isinstance(found, Built) else None
+    return found if isinstance(found, ActuatedBlade) else None
 
 
-def problem(now: Now) -> str:
+def problem(now: PageState) -> str:
     """Why there is no solution, or no such actuator; empty where there are both."""
     found = now.of(_built)
     return now.problem or (found if isinstance(found, str) else "")
 
 
-def _built(now: Now) -> "Built | str":
+def _built(now: PageState) -> "ActuatedBlade | str":
     design, inputs = now.sliders, now.hand.actuator
     if design is None:
         return now.problem
     try:
         check_blade(design.aircraft)
-        installed, question = inputs.installed(design.rotor), question_of(inputs, design)
+        installed, question = inputs.installed(design.rotor), verdict_inputs_of(inputs, design)
     except ValueError as error:
         return str(error)
     tasks = verdict_tasks(question)
@@ -44,20 +51,20 @@ def _built(now: Now) -> "Built | str":
     if verdict is not None:
         flight_task, modes_task = Call(flight_of, (verdict,)), Call(actuator_stability, (installed, design))
     flight, modes, legs = now.answers.get(flight_task), now.answers.get(modes_task), flight_legs(design)
-    return Built(
+    return ActuatedBlade(
         design, installed, question, tasks, outcomes, outcome, verdict, flight_task, flight, modes_task, modes, legs
     )
 
 
 @dataclass(frozen=True, eq=False)
-class Built:
+class ActuatedBlade:
     """The actuator on the blade, what is asked about it, and the answers: a sentence says why there is none, None that
     it is on its way."""
 
     design: Design
     """On the sliders, without the actuator's twist."""
     installed: InstalledActuator
-    question: Question
+    question: VerdictInputs
     tasks: Mapping[str, Call]
     """Of verdicts, by actuator: the chosen one first."""
     outcomes: Mapping[str, Outcome | None]

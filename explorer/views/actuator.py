@@ -10,9 +10,9 @@ from typing import Any
 
 from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs
 from explorer.views import actuator_words as words
-from explorer.views.actuated import built, in_actuate, problem
+from explorer.views.actuated import actuated_blade, in_actuate, problem
 from explorer.views.flight import BY_HAND
-from explorer.views.now import Asked, Effect, Now, Panel, SetHand
+from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.installation import InstalledActuator
 from rotor.dynamics.structure import KNOWN_BLADE
@@ -28,21 +28,21 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 """Names of the sliders of voltage."""
 
 
-def asks(now: Now) -> tuple[Asked, ...]:
+def asks(now: PageState) -> tuple[Questions, ...]:
     """The chosen actuator's verdict comes behind searches and maps; others once what would pay shows them beside it;
     modes, which are folded at first, behind its flight."""
-    if (one := built(now)) is None:
+    if (one := actuated_blade(now)) is None:
         return ()
     first, *others = one.tasks.values()
     flown = one.flight is not None or isinstance(one.outcome, str)
     modes = (one.modes_task,) if flown and one.modes_task is not None else ()
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return Asked(3, (first,), _STILL), Asked(7, beside, _IDLE), Asked(8, modes, _IDLE)
+    return Questions(3, (first,), _STILL), Questions(7, beside, _IDLE), Questions(8, modes, _IDLE)
 
 
-def view(now: Now) -> dict[str, Any]:
+def view(now: PageState) -> dict[str, Any]:
     """Texts of the rail; where there is no such design, why, all else as it was."""
-    one, state, inputs = built(now), now.state, now.hand.actuator
+    one, state, inputs = actuated_blade(now), now.state, now.hand.actuator
     if one is None or state is None or now.problem:
         return {"actuator.verdict": words.problem_panel(problem(now))} | _form_elsewhere(now)
     installed, verdict = one.installed, one.verdict
@@ -88,7 +88,7 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
     )
 
 
-def _form_elsewhere(now: Now) -> dict[str, FormLook]:
+def _form_elsewhere(now: PageState) -> dict[str, FormLook]:
     """The widgets as on the blade that carries actuators, where another rotor is on the sliders."""
     design, inputs = now.sliders, now.hand.actuator
     if design is None or design.aircraft.key == KNOWN_BLADE:
@@ -99,9 +99,9 @@ def _form_elsewhere(now: Now) -> dict[str, FormLook]:
         return {}
 
 
-def pull(now: Now, share: float | None) -> tuple[Effect, ...]:
+def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
     """The lifted blade was taken (None), or its trailing edge is pulled up by this share of the full drive."""
-    one, inputs = built(now), now.hand.actuator
+    one, inputs = actuated_blade(now), now.hand.actuator
     if one is None:
         return ()
     if share is None:

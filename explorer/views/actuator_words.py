@@ -13,8 +13,8 @@ from rotor.actuator.catalogue import Actuator, PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import ActuatorStability, Limit
 from rotor.actuator.verdict import Verdict
-from rotor.markup import Markup, tag
-from rotor.units import typographic
+from rotor.support.markup import Markup, tag
+from rotor.support.units import typographic
 
 TIP = "Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %."
 _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}

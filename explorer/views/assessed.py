@@ -14,19 +14,19 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import Built, built, in_actuate
-from explorer.views.dial_answer import HARMONICS, Fitted, compared
-from explorer.views.now import Asked, Effect, Now, Panel, SetHand
+from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate
+from explorer.views.dial_answer import HARMONICS, FittedBlade, compared
+from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from explorer.workers.call import Call
 from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, PiezoPly, effect, other_stroke, powers
-from rotor.actuator.verdict import Against, count
+from rotor.actuator.verdict import Against, count_text
 from rotor.trim.doubt import sureness
 
 _URGENCY, _STILL = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
 
 
-class Change(NamedTuple):
+class PowerChange(NamedTuple):
     """A change of power [W], more is positive, and its band by uncertain inputs, to both sides; None: not known."""
 
     power: float
@@ -49,13 +49,13 @@ class Assessed:
     another range and mass.
     """
 
-    one: Built
+    one: ActuatedBlade
     tip: float
     reach: tuple[float, float]
     wanted: float | None
-    here: Change | None
+    here: PowerChange | None
     vibration: tuple[float, ...]
-    flight: Change | None
+    flight: PowerChange | None
     line: OtherStroke | None
 
     @property
@@ -73,37 +73,37 @@ class Assessed:
         return self.one.installed.attainable
 
 
-def against_words(one: Built, against: Against) -> str:
+def against_words(one: ActuatedBlade, against: Against) -> str:
     """The blade that changes count from."""
     if against == "best-fixed":
         return "best fixed blade"
     return "same blade without it" if one.question.host.kind == "retrofit" else "present blade"
 
 
-def fitted(now: Now) -> Fitted | None:
+def fitted(now: PageState) -> FittedBlade | None:
     """The actuator on the blade, and the blade compared with; None where there is no actuator."""
-    if (one := built(now)) is None:
+    if (one := actuated_blade(now)) is None:
         return None
     inputs = now.hand.actuator
     fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
     twist = one.design.twist if inputs.against == "same-blade" else fixed
-    return Fitted(one.installed, inputs.volts(one.installed), twist, f"the {against_words(one, inputs.against)}")
+    return FittedBlade(one.installed, inputs.volts(one.installed), twist, f"the {against_words(one, inputs.against)}")
 
 
-def pair_compared(now: Now) -> Any:
+def pair_compared(now: PageState) -> Any:
     """What flies, and the blade compared with; None where not both are known."""
     if now.state is None or now.sliders is None or now.problem:
         return None
     return compared(now.state.solution.design, now.sliders, now.of(fitted))
 
 
-def effect_asked(now: Now) -> Call | None:
+def effect_asked(now: PageState) -> Call | None:
     """The trims of what flies and of the blade compared with."""
     pair = now.of(pair_compared)
     return None if pair is None else Call(effect, pair)
 
 
-def here(now: Now) -> EffectInFlight | str | None:
+def change_here(now: PageState) -> EffectInFlight | str | None:
     """What the actuator changes in this flight, its drive included; or why that is not known."""
     found, on_blade = now.answers.get(now.of(effect_asked)), now.of(fitted)
     if not isinstance(found, EffectInFlight) or on_blade is None:
@@ -112,26 +112,26 @@ def here(now: Now) -> EffectInFlight | str | None:
     return EffectInFlight(tuple(power + drive for power in found.power), found.index, found.band)
 
 
-def _drive(now: Now, on_blade: Fitted) -> float:
+def _drive(now: PageState, on_blade: FittedBlade) -> float:
     """Power that the drive takes in this flight [W]."""
     losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
     drive = sum(losses.get(one.per_rev, 0.0) * math.degrees(one.amplitude) ** 2 for one in now.inputs.twist_per_rev)
-    verdict = one.verdict if (one := built(now)) is not None and now.hand.actuator.driven else None
+    verdict = one.verdict if (one := actuated_blade(now)) is not None and now.hand.actuator.driven else None
     return drive + (0.0 if verdict is None else verdict.drive.hold_power)
 
 
-def parts_asked(now: Now) -> Call | None:
+def parts_asked(now: PageState) -> Call | None:
     """Trims of the blade compared with, with the twist, and with the stiffness too; None where not all are known."""
-    pair, one = now.of(pair_compared), built(now)
+    pair, one = now.of(pair_compared), actuated_blade(now)
     if pair is None or one is None or now.state is None or now.sliders is None:
         return None
     twisted, _ = compared(now.state.solution.design, now.sliders, None) or pair
     return Call(powers, ((pair[1], twisted, one.installed.on(twisted)),))
 
 
-def parts_here(now: Now) -> tuple[tuple[str, float], ...]:
-    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is that of `here`."""
-    found, on_blade, known = now.answers.get(now.of(parts_asked)), now.of(fitted), now.of(here)
+def parts_here(now: PageState) -> tuple[tuple[str, float], ...]:
+    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is that of `change_here`."""
+    found, on_blade, known = now.answers.get(now.of(parts_asked)), now.of(fitted), now.of(change_here)
     if not isinstance(found, tuple) or on_blade is None or not isinstance(known, EffectInFlight):
         return ()
     bare, twisted, stiff = cast("tuple[float, float, float]", found)
@@ -145,15 +145,15 @@ def parts_here(now: Now) -> tuple[tuple[str, float], ...]:
     )
 
 
-def assessed(now: Now) -> Assessed | None:
+def assessed(now: PageState) -> Assessed | None:
     """One for all panels; None where the blade carries no actuator."""
     return now.of(_assessed)
 
 
-def _assessed(now: Now) -> Assessed | None:
-    if (one := built(now)) is None:
+def _assessed(now: PageState) -> Assessed | None:
+    if (one := actuated_blade(now)) is None:
         return None
-    inputs, verdict, changed = now.hand.actuator, one.verdict, now.of(here)
+    inputs, verdict, changed = now.hand.actuator, one.verdict, now.of(change_here)
     known = changed if isinstance(changed, EffectInFlight) else None
     line, wanted = now.answers.get(now.of(_line_asked)), None
     if isinstance(one.flight, ActuatorFlight):
@@ -164,21 +164,21 @@ def _assessed(now: Now) -> Assessed | None:
         tip=inputs.tip(one.installed),
         reach=inputs.reach(one.installed),
         wanted=wanted,
-        here=None if known is None else Change(known.power[0], known.band),
+        here=None if known is None else PowerChange(known.power[0], known.band),
         vibration=() if known is None else known.index,
-        flight=None if verdict is None else Change(-verdict.net_saving, verdict.net_band),
+        flight=None if verdict is None else PowerChange(-verdict.net_saving, verdict.net_band),
         line=line if isinstance(line, OtherStroke) else None,
     )
 
 
-def _line_asked(now: Now) -> Call | None:
-    verdict = None if (one := built(now)) is None else one.verdict
+def _line_asked(now: PageState) -> Call | None:
+    verdict = None if (one := actuated_blade(now)) is None else one.verdict
     return Call(other_stroke, (verdict,)) if verdict is not None and verdict.installed.masses.aircraft else None
 
 
-def asks(now: Now) -> tuple[Asked, ...]:
+def asks(now: PageState) -> tuple[Questions, ...]:
     call = now.of(_line_asked)
-    return (Asked(_URGENCY, () if call is None else (call,), _STILL),)
+    return (Questions(_URGENCY, () if call is None else (call,), _STILL),)
 
 
 def _angle(radians: float) -> str:
@@ -194,7 +194,7 @@ def _title(value: Assessed, inputs: ActuatorInputs) -> str:
     installed, ply = value.one.installed, isinstance(value.one.installed.actuator, PiezoPly)
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
     driven = f"at {shares} % of its {'voltage' if ply else 'drive'}" if inputs.driven else "at rest"
-    return f"{value.name}, {count(installed)}{' a side' if ply else ''}, {driven}"
+    return f"{value.name}, {count_text(installed)}{' a side' if ply else ''}, {driven}"
 
 
 def _vibration(value: Assessed) -> str:
@@ -230,7 +230,7 @@ def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
     return moves, (*pays, "." if value.line is None else f"; no twist pays at {total}.")
 
 
-def card(now: Now) -> dict[str, AssessedPart | None]:
+def card(now: PageState) -> dict[str, AssessedPart | None]:
     """Three columns and the sentence, while the blade is out of the rotor."""
     value = assessed(now) if now.hand.lifted and in_actuate(now.ui) else None
     if value is None:
@@ -262,14 +262,14 @@ def card(now: Now) -> dict[str, AssessedPart | None]:
     return {"assessed": part}
 
 
-def here_problem(now: Now) -> str:
+def here_problem(now: PageState) -> str:
     """Why there is no verdict, or none in this flight; empty where there is one or it is on its way."""
-    one, found = built(now), now.of(here)
+    one, found = actuated_blade(now), now.of(change_here)
     outcome = None if one is None else one.outcome
     return outcome if isinstance(outcome, str) else found if isinstance(found, str) else ""
 
 
-def choose(now: Now, against: Against) -> tuple[Effect, ...]:
+def choose(now: PageState, against: Against) -> tuple[Effect, ...]:
     """Count every change from this blade."""
     return (SetHand(actuator={"against": against}),) if against in AGAINST else ()
 

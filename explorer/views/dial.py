@@ -12,20 +12,20 @@ from typing import Any
 import numpy as np
 
 from explorer.model.units import number
-from explorer.parts.actuate import DialMatrix, DialPart, Settled
+from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
 from explorer.views.actuated import in_actuate
-from explorer.views.assessed import effect_asked, fitted, here, pair_compared
+from explorer.views.assessed import change_here, effect_asked, fitted, pair_compared
 from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
-from explorer.views.now import Asked, Effect, Grab, Move, Now, Panel
+from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, Questions, SetGrabbed
 from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, programmes, steady_room
-from rotor.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.design import Harmonic
-from rotor.markup import tag
 from rotor.optimisation.vibration import with_harmonics
+from rotor.support.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
+from rotor.support.markup import tag
 from rotor.trim import why_no_hub_loads
 from rotor.trim.hub_loads import band_inflows
 
@@ -44,7 +44,7 @@ _URGENCY, _LATER, _STILL = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
-def _asked(now: Now) -> tuple[Call, ...]:
+def _asked(now: PageState) -> tuple[Call, ...]:
     """What foresees with each inflow model, the design's own first; none where not all of it is known, or can be."""
     pair, on_blade = now.of(pair_compared), now.of(fitted)
     if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
@@ -58,14 +58,14 @@ def _asked(now: Now) -> tuple[Call, ...]:
     return tuple(calls)
 
 
-def asks(now: Now) -> tuple[Asked, ...]:
+def asks(now: PageState) -> tuple[Questions, ...]:
     """What is trimmed first; then two processes share the inflow models."""
     trimmed, calls = now.of(effect_asked), now.of(_asked)
-    first = Asked(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
-    return first, Asked(_LATER, calls[::2], _STILL), Asked(_LATER + 1, calls[1::2], _STILL)
+    first = Questions(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
+    return first, Questions(_LATER, calls[::2], _STILL), Questions(_LATER + 1, calls[1::2], _STILL)
 
 
-def _answer(now: Now) -> DialMatrix | str | None:
+def _answer(now: PageState) -> DialMatrix | str | None:
     """What foresees, with as many inflow models as are known, or why nothing does; None on its way."""
     own, *others = (*map(now.answers.get, now.of(_asked)), None)
     if not isinstance(own, DialAnswer):
@@ -74,12 +74,12 @@ def _answer(now: Now) -> DialMatrix | str | None:
     return DialMatrix(**vars(own.numbers), inflows=found)
 
 
-def _waits(now: Now) -> bool:
+def _waits(now: PageState) -> bool:
     """Whether not every inflow model has answered yet: then nothing is said to be best."""
     return any(now.answers.get(call) is None for call in now.of(_asked))
 
 
-def _dots(now: Now) -> tuple[FrontDot, ...]:
+def _dots(now: PageState) -> tuple[FrontDot, ...]:
     """Once all inflow models have answered."""
     answer = now.of(_answer)
     if not isinstance(answer, DialMatrix) or now.of(_waits):
@@ -87,7 +87,7 @@ def _dots(now: Now) -> tuple[FrontDot, ...]:
     return front_dots(now.answers[now.of(_asked)[0]], answer.inflows)
 
 
-def view(now: Now) -> dict[str, Any]:
+def view(now: PageState) -> dict[str, Any]:
     """The dial, its numbers and its front; and in words what is set that the dial does not show."""
     words = {"actuator.per_rev": _set_words(now)}
     if now.state is None or now.problem:
@@ -101,12 +101,12 @@ def view(now: Now) -> dict[str, Any]:
     }
 
 
-def _dial(now: Now, design: Design, answer: DialMatrix | str | None) -> DialPart:
+def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> DialPart:
     on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if on_blade is None else on_blade.whole
-    moved, settled = now.of(here), None
+    moved, settled = now.of(change_here), None
     if isinstance(moved, EffectInFlight):
-        settled = Settled(tuple(map(unit.of, moved.power)), tuple(round(change, 2) for change in moved.index))
+        settled = ModelChanges(tuple(map(unit.of, moved.power)), tuple(round(change, 2) for change in moved.index))
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -143,7 +143,7 @@ def validation_words() -> str:
     )
 
 
-def _set_words(now: Now) -> str:
+def _set_words(now: PageState) -> str:
     """What these inputs have that the dial does not show: by file, link or measured condition too."""
     inputs = now.inputs
     hidden = [wave for wave in inputs.twist_per_rev if wave.per_rev not in HARMONICS or inputs.active_shape]
@@ -153,27 +153,27 @@ def _set_words(now: Now) -> str:
     return tag("div.rx.rx-dim.rx-small", sentence, data_explorer="per-rev")
 
 
-def act(now: Now, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
+def move_dot(now: PageState, value: str | Sequence[WavePress]) -> tuple[Effect, ...]:
     """The dot: `"start"`, `"end"`, or each harmonic moved."""
     if isinstance(value, str):
-        return (Grab(value == "start"),)
+        return (SetGrabbed(value == "start"),)
     moved = now.inputs.twist_per_rev
     for wave in value:
         if wave.per_rev in HARMONICS:
             moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
-    return (Move(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
+    return (MoveSliders(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
 
 
-def take_dot(now: Now, number_of: int) -> tuple[Effect, ...]:
+def take_dot(now: PageState, number_of: int) -> tuple[Effect, ...]:
     """Apply the twist of a dot of the front."""
     dots = now.of(_dots)
     if not 0 <= number_of < len(dots):
         return ()
     twist = tuple(map(_on_sliders, dots[number_of].twist))
-    return (Move(replace(now.inputs, twist_per_rev=twist), by_hand=False),)
+    return (MoveSliders(replace(now.inputs, twist_per_rev=twist), by_hand=False),)
 
 
-DIAL = Panel(view, in_actuate, asks, presses={"dial": act, "dial_front": take_dot})
+DIAL = Panel(view, in_actuate, asks, presses={"dial": move_dot, "dial_front": take_dot})
 
 
 def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:

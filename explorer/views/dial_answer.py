@@ -12,9 +12,9 @@ from rotor import Design, t_matrix
 from rotor.actuator import InstalledActuator, tip_amplitude, with_actuator_mass
 from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
-from rotor.arrays import Array
 from rotor.design import Harmonic, TwistLaw
 from rotor.optimisation.vibration import front_twists
+from rotor.support.arrays import Array
 from rotor.trim import analyse
 from rotor.trim.hub_loads import hub_index, index_gains
 
@@ -25,7 +25,7 @@ _DIGITS = 6
 
 
 @dataclass(frozen=True)
-class Fitted:
+class FittedBlade:
     """The actuator on the blade, with the steady voltage of each segment [V], and the blade that power and vibration
     are compared with: its twist, None while it is being worked out, and what it is called."""
 
@@ -48,7 +48,7 @@ class Fitted:
         return [blades * harmonic_loss(self.installed, n, 1.0 / self.whole, omega) for n in HARMONICS]
 
 
-def compared(design: Design, undriven: Design, fitted: Fitted | None) -> tuple[Design, Design] | None:
+def compared(design: Design, undriven: Design, fitted: FittedBlade | None) -> tuple[Design, Design] | None:
     """What flies, with the actuator on board, and the blade that it is compared with; None while that is not known.
 
     Blades bend in both where they can, since vibration needs it, and no blade has pitch at n/rev.

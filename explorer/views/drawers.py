@@ -5,17 +5,17 @@ from typing import Any
 from explorer.charts.doubt import doubt_rows
 from explorer.text import readout
 from explorer.text.status import status_panel
-from explorer.views.now import Asked, Now, Panel
-from explorer.views.work import doubted
+from explorer.views.page_state import PageState, Panel, Questions
+from explorer.views.work import shown_doubt
 from explorer.workers.call import Call
-from rotor.markup import Markup
-from rotor.trim.doubt import models_beside
+from rotor.support.markup import Markup
+from rotor.trim.doubt import alternative_models
 
 _URGENCY, _STILL = 5, 0.6
 """[s] without a change before other models are solved."""
 
 
-def details(now: Now) -> dict[str, Any]:
+def details(now: PageState) -> dict[str, Any]:
     """Power and trim: of this design, or of A and B; greyed while there is no trim."""
     state, units = now.state, now.units
     if state is None:
@@ -29,10 +29,10 @@ def details(now: Now) -> dict[str, Any]:
     return {"details.power": power, "details.trim": trim}
 
 
-def trust(now: Now) -> dict[str, Any]:
+def trust(now: PageState) -> dict[str, Any]:
     """The status, what the doubt consists of, and what other models give. While the design moves the rows of the step
     before stay, greyed."""
-    state, asked = now.state, doubted(now)
+    state, asked = now.state, shown_doubt(now)
     if now.problem or state is None:
         return {"trust.status": status_panel(None, now.problem or None)}
     rows = Markup()
@@ -44,9 +44,11 @@ def trust(now: Now) -> dict[str, Any]:
     return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
 
 
-def _models_asked(now: Now) -> tuple[Asked, ...]:
-    return tuple(Asked(_URGENCY, (Call(models_beside, designs.about),), _STILL) for designs in doubted(now))
+def _models_asked(now: PageState) -> tuple[Questions, ...]:
+    return tuple(
+        Questions(_URGENCY, (Call(alternative_models, designs.about),), _STILL) for designs in shown_doubt(now)
+    )
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details")
-TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _models_asked, doubted)
+TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _models_asked, shown_doubt)

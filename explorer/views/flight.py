@@ -12,14 +12,23 @@ import numpy as np
 
 from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
 from explorer.model.units import Units, number
-from explorer.parts.actuate import Bar, EarnsPart, FlightPart, Kind, Sign
+from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
-from explorer.views.actuated import Built, built, in_actuate
+from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate
 from explorer.views.assessed import assessed, parts_asked, parts_here
-from explorer.views.now import Asked, Effect, Hand, Memory, Move, Now, Panel, SetHand
+from explorer.views.page_state import (
+    Effect,
+    HandSettings,
+    MoveSliders,
+    PageState,
+    Panel,
+    PanelMemory,
+    Questions,
+    SetHand,
+)
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
-from rotor.actuator.stopped import Flown, as_flown
-from rotor.chart import Axis, Band, Chart, Line, Series, drawn_chart
+from rotor.actuator.stopped import TrimNumbers, numbers_of
+from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
 AT_REST = (0.0,) * MOST_SEGMENTS
 """No voltage on any segment."""
@@ -39,12 +48,12 @@ def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
     return round(mu, 3), round(climb, 2)
 
 
-def place_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
+def position_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
     """Where on the bar an advance ratio is: it grows from leg to leg."""
     return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
 
 
-def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
+def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
     """Both while the blade is out of the rotor; those of the question before stay, marked, while one is worked on."""
     if not (now.hand.lifted and in_actuate(now.ui)):
         return {"flight": None, "earns": None}
@@ -58,13 +67,13 @@ def view(now: Now) -> dict[str, FlightPart | EarnsPart | None]:
     return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
-def _on_stage(now: Now) -> Built | None:
+def _on_stage(now: PageState) -> ActuatedBlade | None:
     """None also where the present inputs have no solution: all stays as it was."""
     there = now.hand.lifted and in_actuate(now.ui) and not now.problem
-    return built(now) if there else None
+    return actuated_blade(now) if there else None
 
 
-def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
+def remember(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
     """The last flight and the last verdict."""
     if (one := _on_stage(now)) is None:
         return now.memory
@@ -73,11 +82,11 @@ def remember(now: Now, shown: Mapping[str, Any]) -> Memory:
     return replace(now.memory, latest={**now.memory.latest, **known})
 
 
-def _last(now: Now) -> ActuatorFlight | None:
+def _last(now: PageState) -> ActuatorFlight | None:
     return now.memory.latest.get("flight")
 
 
-def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
+def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     """`wrong`: why there is no verdict."""
     hand, legs, rotor = now.hand, one.legs, one.design.rotor
     known = one.flight if isinstance(one.flight, ActuatorFlight) else None
@@ -88,10 +97,10 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
     frozen = tip if hand.stopped else None
     words = problem or ("" if known else "computing…")
     if hand.stopped and now.state is not None and not problem:
-        words = _failed_words(as_flown(now.state.solution, one.design.twist), now.units)
+        words = _failed_words(numbers_of(now.state.solution, one.design.twist), now.units)
     return FlightPart(
         legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
-        at=round(place_of(legs, now.inputs.advance_ratio), 3),
+        at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
         words=words,
         flown=hand.flown is not None and not hand.stopped,
@@ -101,7 +110,7 @@ def _flight(now: Now, one: Built, wrong: str) -> FlightPart:
     )
 
 
-def _failed_words(there: Flown, units: Units) -> str:
+def _failed_words(there: TrimNumbers, units: Units) -> str:
     """How it flies with the twist frozen."""
     left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
     return f"stopped: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
@@ -159,7 +168,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     )
 
 
-def _earns_here(now: Now, problem: str) -> EarnsPart:
+def _earns_here(now: PageState, problem: str) -> EarnsPart:
     """The same in this flight; nothing is drawn until it is known."""
     parts, hovers = now.of(parts_here), now.inputs.advance_ratio == 0.0
     speed = 0.0 if now.sliders is None else now.inputs.advance_ratio * now.sliders.rotor.tip_speed
@@ -172,49 +181,49 @@ def _earns_here(now: Now, problem: str) -> EarnsPart:
     )
 
 
-def _bars(savings: Sequence[tuple[str, float]], units: Units) -> tuple[Bar, ...]:
+def _bars(savings: Sequence[tuple[str, float]], units: Units) -> tuple[PowerBar, ...]:
     rows = balance(savings, units)
-    return tuple(Bar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
+    return tuple(PowerBar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
 
 
 def _sign(text: str) -> Sign:
     return "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
 
 
-def asks(now: Now) -> tuple[Asked, ...]:
-    one = built(now) if in_actuate(now.ui) else None
+def asks(now: PageState) -> tuple[Questions, ...]:
+    one = actuated_blade(now) if in_actuate(now.ui) else None
     parts = now.of(parts_asked) if now.hand.here else None
     calls = (*((parts,) if parts else ()), *((one.flight_task,) if one and one.flight_task else ()))
-    return (Asked(4, calls, 0.0),) if calls else ()
+    return (Questions(4, calls, 0.0),) if calls else ()
 
 
-def choose(now: Now, which: str) -> tuple[Effect, ...]:
+def choose(now: PageState, which: str) -> tuple[Effect, ...]:
     """The balance of power here, or over the flight."""
     return (SetHand({"here": which == "here"}),)
 
 
-def fly(now: Now, x: float) -> tuple[Effect, ...]:
+def fly_to(now: PageState, x: float) -> tuple[Effect, ...]:
     """The bar was moved: fly there, the voltages with it."""
-    if (one := built(now)) is None:
+    if (one := actuated_blade(now)) is None:
         return ()
     flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
     mu, climb = condition_at(one.legs, flown)
     drives = {} if now.hand.stopped else _driven(now, flown)
-    return SetHand({"flown": flown}, drives), Move(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+    return SetHand({"flown": flown}, drives), MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
 
 
-def stop_here(now: Now, switch: str) -> tuple[Effect, ...]:
+def stop_here(now: PageState, switch: str) -> tuple[Effect, ...]:
     """The actuator stops, its voltages as they are; or it works again, with those of the flight where that is now."""
     stopped = switch == "on"
     return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
 
 
-def landed(hand: Hand) -> SetHand:
+def after_landing(hand: HandSettings) -> SetHand:
     """The blade is back in the rotor: what the flight drove is at rest again, a voltage that a hand set stays."""
     return SetHand({"lifted": False, **BY_HAND}, {} if hand.flown is None else {"drives": AT_REST})
 
 
-def follow_flight(now: Now) -> tuple[Effect, ...]:
+def follow_flight(now: PageState) -> tuple[Effect, ...]:
     """Voltages of a flight that has come meanwhile."""
     one = None if now.hand.stopped else _on_stage(now)
     come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
@@ -222,12 +231,12 @@ def follow_flight(now: Now) -> tuple[Effect, ...]:
     return (SetHand(actuator=drives),) if drives else ()
 
 
-def _driven(now: Now, x: float | None) -> dict[str, Any]:
+def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     """Voltages as the last flight has them there; nothing where none is known.
 
     Fibres are laid the other way where the voltages of the flight oppose its twists.
     """
-    if (one := built(now)) is None or x is None:
+    if (one := actuated_blade(now)) is None or x is None:
         return {}
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
@@ -247,5 +256,5 @@ FLIGHT = Panel(
     asks=asks,
     remember=remember,
     reacts=follow_flight,
-    presses={"fly": fly, "fails": stop_here, "balance": choose},
+    presses={"fly": fly_to, "fails": stop_here, "balance": choose},
 )

@@ -4,7 +4,7 @@ from typing import Any
 
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
-from explorer.views.now import Now, Panel, Work
+from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
 from rotor.trim.doubt import Doubt, decimals
@@ -13,19 +13,23 @@ _EQUAL = 50.0
 """Changes of power below this [W] are none."""
 
 
-def against_rival(now: Now) -> tuple[Work, ...]:
+def optimised_doubt(now: PageState) -> tuple[PanelWork, ...]:
     """How sure the difference from the optimiser's blade is."""
-    state, rival = now.state, now.rival
-    return () if state is None or rival is None else (doubt_work("rival", state.solution, rival, now.analyses),)
+    state, optimised = now.state, now.optimised
+    return (
+        ()
+        if state is None or optimised is None
+        else (doubt_work("optimised", state.solution, optimised, now.analyses),)
+    )
 
 
-def notice(now: Now) -> dict[str, Any]:
+def notice(now: PageState) -> dict[str, Any]:
     """While the blade moves, the difference of the two powers stands without its band."""
-    words, state, rival = now.searching, now.state, now.rival
-    if words is None and state is not None and rival is not None:
-        band = now.answers.get(against_rival(now)[0].key)
+    words, state, optimised = now.searching, now.state, now.optimised
+    if words is None and state is not None and optimised is not None:
+        band = now.answers.get(optimised_doubt(now)[0].key)
         actions = [("rival_take", "Take its twist"), ("rival_end", "End")]
-        words = NoticePart(comparison(state.solution, rival, band, now.units), actions)
+        words = NoticePart(comparison(state.solution, optimised, band, now.units), actions)
     return {"notice": words}
 
 
@@ -43,4 +47,4 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
     return f"{said}, yours {amount} {unit.symbol} {way}: {band.sureness}"
 
 
-NOTICE = Panel(notice, works=against_rival)
+NOTICE = Panel(notice, works=optimised_doubt)

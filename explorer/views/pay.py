@@ -16,10 +16,10 @@ from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
 from explorer.views.actuated import in_actuate
-from explorer.views.assessed import Assessed, Change, assessed, here_problem
-from explorer.views.now import Effect, Now, Panel, SetAddress, SetHand
+from explorer.views.assessed import Assessed, PowerChange, assessed, here_problem
+from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
-from rotor.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
+from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 
 SUPPOSED = "i"
 """Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
@@ -34,13 +34,13 @@ def _verdicts(value: Assessed) -> list[Verdict]:
     return [outcome for outcome in value.one.outcomes.values() if isinstance(outcome, Verdict)]
 
 
-def view(now: Now) -> dict[str, Any]:
+def view(now: PageState) -> dict[str, Any]:
     """The stage, and whether the supposed actuator pays: its blade lights green."""
     shown = None if now.problem else _stage(now)
     return {} if now.problem else {"suppose": shown, "actuator.pays": shown is not None and shown.kind == "gain"}
 
 
-def _stage(now: Now) -> SupposePart | None:
+def _stage(now: PageState) -> SupposePart | None:
     """What the page draws; None where it shows the balance of power."""
     value = assessed(now) if now.hand.on_stage else None
     if value is None:
@@ -59,7 +59,7 @@ def _stage(now: Now) -> SupposePart | None:
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     return SupposePart(
         words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
-        kind=Change(-saving, band).kind,
+        kind=PowerChange(-saving, band).kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(value), units)),
         at=(degrees, mass),
@@ -75,7 +75,7 @@ def _put(degrees: float, mass: float) -> tuple[float, float]:
     return round(degrees, 2), float(f"{mass:.3g}")
 
 
-def place_it(now: Now, value: str | SupposePress) -> tuple[Effect, ...]:
+def move_supposed(now: PageState, value: str | SupposePress) -> tuple[Effect, ...]:
     """The stage shows the line or no longer, or the supposed actuator is dragged there."""
     on_stage, place = now.hand.on_stage, now.hand.place
     if isinstance(value, str):
@@ -86,10 +86,10 @@ def place_it(now: Now, value: str | SupposePress) -> tuple[Effect, ...]:
     return SetHand({"on_stage": on_stage, "place": place}), SetAddress(SUPPOSED, kept)
 
 
-PAY = Panel(view, in_actuate, presses={"suppose": place_it})
+PAY = Panel(view, in_actuate, presses={"suppose": move_supposed})
 
 
-def place_of(text: str) -> tuple[float, float]:
+def read_place(text: str) -> tuple[float, float]:
     """Twist [°] and mass [kg] of a link; ValueError with one sentence for anything else."""
     parts = list(map(float, text.split(","))) if _PLACE.fullmatch(text) else []
     if not parts or parts[0] > MOST_TWIST or not 0.0 < parts[1] <= MOST_MASS:

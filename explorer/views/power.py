@@ -7,13 +7,13 @@ from typing import Any
 from explorer.charts.doubt import card_words
 from explorer.model.session_state import SessionState
 from explorer.model.units import BLANK, Units, number
-from explorer.parts.results import HandPart, Kind, PowerPart, Share, Status, Sureness
+from explorer.parts.results import HandPart, Kind, PowerPart, PowerShare, Status, Sureness
 from explorer.text.design_words import against
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
-from explorer.views.now import Now, Panel
-from explorer.views.work import doubted
+from explorer.views.page_state import PageState, Panel
+from explorer.views.work import shown_doubt
 
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
@@ -25,7 +25,7 @@ the disk may be stalled without weight.
 """
 
 
-def power_card(now: Now) -> dict[str, Any]:
+def power_card(now: PageState) -> dict[str, Any]:
     """The numbers of the last trim; without one now they stay, greyed, beside the sentence that says why."""
     state = now.state
     if state is None:
@@ -40,9 +40,9 @@ def power_card(now: Now) -> dict[str, Any]:
     return {"power": card}
 
 
-def sureness(now: Now) -> Sureness:
+def sureness(now: PageState) -> Sureness:
     """How sure the power is. While the design moves the band of the step before stays."""
-    asked = doubted(now)
+    asked = shown_doubt(now)
     found = now.latest(asked[0])[0] if asked else None
     return Sureness() if found is None else card_words(found, now.units)
 
@@ -71,14 +71,14 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         change = f"{number(percent, 1, sign=True)} %"
     elif reference is not None:
         change = units.watts(power.total - reference.total, digits, sign=True)
-    parts = list[Share]()
+    parts = list[PowerShare]()
     for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
         title = f"{words} power {units.watts(value, digits)}"
         if reference is not None:
             title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
         share = round(value / whole, 5) if whole > 0.0 else 0.0
-        parts.append(Share(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
+        parts.append(PowerShare(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
     ideal = ideal_induced(solution)
     return PowerPart(
         status=_status(state, units),
@@ -120,7 +120,7 @@ def _kind(change: float, total: float) -> Kind:
     return "good" if change < 0.0 else "bad"
 
 
-def hand(now: Now) -> dict[str, Any]:
+def held_power(now: PageState) -> dict[str, Any]:
     """Power and its least beside the blade, while a station of it is held."""
     if now.state is None or now.station is None:
         return {"hand": None}
@@ -135,10 +135,10 @@ def hand(now: Now) -> dict[str, Any]:
         digits=digits,
         place=now.station.place,
         best=now.station.best and replace(now.station.best, power=round(unit.of(now.station.best.power), 2)),
-        rival=None if now.rival is None else round(unit.of(now.rival.power.total), 2),
+        optimised=None if now.optimised is None else round(unit.of(now.optimised.power.total), 2),
     )
     return {"hand": shown}
 
 
-POWER = Panel(power_card, works=doubted)
-HAND = Panel(hand)
+POWER = Panel(power_card, works=shown_doubt)
+HAND = Panel(held_power)

@@ -13,17 +13,17 @@ from explorer.charts.plots import PowerCurve
 from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
-from explorer.parts.results import Kind, Speeds, StripChart
+from explorer.parts.results import Kind, MarkedSpeeds, StripChart
 from explorer.text.design_words import against
-from explorer.views.now import Memory, Now, Panel, Tell, Work
+from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Tell
 from rotor import Design, Solution
-from rotor.chart import Chart, drawn_chart
+from rotor.support.chart import Chart, drawn_chart
 
 _NOTICEABLE = 500.0
 """Changes of power below this [W] have no colour."""
 
 
-def strip(now: Now) -> dict[str, Any]:
+def strip(now: PageState) -> dict[str, Any]:
     """A test that was measured has its chart in place of power over µ; vibration takes the place of the lift."""
     state = now.state
     if state is None:
@@ -33,7 +33,7 @@ def strip(now: Now) -> dict[str, Any]:
     compared: Role = "reference" if state.pinned is None else "pinned"
     drawn = list[StripChart]()
 
-    def add(name: str, chart: Chart, kind: Kind = "", speeds: Speeds | None = None) -> None:
+    def add(name: str, chart: Chart, kind: Kind = "", speeds: MarkedSpeeds | None = None) -> None:
         drawn.append(StripChart(name, kind, bool(now.problem), drawn_chart(chart), speeds))
 
     if (measured := now.measured.chart(solution, held("measured"))) is not None:
@@ -48,7 +48,7 @@ def strip(now: Now) -> dict[str, Any]:
     return {"strip": drawn}
 
 
-def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart, Kind, Speeds | None]:
+def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str, Chart, Kind, MarkedSpeeds | None]:
     """Change of power over µ; the power itself where the design is its own reference."""
     design, reference, failed = state.solution.design, state.reference, bool(now.problem)
     # A preview, such as the flight of a schedule, is elsewhere than the sliders.
@@ -70,33 +70,33 @@ def _power(now: Now, state: SessionState, curve: PowerCurve) -> tuple[str, Chart
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)
     told = not failed and math.isfinite(fastest)
-    return "power", chart, kind, Speeds(mu, math.floor(200.0 * fastest) / 200.0) if told else None
+    return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if told else None
 
 
-def remember_ranges(now: Now, shown: Mapping[str, Any]) -> Memory:
+def remember_ranges(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
     """The axes that the next charts hold."""
     ranges = {_axis(now, one.name): one.chart.y.range for one in shown.get("strip", ())}
     return replace(now.memory, ranges={**now.memory.ranges, **ranges})
 
 
-def _axis(now: Now, name: str) -> str:
+def _axis(now: PageState, name: str) -> str:
     """Power over µ has another axis where it is the change."""
     changed = now.state is not None and now.state.solution.design != now.state.reference.design
     return f"{name}-change" if name == "power" and changed else name
 
 
-def trims_asked(now: Now) -> tuple[Work, ...]:
+def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
     """Our trims at what was measured: on a test stand, or in flight, there only beside the power itself."""
     if now.state is None:
         return ()
     solution = now.state.solution
 
-    def work(name: str, trim: Callable[[Solution, Callable[[], bool], Tell], None]) -> Work:
+    def work(name: str, trim: Callable[[Solution, Callable[[], bool], Tell], None]) -> PanelWork:
         def run(superseded: Callable[[], bool], tell: Tell) -> bool | None:
             trim(solution, superseded, tell)
             return None if superseded() else True
 
-        return Work(name, (solution.design,), run)
+        return PanelWork(name, (solution.design,), run)
 
     points = work("measured", now.measured.trim_points)
     plain = solution.design == now.state.reference.design

@@ -7,10 +7,10 @@ from explorer.colours import PARTS
 from explorer.model.units import SI, Units, number
 from explorer.text import readout
 from explorer.text.readout import part_titles
-from explorer.views.now import Now, Panel, Tell, Work
+from explorer.views.page_state import PageState, Panel, PanelWork, Tell
 from rotor.aero.switches import SWITCHES, with_switches
-from rotor.markup import Markup, group, tag
 from rotor.study.series import WaterfallStep, waterfall_steps
+from rotor.support.markup import Markup, group, tag
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""
@@ -120,7 +120,7 @@ _CLIMB = len(SWITCHES) + 1
 """Steps from everything off to everything on; those with each switch off alone follow."""
 
 
-def steps_asked(now: Now) -> tuple[Work, ...]:
+def steps_asked(now: PageState) -> tuple[PanelWork, ...]:
     """All steps of the design with everything on: some twenty trims."""
     if now.state is None:
         return ()
@@ -135,24 +135,24 @@ def steps_asked(now: Now) -> tuple[Work, ...]:
             found.append(step)
         return None
 
-    return (Work("waterfall", (design,), run),)
+    return (PanelWork("waterfall", (design,), run),)
 
 
-def waterfall(now: Now) -> dict[str, Any]:
+def waterfall(now: PageState) -> dict[str, Any]:
     """The drawing. The last one stays, greyed, until that of the design on the page is known."""
     steps, current = _known(now)
     drawn = waterfall_chart(steps[:_CLIMB], now.units)
     return {"details.waterfall": drawn if not steps or (current and not now.problem) else readout.faded(drawn)}
 
 
-def costs(now: Now) -> dict[str, Any]:
+def costs(now: PageState) -> dict[str, Any]:
     """What each switch costs, beside it; the last known stays."""
     alone = _known(now)[0][_CLIMB:]
     words = {step.switch.name: cost_words(step, now.units) for step in alone if step.switch is not None}
     return {"switch.costs": words} if words else {}
 
 
-def _known(now: Now) -> tuple[tuple[WaterfallStep, ...], bool]:
+def _known(now: PageState) -> tuple[tuple[WaterfallStep, ...], bool]:
     """The last steps known, and whether they are of the design on the page."""
     asked = steps_asked(now)
     steps, current = now.latest(asked[0]) if asked else (None, False)

@@ -5,19 +5,19 @@ from typing import Any, Literal
 
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
 from explorer.model.units import Units
-from explorer.parts.results import Worth
-from explorer.views.now import Now, Panel, Tell, Work
-from explorer.views.work import by_power
+from explorer.parts.results import SliderSaving
+from explorer.views.page_state import PageState, Panel, PanelWork, Tell
+from explorer.views.work import has_power
 
 _HALF = 6.0
 """Change of a step in the unit of power at which the arrow has half the greatest length, so that none looks as long as
 a larger one."""
 
 
-def slopes_asked(now: Now) -> tuple[Work, ...]:
+def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
     """∂P/∂θ(r), and what a step of each slider of the flight changes, at two trims each; none without power."""
     state, analyses = now.state, now.analyses
-    if state is None or now.problem or not by_power(state.solution.design):
+    if state is None or now.problem or not has_power(state.solution.design):
         return ()
     solution = state.solution
 
@@ -25,11 +25,13 @@ def slopes_asked(now: Now) -> tuple[Work, ...]:
         found = flight_sensitivities(solution, superseded)
         return None if superseded() else found
 
-    of_twist = Work("slopes", (solution.design,), lambda superseded, tell: analyses.of(solution).gradient, soon=True)
-    return of_twist, Work("flight-slopes", (solution.design,), of_flight)
+    of_twist = PanelWork(
+        "slopes", (solution.design,), lambda superseded, tell: analyses.of(solution).gradient, soon=True
+    )
+    return of_twist, PanelWork("flight-slopes", (solution.design,), of_flight)
 
 
-def twist_slopes(now: Now) -> dict[str, float]:
+def twist_slopes(now: PageState) -> dict[str, float]:
     """Change of power for a unit of each twist slider [W], of the design shown; empty until it is known."""
     asked, state = slopes_asked(now), now.state
     gradient = now.answers.get(asked[0].key) if asked else None
@@ -38,9 +40,9 @@ def twist_slopes(now: Now) -> dict[str, float]:
     return {name: one.slope for name, one in twist_sensitivities(state.inputs, gradient).items()}
 
 
-def worth(now: Now) -> dict[str, Any]:
+def worth(now: PageState) -> dict[str, Any]:
     """Until the page rests, what was known of the design before stands there, marked as stale."""
-    state, asked, rows = now.state, slopes_asked(now), dict[str, Worth]()
+    state, asked, rows = now.state, slopes_asked(now), dict[str, SliderSaving]()
     if state is None or not asked:
         return {"worth": rows}
     (gradient, of_now), (flight, flight_of_now) = map(now.latest, asked)
@@ -52,7 +54,7 @@ def worth(now: Now) -> dict[str, Any]:
     return {"worth": rows}
 
 
-def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> Worth:
+def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> SliderSaving:
     """The change of power by a step up, with its sign, and which way saves."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
     way = ways[sensitivity.saving_direction(units)]
@@ -67,7 +69,7 @@ def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = Fal
         else f"{title}: {step} more changes power by less than 0.05 {units.power[0].symbol}."
     )
     size = abs(units.power[0].of(sensitivity.watts()))
-    return Worth(way, value, sensitivity.unit_text(units), round(size / (size + _HALF), 3), sentence, stale)
+    return SliderSaving(way, value, sensitivity.unit_text(units), round(size / (size + _HALF), 3), sentence, stale)
 
 
 WORTH = Panel(worth, works=slopes_asked)

@@ -1,5 +1,6 @@
 // @ts-check
-// The charts of the page and of the lecture's file: one drawing of what `rotor.chart` says as JSON. Ticks, ends of the
+// The charts of the page and of the lecture's file: one drawing of what `rotor.support.chart` says as JSON.
+// Ticks, ends of the
 // axes and colours come with it.
 const Charts = (() => {
   const {text, clamp, lerp, distance, trace, closest} = Common;

@@ -1,5 +1,5 @@
 // @ts-check
-// The reference blade seen end-on in an oblique projection: sections, ribbon, and the reference as a grey ghost.
+// The reference blade seen end-on in an oblique projection: sections, ribbon, and the reference as a grey overlay.
 (() => {
   const {DEGREE, text, lerp, trace} = Common, {part} = RX, degrees = angle => `${Common.signed(angle)}°`;
   const STOPS = [[52, 91, 219], [134, 84, 208], [208, 66, 130], [222, 64, 40]];
@@ -11,18 +11,18 @@
   RX.paint('inset', inset => {
     const card = part('inset');
     card.hidden = !inset;
-    if (!inset || document.documentElement.hasAttribute('data-rubber') || card.clientWidth < 80) return;
-    const {r: stations, theta, ghost, cuts, datum, times} = inset, ghostDatum = inset.ghost_datum;
+    if (!inset || document.documentElement.hasAttribute('data-twisting') || card.clientWidth < 80) return;
+    const {r: stations, theta, overlay, cuts, datum, times} = inset, base = inset.overlay_datum;
     const width = card.clientWidth - 28, height = card.clientHeight - 15, [root] = stations, slope = .06 * height;
     const share = r => (r - root) / (1 - root);
-    const changed = cut => cut.ghost !== null && Math.abs(cut.theta - cut.ghost) >= .05;
+    const changed = cut => cut.overlay !== null && Math.abs(cut.theta - cut.overlay) >= .05;
     // A point forward and up of the quarter chord, in chords, of a blade turned so much from its datum, drawn `times`.
     const turn = (corner, angle, from) => {
       const [x, z] = corner, drawn = (from + times * (angle - from)) * DEGREE, c = Math.cos(drawn), s = Math.sin(drawn);
       return [x * c - z * s, x * s + z * c];
     };
     // How far the drawn sections reach above and below: strong twist is drawn smaller, not over the numbers.
-    const reach = cuts.flatMap(cut => [[cut.theta, datum], ...(cut.ghost === null ? [] : [[cut.ghost, ghostDatum]])]
+    const reach = cuts.flatMap(cut => [[cut.theta, datum], ...(cut.overlay === null ? [] : [[cut.overlay, base]])]
       .map(([angle, from]) => cut.outline.map(corner => turn(corner, angle, from)[1]))
       .map(ups => [share(cut.r), Math.max(...ups), -Math.min(...ups)]));
     let chord = Math.min(122, width / 6.2, .78 * height), y0 = 0;
@@ -44,7 +44,7 @@
         ${stops.map(stop => `<stop offset="${stop}" stop-color="${along(stop)}"/>`).join('')}</linearGradient></defs>
       <path d="M${x0 - chord / 2} ${y0}L${x1 + .4 * chord} ${y0 + slope}" stroke="var(--rx-line)"/>`;
     if (cuts.some(changed))
-      for (const x of [.25, -.75]) drawn += `<path d="${trace(edge(ghost, x, ghostDatum))}" class="rxf-ghost-line"/>`;
+      for (const x of [.25, -.75]) drawn += `<path d="${trace(edge(overlay, x, base))}" class="rxf-overlay"/>`;
     drawn += `<path d="${trace([...lead, ...trail.toReversed()])}Z" fill="url(#rxi)" opacity=".13"/>
       <path d="${trace(lead)}" stroke="url(#rxi)" stroke-width="1.6" fill="none"/>
       <path d="${trace(trail)}" stroke="url(#rxi)" stroke-width="1.6" fill="none" opacity=".75"/>`;
@@ -52,11 +52,11 @@
     cuts.forEach((cut, k) => {
       const {r, outline} = cut, [x] = at(r), odd = k % 2 === 1, shade = along(share(r));
       if (width < 560 && odd && k < last) return;  // In a narrow card every other section has room.
-      const title = `${degrees(cut.theta - cut.ghost)} from ${text(inset.ghost_name)}`;
+      const title = `${degrees(cut.theta - cut.overlay)} from ${text(inset.overlay_name)}`;
       const shape = (angle, style, from) => `
         <path d="${trace(outline.map(corner => point(r, angle, corner, from)))}Z" ${style}>${
           changed(cut) ? `<title>${title}</title>` : ''}</path>`;
-      if (changed(cut)) drawn += shape(cut.ghost, 'class="rxf-ghost-cut"', ghostDatum);
+      if (changed(cut)) drawn += shape(cut.overlay, 'class="rxf-overlay-cut"', base);
       drawn += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}" data-grab="${r}"`);
       if (k < last && (odd || k === last - 1)) return;  // Every other section has numbers, none beside the tip's.
       drawn += `<text x="${x}" y="${height - 14}" text-anchor="middle" data-between
@@ -71,7 +71,8 @@
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>
         <span class="rxf-dim">twist ×${times}${times > 1 ? ', as in the scene' : ''}</span>
         <div class="rxf-key">${key(inset.name_hint, '', inset.name)}${
-          ghost ? key(inset.ghost_hint, 'data-ghost', inset.ghost_name) : ''}<span>root ← r/R → tip</span></div></div>
+          overlay ? key(inset.overlay_hint, 'data-overlay',
+            inset.overlay_name) : ''}<span>root ← r/R → tip</span></div></div>
       <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Twist, ${of}: ${spoken}">${drawn}</svg>`;
   });
 })();

@@ -23,7 +23,7 @@ interface RxState {
   probe_label: RxSceneLabel[];
   prompt: RxSceneLabel | null;
   ride: RxRidePart | null;
-  rubber: RxRubberPart | null;
+  twisting: RxTwistingPart | null;
   steps: RxStepPart[];
   strip: RxStripChart[];
   suppose: RxSupposePart | null;
@@ -33,7 +33,7 @@ interface RxState {
   views: RxViewsPart;
   wipe: boolean;
   wiped: number;
-  worth: Record<string, RxWorth>;
+  worth: Record<string, RxSliderSaving>;
 }
 
 interface RxPresses {
@@ -138,7 +138,7 @@ interface RxDialPart {
   rings: [number, string][];
   words: string;
   computing: boolean;
-  settled: RxSettled | null;
+  settled: RxModelChanges | null;
   problem: string;
   against: string;
   where: string;
@@ -150,7 +150,7 @@ interface RxDialPart {
   held: boolean;
 }
 
-interface RxSettled {
+interface RxModelChanges {
   power: number[];
   index: number[];
 }
@@ -244,13 +244,13 @@ interface RxEarnsPart {
   unit: string;
   here: boolean;
   where: string;
-  bars: RxBar[];
+  bars: RxPowerBar[];
   fuel: string;
   fuel_kind: '' | 'gain' | 'loss';
   fuel_note: string;
 }
 
-interface RxBar {
+interface RxPowerBar {
   name: string;
   value: number;
   text: string;
@@ -293,11 +293,11 @@ interface RxHandPart {
   before: number;
   digits: number;
   place: string;
-  best: RxBest | null;
-  rival: number | null;
+  best: RxLeastPower | null;
+  optimised: number | null;
 }
 
-interface RxBest {
+interface RxLeastPower {
   theta: number;
   power: number;
   held: boolean;
@@ -315,21 +315,21 @@ interface RxInsetPart {
   times: number;
   r: number[];
   datum: number;
-  ghost_datum: number;
+  overlay_datum: number;
   theta: number[];
-  ghost: number[] | null;
-  cuts: RxCut[];
+  overlay: number[] | null;
+  cuts: RxInsetSection[];
   name: string;
   name_hint: string;
-  ghost_name: string;
-  ghost_hint: string;
+  overlay_name: string;
+  overlay_hint: string;
 }
 
-interface RxCut {
+interface RxInsetSection {
   r: number;
   outline: number[][];
   theta: number;
-  ghost: number | null;
+  overlay: number | null;
 }
 
 interface RxLecturePart {
@@ -403,7 +403,7 @@ interface RxPowerPart {
   change: string;
   kind: '' | 'good' | 'bad';
   against: string;
-  parts: RxShare[];
+  parts: RxPowerShare[];
   ideal: number | null;
   ideal_title: string;
   moved: string;
@@ -418,7 +418,7 @@ interface RxStatus {
   title: string;
 }
 
-interface RxShare {
+interface RxPowerShare {
   part: string;
   name: string;
   value: string;
@@ -448,7 +448,7 @@ interface RxRidePart {
   chart: RxDrawnChart;
 }
 
-interface RxRubberPart {
+interface RxTwistingPart {
   press: number;
   knot: string;
   by: string;
@@ -481,10 +481,10 @@ interface RxStripChart {
   kind: '' | 'good' | 'bad';
   faded: boolean;
   chart: RxDrawnChart;
-  speeds: RxSpeeds | null;
+  speeds: RxMarkedSpeeds | null;
 }
 
-interface RxSpeeds {
+interface RxMarkedSpeeds {
   mu: number;
   fastest: number;
 }
@@ -537,7 +537,7 @@ interface RxViewsPart {
   now: string;
 }
 
-interface RxWorth {
+interface RxSliderSaving {
   way: 'up' | 'down' | '';
   value: string;
   unit: string;

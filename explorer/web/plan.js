@@ -54,7 +54,7 @@
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
     const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
-    const alone = held && RX.small.matches && page.dataset.rubber !== 'curve';  // No words.
+    const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
       : wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
         : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
@@ -161,7 +161,7 @@
   }
 
   RX.paint('plan', plan => {
-    if (!plan && page.hasAttribute('data-rubber')) return;  // It leaves with the blade.
+    if (!plan && page.hasAttribute('data-twisting')) return;  // It leaves with the blade.
     place.hidden = !plan;
     around.hidden = !plan || Boolean(plan.held);
     if (!plan) {

@@ -13,12 +13,12 @@ from rotor.design.quantities import PRESETS
 from rotor.optimisation import (
     Concept,
     Objective,
-    Plan,
     Schedule,
+    SchedulePlan,
     Search,
     at_condition,
-    measure,
-    measure_many,
+    evaluate_objective,
+    evaluate_objectives,
     run_plan,
     run_search,
 )
@@ -91,12 +91,12 @@ class SearchTask:
         """Reports `StartPower`, `ReferencePower`, then every `Progress`."""
         search = self.search
         objective = search.objective or at_condition(search.design)
-        begin = measure(objective, search.design, gradient=False)
+        begin = evaluate_objective(objective, search.design, gradient=False)
         tell(StartPower(begin.power))
         if self.reference == search.design:
             tell(ReferencePower(begin.power))
         elif not stop():
-            tell(ReferencePower(measure(objective, self.reference, gradient=False).power))
+            tell(ReferencePower(evaluate_objective(objective, self.reference, gradient=False).power))
         return run_search(search, tell, stop)
 
 
@@ -131,7 +131,9 @@ class MapTask:
                     [warm.guess(place, hovering=leg.flight.advance_ratio == 0.0) for warm, leg in legs]
                     for place in places
                 ]
-                points = measure_many(self.objective, [self.at(**place) for place in places], starts, gradient=False)
+                points = evaluate_objectives(
+                    self.objective, [self.at(**place) for place in places], starts, gradient=False
+                )
                 for cell, place, point in zip(cells, places, points, strict=True):
                     known[cell] = point.power
                     for warm, trim in zip(near, point.solutions, strict=False):
@@ -160,15 +162,18 @@ class MapLevel:
 class ScheduleTask:
     """The best twist for each leg of a mission, and the best fixed blade."""
 
-    plan: Plan
+    plan: SchedulePlan
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
-        """Reports every `Cell`, then `FixedPowers`."""
+        """Reports every `ScheduleOptimum`, then `FixedPowers`."""
         plan = self.plan
         schedule = run_plan(plan, tell, stop)
         if schedule.complete:
             fixed = schedule.cells[-1].optimum.design
-            powers = (measure(Objective(plan.quantity, (leg,)), fixed, gradient=False).power for leg in plan.conditions)
+            powers = (
+                evaluate_objective(Objective(plan.quantity, (leg,)), fixed, gradient=False).power
+                for leg in plan.conditions
+            )
             tell(FixedPowers(tuple(powers)))
         return schedule
 

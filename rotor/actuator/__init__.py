@@ -23,7 +23,7 @@ from rotor.actuator.installation import InstalledActuator, install, with_actuato
 from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
-from rotor.actuator.section import Host, Placement, default_placement
+from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.stopped import failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
@@ -37,7 +37,7 @@ __all__ = (
     "Engines",
     "ExtensionTwist",
     "FlightLeg",
-    "Host",
+    "HostBlade",
     "InstalledActuator",
     "OtherStroke",
     "PiezoPly",

@@ -9,11 +9,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.dynamics.structure import listed_material, titanium
 from rotor.dynamics.thin_wall import Layer, Material
-from rotor.user_input import did_you_mean
+from rotor.support.assets import asset_path
+from rotor.support.user_input import did_you_mean
 
 Electrodes = Literal["interdigitated", "continuous"]
 

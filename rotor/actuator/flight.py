@@ -10,9 +10,9 @@ from rotor.actuator.catalogue import PiezoPly, engines_of
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import best_swings
 from rotor.actuator.verdict import NOTHING, Verdict
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

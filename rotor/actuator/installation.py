@@ -13,15 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.section import Host, Placement, active_section, section_spec, skin
-from rotor.arrays import Array, read_only
+from rotor.actuator.section import HostBlade, Placement, active_section, section_spec, skin
 from rotor.design.blade import BladeStructure, Rotor
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure, uh60a_torsion
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 from rotor.dynamics.torsion import (
-    Addition,
+    AddedStructure,
     TorsionBeam,
     stiffer_blade,
     torsion_beam,
@@ -29,6 +28,7 @@ from rotor.dynamics.torsion import (
     twist_under_moment,
 )
 from rotor.optimisation.limits import ChangeLimit
+from rotor.support.arrays import Array, read_only
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def mass_breakdown(
 
 def addition(
     masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, sheets: bool = True
-) -> Addition:
+) -> AddedStructure:
     """Mass per length, its moments about the balance axis, and stiffness added over the active span.
 
     sheets: over the chord of the placement; a tube lies on the axis.
@@ -94,7 +94,7 @@ def addition(
     arm = 0.5 * (front + rear) - axis
     spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
     moment = (plies * arm - weight * (axis - nose)) * structure.chord if sheets else 0.0
-    return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness, moment)
+    return AddedStructure((low, high), plies + weight, spread * structure.chord**2, stiffness, moment)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,7 @@ class InstalledActuator:
 
     actuator: Actuator
     placement: Placement
-    host: Host
+    host: HostBlade
     section_stiffness: float
     """GJ of the active section [N m²]."""
     moment: float
@@ -113,7 +113,7 @@ class InstalledActuator:
     segment_areas: tuple[float, ...]
     """Areas of one layer on one blade, both skins, by segment [m²]."""
     masses: MassBreakdown
-    added: Addition
+    added: AddedStructure
     beam: TorsionBeam
     r: Array
     """Nodes, r/R, (nodes,)."""
@@ -173,7 +173,7 @@ class InstalledActuator:
 
 @lru_cache(maxsize=64)
 @read_only
-def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> InstalledActuator:
+def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Rotor) -> InstalledActuator:
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)
     spec = section_spec(structure, host)

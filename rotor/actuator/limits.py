@@ -17,10 +17,10 @@ import numpy as np
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator, with_actuator_mass, without_nose_weight
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure
 from rotor.dynamics.torsion import added_pull
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.stability import Air, Stability, margins, stability
 
@@ -47,10 +47,10 @@ def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Arra
     nodes = np.linspace(max(rotor.blade.flap_hinge * rotor.radius, structure.clamp), structure.radius, ELEMENTS + 1)
     radii, load = unbalanced_load(solution, structure)
     at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0).T
-    return bend(structure, rotor.angular_speed, nodes, at_nodes, r)
+    return bending_moments(structure, rotor.angular_speed, nodes, at_nodes, r)
 
 
-def bend(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array) -> Array:
+def bending_moments(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array) -> Array:
     """EI w'' at r [m] under loads per length at even nodes from the hinge, (nodes, cases), (stations, cases) [N m].
 
     From the curvature in the middle of each element, where cubic elements are best.

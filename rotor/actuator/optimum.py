@@ -20,11 +20,11 @@ import numpy as np
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import interpolate_rows
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest, restrict
 from rotor.optimisation.descent import slsqp
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 

@@ -21,12 +21,12 @@ from rotor.actuator.installation import heavier
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actuated
 from rotor.actuator.section import default_placement
 from rotor.actuator.verdict import Verdict
-from rotor.arrays import Array, read_only
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
+from rotor.support.arrays import Array, read_only
+from rotor.support.units import GRAVITY
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import GRAVITY
 
 POINTS = 9
 """Points of the break-even line, zero included."""

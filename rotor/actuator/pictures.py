@@ -8,8 +8,8 @@ import numpy as np
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pay import BreakEven
-from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Chart, Line
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,9 +16,9 @@ import scipy
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
-from rotor.arrays import Array, read_only
 from rotor.dynamics.structure import BendingStructure, glass, structure_data, titanium
 from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
+from rotor.support.arrays import Array, read_only
 
 BladeKind = Literal["retrofit", "new"]
 
@@ -61,7 +61,7 @@ class Placement:
 
 
 @dataclass(frozen=True)
-class Host:
+class HostBlade:
     """The blade that carries the actuator."""
 
     kind: BladeKind = "retrofit"
@@ -102,7 +102,7 @@ POINTS = 60
 class SectionSpec:
     """Passive data of a section."""
 
-    host: Host
+    host: HostBlade
     chord: float
     """[m]"""
     stiffness: float
@@ -203,6 +203,6 @@ def _sides(name: str) -> tuple[Array, Array]:
     return fine.points[nose::-1], fine.points[nose:]
 
 
-def section_spec(structure: BendingStructure, host: Host) -> SectionSpec:
+def section_spec(structure: BendingStructure, host: HostBlade) -> SectionSpec:
     """The section of a blade, calibrated on its GJ times the host's share."""
     return SectionSpec(host, structure.chord, host.stiffness * structure.section_stiffness)

@@ -17,7 +17,7 @@ from rotor.trim.solve import solve
 
 
 @dataclass(frozen=True)
-class Flown:
+class TrimNumbers:
     """The numbers of one trim."""
 
     twist: float
@@ -42,8 +42,8 @@ class FailurePoint:
     mu: float
     speed: float
     """[m/s]"""
-    working: Flown
-    stopped: Flown
+    working: TrimNumbers
+    stopped: TrimNumbers
     power_left: float | None
     """Power left of the engines, stopped [W]; None where their power is not known, or nothing trims."""
 
@@ -95,10 +95,12 @@ def failure(
     speeds = [stops_at, *mu]
     flight = fly(actuator, [FlightLeg(f"µ {speed:g}", speed) for speed in speeds])
     heavy = [with_actuator_mass(driven, actuator.installed) for driven in flight.designs]
-    return Failure(actuator.installed.actuator.id, stops_at, frozen(heavy[1:], heavy[0], flight.jig))
+    return Failure(actuator.installed.actuator.id, stops_at, stopped_designs(heavy[1:], heavy[0], flight.jig))
 
 
-def frozen(working: Sequence[Design], stopped: Design, jig: TwistLaw | None = None) -> tuple[FailurePoint, ...]:
+def stopped_designs(
+    working: Sequence[Design], stopped: Design, jig: TwistLaw | None = None
+) -> tuple[FailurePoint, ...]:
     """Each design as it is, and with the twist and the active twist of the one at which the actuator stops.
 
     jig: the twist at which the stops of the controls hold, for pitch is given at the root; by default each its own.
@@ -111,12 +113,12 @@ def frozen(working: Sequence[Design], stopped: Design, jig: TwistLaw | None = No
         engines = design.aircraft.installed_power
         left = None if engines is None or not there.converged else engines - there.power.total
         mu = design.condition.advance_ratio
-        points.append(FailurePoint(mu, design.airspeed, as_flown(here, jig), as_flown(there, jig), left))
+        points.append(FailurePoint(mu, design.airspeed, numbers_of(here, jig), numbers_of(there, jig), left))
     return tuple(points)
 
 
-def as_flown(trim: Solution, jig: TwistLaw | None) -> Flown:
-    """A trim in numbers; jig: as for `frozen`."""
+def numbers_of(trim: Solution, jig: TwistLaw | None) -> TrimNumbers:
+    """A trim in numbers; jig: as for `stopped_designs`."""
     design, controls = trim.design, trim.controls
     stops, stations = design.aircraft.controls, [design.rotor.blade.root_cutout, 0.75, 1.0]
     root, rest, tip = design.twist(stations)
@@ -127,4 +129,4 @@ def as_flown(trim: Solution, jig: TwistLaw | None) -> Flown:
         left = stops.left(controls.collective + turned, controls.cyclic_1c, controls.cyclic_1s)
     power = trim.power.total if trim.converged else None
     cyclic = math.hypot(controls.cyclic_1c, controls.cyclic_1s)
-    return Flown(float(tip - root), power, trim.stalled_area, controls.collective, cyclic, left, trim.message)
+    return TrimNumbers(float(tip - root), power, trim.stalled_area, controls.collective, cyclic, left, trim.message)

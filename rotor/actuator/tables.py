@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from rotor.actuator.catalogue import STEPS, Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import ENOUGH, BreakEven
-from rotor.actuator.section import Host, Placement, default_placement
-from rotor.actuator.verdict import Verdict, count, judge, reference
+from rotor.actuator.section import HostBlade, Placement, default_placement
+from rotor.actuator.verdict import Verdict, count_text, judge, reference
 from rotor.optimisation.concepts import find_concept
-from rotor.terminal import wrapped
+from rotor.support.terminal import wrapped
 
 NONE = "–"
 
@@ -114,7 +114,9 @@ def _ply_properties(actuator: Actuator) -> Row:
     }
 
 
-def table_5_2(pair: ConditionPair, *, placement: Placement | None = None, host: Host | None = None) -> ActuatorTable:
+def table_5_2(
+    pair: ConditionPair, *, placement: Placement | None = None, host: HostBlade | None = None
+) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
     placement = placement or default_placement()
     verdicts = [
@@ -143,7 +145,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def _comparison(verdict: Verdict) -> Row:
     installed = verdict.installed
     return {
-        "actuator": f"{installed.actuator.id}, {count(installed)}",
+        "actuator": f"{installed.actuator.id}, {count_text(installed)}",
         "concept": verdict.baseline.concept.name,
         "blade": installed.host.label,
         "needed °": f"{math.degrees(verdict.required):.2f}",

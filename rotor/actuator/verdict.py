@@ -20,11 +20,11 @@ from rotor.actuator.catalogue import (
 from rotor.actuator.installation import Drive, InstalledActuator, drive, install, segment_voltages, with_actuator_mass
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
-from rotor.actuator.section import Host, Placement, default_placement
-from rotor.arrays import Array
+from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import mean_doubt
+from rotor.support.arrays import Array
 from rotor.trim.doubt import Doubt, sureness
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -207,7 +207,7 @@ def try_actuator(
 
     ValueError with one sentence for what cannot be used, RuntimeError where nothing trims.
     """
-    host = Host("new", 0.5) if new_blade else Host()
+    host = HostBlade("new", 0.5) if new_blade else HostBlade()
     pair = ConditionPair(design, mu, share)
     placement = default_placement(plies)
     return judge(find_actuator(name), pair, find_concept(concept), placement, host, against=against)
@@ -218,7 +218,7 @@ def judge(
     pair: ConditionPair,
     concept: Concept,
     placement: Placement,
-    host: Host | None = None,
+    host: HostBlade | None = None,
     *,
     against: Against = "same-blade",
 ) -> Verdict:
@@ -227,7 +227,7 @@ def judge(
     The segments are those of the concept. `against`: the blade that savings are counted from. Raises ValueError for a
     blade that cannot be built, RuntimeError where nothing trims.
     """
-    host = host or Host()
+    host = host or HostBlade()
     base = baseline(pair, concept)
     rotor, aircraft = pair.design.rotor, pair.design.aircraft
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
@@ -286,18 +286,18 @@ PRINTED = 50.0
 def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
     gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
-    text = f"Saves {kw(gains)} over {reference(verdict)} and costs {kw(costs)}"
+    text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
     if verdict.net_saving < SMALL:
         noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
         return f"{text}, so this {noun} does not pay{_sure(verdict)}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}, a net saving of {kw(verdict.net_saving)}{_sure(verdict)}{but}."
+    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving)}{_sure(verdict)}{but}."
 
 
 def _sure(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    return "" if band is None else f" (± {kw(band)}: {sureness(verdict.net_saving, band)})"
+    return "" if band is None else f" (± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)})"
 
 
 def verdict_details(verdict: Verdict) -> str:
@@ -323,8 +323,8 @@ def _broken(verdict: Verdict) -> str:
 def _reach(verdict: Verdict) -> str:
     """Twist supplied against twist needed."""
     installed = verdict.installed
-    what = f"{installed.actuator.name} ({count(installed)}, {installed.host.label})"
-    first, second = (flight(mu) for mu in verdict.baseline.pair.advance_ratios)
+    what = f"{installed.actuator.name} ({count_text(installed)}, {installed.host.label})"
+    first, second = (flight_text(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
     can = "can supply" if verdict.feasible else "cannot supply"
     return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
@@ -340,18 +340,18 @@ def _savings(verdict: Verdict) -> str:
     if abs(verdict.stiffness_cost) >= PRINTED:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")
-    parts.append(f"carrying {installed.masses.aircraft:.0f} kg costs {kw(verdict.mass_cost)}")
-    parts.append(f"its drive costs {kw(verdict.drive_cost)}")
+    parts.append(f"carrying {installed.masses.aircraft:.0f} kg costs {kilowatt_text(verdict.mass_cost)}")
+    parts.append(f"its drive costs {kilowatt_text(verdict.drive_cost)}")
     return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {_change(verdict.ideal_saving)}."
 
 
 def _change(saving: float) -> str:
     if abs(saving) < SMALL:
         return "saves nothing"
-    return f"saves {kw(saving)}" if saving > 0.0 else f"costs {kw(-saving)}"
+    return f"saves {kilowatt_text(saving)}" if saving > 0.0 else f"costs {kilowatt_text(-saving)}"
 
 
-def count(installed: InstalledActuator) -> str:
+def count_text(installed: InstalledActuator) -> str:
     """Number of plies or tubes as text; "passive" for a laminate."""
     if isinstance(installed.actuator, ExtensionTwist):
         return "passive"
@@ -361,10 +361,10 @@ def count(installed: InstalledActuator) -> str:
     return f"{plies} {single if plies == 1 else more}{' a segment' if several else ''}"
 
 
-def flight(advance_ratio: float) -> str:
+def flight_text(advance_ratio: float) -> str:
     return "hover" if advance_ratio == 0.0 else f"µ {advance_ratio:.2f}"
 
 
-def kw(power: float) -> str:
+def kilowatt_text(power: float) -> str:
     """Kilowatts with one decimal; "nothing" below SMALL."""
     return "nothing" if abs(power) < SMALL else f"{power / 1e3:.1f} kW"

@@ -28,12 +28,12 @@ import numpy as np
 
 from rotor.aero.disk import Disk, element_edges
 from rotor.aero.elastic import MODES as TORSION_MODES
-from rotor.arrays import Array, read_only
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.bending import BendingModes, bending_beam, bending_modes, blade_bending_modes, frequencies_by_kind
 from rotor.dynamics.torsion import blade_modes
-from rotor.units import GRAVITY
+from rotor.support.arrays import Array, read_only
+from rotor.support.units import GRAVITY
 
 MODES = 4, 3
 """In flap and in lag: with the third lag mode, at 13.6/rev of the UH-60A, a blade can bend in flap about its own axes

@@ -25,9 +25,9 @@ import numpy as np
 
 from rotor.aero.inflow.interface import SectionInterface, places_of
 from rotor.aero.section import FR, FX, FZ, TH, UP, UR, UT, M, of_double_angle
-from rotor.arrays import Array
-from rotor.compiled import compiled
-from rotor.engine.memory import Memory
+from rotor.engine.memory import LagFactors
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 SLOPES = (SW, SV, KW, KV, B) = tuple(range(-5, 0))
 """Channels w', v', κ_w, κ_v and B: the last five."""
@@ -151,7 +151,7 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data
 
 
 @lru_cache(maxsize=8)
-def bent(inner: SectionInterface) -> SectionInterface:
+def bending_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
     first, forces = inner.channels, inner.forces
     tilts, (kw, kv, b) = (first + SW + 5, first + SV + 5), (first + 5 + channel for channel in (KW, KV, B))
@@ -177,7 +177,7 @@ def bent(inner: SectionInterface) -> SectionInterface:
             _slopes_back(c, first, f, d, rows, place, blade, partials)
         return out, partials, s
 
-    def memory(c: Array, data: BentData) -> Memory:
+    def memory(c: Array, data: BentData) -> LagFactors:
         """That of the section within, its forces turned back and its channels turned."""
         assert inner.memory is not None
         within = inner.memory(turned(c, first), data.section)
@@ -189,7 +189,7 @@ def bent(inner: SectionInterface) -> SectionInterface:
         right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
             *by_air, t, p, r, w, v
         )
-        return Memory(left, within.lags, right)
+        return LagFactors(left, within.lags, right)
 
     remembers = None if inner.memory is None else memory
     return SectionInterface(section, tuple(pairs), first + 5, forces + 5, inner.balanced, remembers)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, held_beyond_peak
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset
-from rotor.arrays import Array, read_only
 from rotor.design.blade import Blade, Rotor
+from rotor.support.arrays import Array, read_only
 
 
 class OnDisk:

@@ -25,8 +25,8 @@ from rotor.aero.elements import (
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
-from rotor.arrays import Array, read_only
 from rotor.engine.waves import wave_grid
+from rotor.support.arrays import Array, read_only
 
 ENOUGH_ELEMENTS = 40
 """Elements whose cells are counted as they are: the border of a region cuts few of them."""

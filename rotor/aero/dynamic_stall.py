@@ -30,9 +30,9 @@ import numpy as np
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
 from rotor.airfoil.stall_onset import LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, NEGATIVE, POSITIVE, SLOPE, TRAVEL
-from rotor.arrays import Array, Integers
-from rotor.compiled import compiled
-from rotor.engine.memory import around, gather, spread
+from rotor.engine.memory import around, onto_coarser, onto_finer
+from rotor.support.arrays import Array, Integers
+from rotor.support.compiled import compiled
 
 INPUTS = (ANGLE, MACH_NUMBER) = tuple(range(2))
 """x and M."""
@@ -225,18 +225,18 @@ def _over_mach(numbers: Any, cell: Any, places: Any, slopes: bool, row: Any) -> 
 
 
 @_compile
-def room_for(elements: int, azimuths: int) -> Any:
-    """`linked`, `decays`, `factors` and `places` of `Lags` to be filled by `follow`."""
+def empty_lags(elements: int, azimuths: int) -> Any:
+    """`linked`, `decays`, `factors` and `places` of `Lags` to be filled by `stall_states`."""
     fine = azimuths * max(1, -(-_LEAST_FINE // azimuths))
     factors, decays = np.empty((elements, _ALL_LINKS, 2, fine)), np.ones((elements, 4, fine))
     return np.empty(elements, np.int64), decays, factors, np.empty((elements, 3, fine), np.int32)
 
 
 @_compile
-def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, lags: Any, shown: Any) -> None:
+def stall_states(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, lags: Any, shown: Any) -> None:
     """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x and M, (azimuths,) each.
 
-    lags: `room_for` all elements, filled where slopes are asked for, else for none.
+    lags: `empty_lags` all elements, filled where slopes are asked for, else for none.
     """
     n = len(x)
     steps = max(1, -(-_LEAST_FINE // n))
@@ -245,8 +245,8 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
     rows, cells, places = np.empty((8, 2, fine)), np.empty((3, fine), np.int32), np.empty((5, fine))
     h, weights = np.empty((3, 2, fine)), np.empty((3, len(_WEIGHTS), fine))
     lagged, static = np.empty((6, fine + 1)), np.empty((6, fine + 1))
-    spread(x, steps, v[_X])
-    spread(mach, steps, v[_MACH])
+    onto_finer(x, steps, v[_X])
+    onto_finer(mach, steps, v[_MACH])
     numbers = data.numbers[element]
     unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)  # Travel over the Mach numbers at its ends.
     middle = v[_OF_N, :fine]
@@ -282,7 +282,7 @@ def follow(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any,
     _along(element, data, cells, places, v[_X], slopes, static)
     _sum_up(rows, static, v, most > 0.0)
     for o in range(len(ADDED)):
-        gather(v[_OF_N + o], steps, added[o])
+        onto_coarser(v[_OF_N + o], steps, added[o])
     for k in range(n):
         for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
             shown[state, k] = v[value, k * steps]

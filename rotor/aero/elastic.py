@@ -28,11 +28,11 @@ from rotor.aero.disk import Disk
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array, read_only
 from rotor.design.active_twist import HIGHEST
 from rotor.design.blade import Rotor
 from rotor.dynamics.torsion import TorsionModes, blade_modes
 from rotor.engine.waves import wave_grid
+from rotor.support.arrays import Array, read_only
 
 MODES = 2
 """Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.section import FLOW, FR, FX, FZ
-from rotor.arrays import Array, ShortRepr
+from rotor.support.arrays import Array, ShortRepr
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
 """Name of one of the eight quantities, any of which a trim may solve for."""

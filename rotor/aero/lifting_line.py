@@ -45,8 +45,8 @@ from scipy.special import exp1, hankel2
 
 from rotor.aero.disk import azimuths_of, stations
 from rotor.aero.momentum import DiskFlow
-from rotor.arrays import Array, Integers, Singles, fixed_property, read_only
-from rotor.compiled import compiled
+from rotor.support.arrays import Array, Integers, Singles, fixed_property, read_only
+from rotor.support.compiled import compiled
 
 GRADIENT = 0.5
 """E/χ. With 1, which others take, HART II agrees better, the XV-15 and the Gazelle worse: rotor/validation/hart2.py."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rotor.airfoil.section_table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
-from rotor.compiled import compiled
+from rotor.support.compiled import compiled
 
 _PI = math.pi
 INVERSE_ALPHA = 1.0 / ALPHA_STEP

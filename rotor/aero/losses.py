@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero.section import arctangent
-from rotor.arrays import Array
-from rotor.compiled import compiled
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 HUB_FACTOR = 0.95
 """B of eq. (3.17) as printed: "around 0.95 for the hub relation" (thesis p. 24)."""

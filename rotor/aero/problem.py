@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
 from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_bending, can_bend
-from rotor.aero.bent_section import BentData, bent
+from rotor.aero.bent_section import BentData, bending_interface
 from rotor.aero.disk import Disk, azimuths_of, build_disk, build_onset
 from rotor.aero.dynamic_stall import StallData
 from rotor.aero.elastic import HARMONICS as TORSION_HARMONICS
@@ -20,12 +20,12 @@ from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.section import LOSS, NO_MOMENT, NO_SCATTER, NOTHING_ADDED, SectionData
-from rotor.aero.stalling_section import StallingData, stalling
-from rotor.aero.unsteady_section import UnsteadyData, unsteady
-from rotor.arrays import Array, Booleans
-from rotor.compiled import compiled
+from rotor.aero.stalling_section import StallingData, stalling_interface
+from rotor.aero.unsteady_section import UnsteadyData, unsteady_interface
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
+from rotor.support.arrays import Array, Booleans
+from rotor.support.compiled import compiled
 
 LOW_MACH = 0.3
 """Mach number of the section data when compressibility is switched off: that of the document's polar (Re 3.68 million).
@@ -108,9 +108,9 @@ class Problem:
 
     def with_effects(self, section: SectionInterface) -> SectionInterface:
         """A section with dynamic stall, unsteady flow and bending, as far as the problem has them."""
-        section = section if self.stall is None else stalling(section)
-        section = unsteady(section) if self.unsteady else section
-        return section if self.bending is None else bent(section)
+        section = section if self.stall is None else stalling_interface(section)
+        section = unsteady_interface(section) if self.unsteady else section
+        return section if self.bending is None else bending_interface(section)
 
     def grid_data(self, step: int) -> SectionData | StallingData | UnsteadyData | BentData:
         """What `interface` needs beside the channels, on every `step`-th azimuth."""

@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach, wrapped
-from rotor.arrays import Array, Booleans, Integers, fix
-from rotor.compiled import compiled
+from rotor.support.arrays import Array, Booleans, Integers, fix
+from rotor.support.compiled import compiled
 
 CHANNELS = (TH, UT, UP, UR, LOSS, RATE) = tuple(range(6))
 """θ, U_T, U_P, U_R, F and dθ/dψ."""

@@ -5,7 +5,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.arrays import fix
+from rotor.support.arrays import fix
 
 _SHARED = frozenset({"tables", "held", "moment_tables", "added", "scatter"})
 """Arrays that are not by element."""

@@ -21,17 +21,17 @@ from rotor.aero.dynamic_stall import (
     STATES,
     VORTEX,
     StallData,
-    follow,
-    room_for,
+    empty_lags,
+    stall_states,
     window,
 )  # fmt: skip
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
 from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
 from rotor.airfoil.stall_onset import ZERO
-from rotor.arrays import Array
-from rotor.compiled import compiled
-from rotor.engine.memory import Lags, Memory
+from rotor.engine.memory import LagFactors, Lags
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy")
 
@@ -80,14 +80,14 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     n, m = c.shape[1:]
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
     elements = n if slopes else 0
-    turn, by_angle, lags = np.zeros((3, 4, elements, m)), np.empty((elements, m)), room_for(elements, m)
+    turn, by_angle, lags = np.zeros((3, 4, elements, m)), np.empty((elements, m)), empty_lags(elements, m)
     right = np.zeros((len(INPUTS), c.shape[0], elements, m))
     inputs, y, weight, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty((2, m)), np.empty(m)
     inside, falls = weight[0], weight[1]
     added, shown = np.empty((len(ADDED), m)), np.empty((len(STATES), m))
     for i in range(n):
         _inputs(c, i, section, stall, inputs, y, weight, zero, right)
-        follow(i, inputs[0], inputs[1], stall, slopes, added, lags, shown)
+        stall_states(i, inputs[0], inputs[1], stall, slopes, added, lags, shown)
         for j in range(m):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
             out[0, i, j] = inside[j] * (added[0, j] * cos + added[1, j] * sin)
@@ -123,7 +123,7 @@ def _with_shown(flow: Array, states: Array, added: Array) -> Array:
     return np.concatenate([flow, states[[SEPARATION, VORTEX]], added[2:]])
 
 
-def _memory(c: Array, data: StallingData, forces: int) -> Memory:
+def _memory(c: Array, data: StallingData, forces: int) -> LagFactors:
     """How forces follow what is added, with the inputs around the azimuth."""
     section = data.section
     _, _, turn, by_angle, (linked, decays, factors, places), right = _added(c, data, True)
@@ -140,11 +140,11 @@ def _memory(c: Array, data: StallingData, forces: int) -> Memory:
     if len(section.unloaded):
         left *= ~section.unloaded
     lags = Lags(LINKS, DECAYING, linked, by_angle, decays, factors, places)
-    return Memory(np.einsum("oaei,akei->okei", left, turn), lags, right)
+    return LagFactors(np.einsum("oaei,akei->okei", left, turn), lags, right)
 
 
 @lru_cache(maxsize=8)
-def stalling(inner: SectionInterface) -> SectionInterface:
+def stalling_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section with dynamic stall; partial derivatives are those at what is added."""
 
     def section(c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
@@ -152,7 +152,7 @@ def stalling(inner: SectionInterface) -> SectionInterface:
         f, d, s = inner.section(c, data.section._replace(added=added), slopes, flow)
         return f, d, _with_shown(s, states, added) if flow else s
 
-    def memory(c: Array, data: StallingData) -> Memory:
+    def memory(c: Array, data: StallingData) -> LagFactors:
         return _memory(c, data, inner.forces)
 
     return SectionInterface(section, inner.pairs, inner.channels, inner.forces, None, memory)

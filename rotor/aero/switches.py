@@ -9,7 +9,7 @@ from rotor.aero.inflow import inflow_model
 from rotor.design.design import BEYOND_DOCUMENT, Design, Models
 from rotor.design.quantities import OPTIONS, QUANTITIES, SWITCHES
 from rotor.design.quantity import Quantity
-from rotor.user_input import did_you_mean
+from rotor.support.user_input import did_you_mean
 
 
 def switched_off(models: Models) -> tuple[Quantity, ...]:

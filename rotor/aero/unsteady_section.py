@@ -28,9 +28,9 @@ import numpy as np
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow.interface import SectionInterface, places_of
 from rotor.aero.section import FX, FZ, RATE, TH, UP, UT, M, SectionData, of_double_angle
-from rotor.arrays import Array
-from rotor.compiled import compiled
-from rotor.engine.memory import Memory
+from rotor.engine.memory import LagFactors
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 RATES = (DTH, DUT, DUP) = tuple(range(3))
 """Channels θ'', U_T' and U_P', after those of the section within."""
@@ -195,7 +195,7 @@ def _push_slopes(
 
 
 @lru_cache(maxsize=8)
-def unsteady(inner: SectionInterface) -> SectionInterface:
+def unsteady_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section in unsteady attached flow."""
     first, channels = inner.channels, inner.channels + len(RATES)
     turned = sorted({force for force, channel in inner.pairs if channel == TH})
@@ -212,14 +212,14 @@ def unsteady(inner: SectionInterface) -> SectionInterface:
             _push_slopes(c, first, *of, d, rows, place, partials)
         return f, partials, s
 
-    def memory(c: Array, data: UnsteadyData) -> Memory:
+    def memory(c: Array, data: UnsteadyData) -> LagFactors:
         """That of the section within, its pitch turned."""
         assert inner.memory is not None
         within = inner.memory(at_three_quarters(c[:first], data.half_chord), data.within)
         right = np.concatenate([within.right, np.zeros((len(within.right), len(RATES), *c.shape[1:]))], axis=1)
         for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
             right[:, channel] += within.right[:, TH] * slope
-        return Memory(within.left, within.lags, right)
+        return LagFactors(within.left, within.lags, right)
 
     remembers = None if inner.memory is None else memory
     return SectionInterface(section, pairs, channels, inner.forces, inner.balanced, remembers)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from rotor.airfoil.polars import one_row_an_angle
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 _FIELD = 7
 _PER_CARD = 9

@@ -17,8 +17,8 @@ import numpy as np
 import scipy
 
 from rotor.airfoil.coordinates import read_coordinates
-from rotor.arrays import Array, read_only
-from rotor.assets import asset_path
+from rotor.support.arrays import Array, read_only
+from rotor.support.assets import asset_path
 
 POINTS = 161
 _THICKNESS = (0.2969, -0.1260, -0.3516, 0.2843, -0.1015)

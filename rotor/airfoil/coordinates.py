@@ -9,7 +9,7 @@ import re
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 _FEWEST, _MOST = 20, 2000
 _JUMP = 0.5

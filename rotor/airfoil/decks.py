@@ -27,7 +27,7 @@ import scipy
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.polars import Polar
 from rotor.airfoil.section_table import MACH_STEP, N_MACH
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 BLEND_START_DEG = 16.0  # |alpha| below which only the polar is used.
 BLEND_END_DEG = 26.0  # |alpha| above which only the closed form is used.

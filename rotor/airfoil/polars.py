@@ -13,7 +13,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 COLUMNS = "mach,reynolds,alpha_deg,cl,cd,cm"
 """Heading of the CSV."""
@@ -142,7 +142,7 @@ def parse_polars(text: str, name: str) -> PolarSet:
     groups: dict[tuple[float, float], list[Row]] = {}
     begin, said, assumed = 0, (np.nan, np.nan), dict[str, None]()
     for heading, end in zip(headings, [*(after.line for after in headings[1:]), len(lines)], strict=True):
-        said = _said(name, lines[max(begin, heading.line - _HEAD) : heading.line], said)
+        said = _stated(name, lines[max(begin, heading.line - _HEAD) : heading.line], said)
         begin = heading.line + 1
         for number, (mach, reynolds, *values) in _rows(name, lines, heading, end):
             begin = number
@@ -187,7 +187,7 @@ def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> Iterator[
         raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
 
 
-def _said(name: str, above: list[str], before: tuple[float, float]) -> tuple[float, float]:
+def _stated(name: str, above: list[str], before: tuple[float, float]) -> tuple[float, float]:
     """Mach and Reynolds number above a heading, else those of the table `before`. ValueError for a polar at neither."""
     head = " ".join(" ".join(above).split())[-_LONGEST_HEAD:].lower()
     if varied := re.search(r"(reynolds|mach) number ?~", head):

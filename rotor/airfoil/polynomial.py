@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.section_table import ALPHA_STEP, N_ALPHA, N_MACH, SectionTable, make_table
-from rotor.arrays import Array, read_only
-from rotor.assets import asset_path
+from rotor.support.arrays import Array, read_only
+from rotor.support.assets import asset_path
 
 THESIS_NAME = "sc1095-thesis"
 LIFT_ORDER = 10  # document, fig. 3.3
@@ -45,7 +45,7 @@ class PolynomialReading:
 
 
 THESIS_READING = PolynomialReading("tripped", 0.1)
-"""The reading of the preset `thesis`, see `rotor.reproduce.readings`."""
+"""The reading of the preset `thesis`, see `rotor.validation.thesis.readings`."""
 
 
 def parse_reading(name: str) -> PolynomialReading:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from rotor.airfoil.sections import load_section
-from rotor.assets import asset_path, csv_rows
+from rotor.support.assets import asset_path, csv_rows
 
 Quantity = Literal["cl", "cd", "cm"]
 

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from rotor.airfoil.polars import Polar
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 
 def _number(polar: Polar) -> float:
@@ -27,7 +27,7 @@ def _same_reynolds(one: float, other: float) -> bool:
     return abs(one - other) <= 0.01 * other
 
 
-def same(one: Polar, other: Polar) -> bool:
+def same_conditions(one: Polar, other: Polar) -> bool:
     """Whether two polars have the same Mach number, within 0.01, and Reynolds number, within 1 % or not stated."""
     numbers = _number(one), _number(other)
     return _same_mach(one, other) and (0.0 in numbers or _same_reynolds(*numbers))

@@ -17,7 +17,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from rotor.airfoil.c81 import C81Block, C81Deck
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 N_ALPHA = 720
 N_MACH = 20

@@ -15,9 +15,9 @@ from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polynomial import THESIS_NAME, parse_reading, polynomial_table
 from rotor.airfoil.reynolds import shares
 from rotor.airfoil.section_table import SectionTable, between, table_from_deck
-from rotor.arrays import read_only
-from rotor.assets import asset_path
-from rotor.user_input import did_you_mean
+from rotor.support.arrays import read_only
+from rotor.support.assets import asset_path
+from rotor.support.user_input import did_you_mean
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_MACH, SectionTable, bicubic_coefficients, mach_nodes
-from rotor.arrays import Array, read_only
+from rotor.support.arrays import Array, read_only
 
 LEAST_SEPARATION = 0.02
 """f where the flow is separated from the leading edge on: its root has no slope at 0 (Leishman and Beddoes)."""

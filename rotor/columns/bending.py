@@ -28,10 +28,10 @@ from rotor.aero.bending import HARMONICS, BladeBending
 from rotor.aero.bent_section import BENDING, GV, GW, KV, KW, MV, MW, SLOPES, SV, SW, B, E
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, UP, UR, UT
-from rotor.arrays import Array
 from rotor.columns.blade import Freedom, Torsion
 from rotor.engine.terms import ONE, Shape, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, rate_of, times_wave, wave_number
+from rotor.support.arrays import Array
 
 FLAPPING_STATES = ("coning", "flap_1c", "flap_1s")
 """What the first flap mode's coordinates of the waves 1, cos ψ and sin ψ are called."""

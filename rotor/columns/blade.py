@@ -17,9 +17,9 @@ from collections.abc import Hashable
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.aero.unsteady_section import DTH, DUP, DUT
-from rotor.arrays import Array
 from rotor.engine.terms import ONE, Addend, Shape, Structure, Sum
 from rotor.engine.waves import COS, SIN, STEADY, rate_of, times_wave
+from rotor.support.arrays import Array
 
 CYCLIC = (("cyclic_1c", COS), ("cyclic_1s", SIN))
 FLAPPING = (("coning", STEADY), ("flap_1c", COS), ("flap_1s", SIN))

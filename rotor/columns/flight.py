@@ -21,13 +21,13 @@ from rotor.aero.inflow.interface import DiskFlow, InflowTerms
 from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import FZ, LOSS, RATE, TH, UP, UR, UT, M
 from rotor.aero.unsteady_section import DTH, RATES
-from rotor.arrays import Array
 from rotor.columns.bending import bends, coordinates_of, freedoms_of
 from rotor.columns.blade import Freedom, Torsion, add_accelerations, add_pitch_rates, add_rigid_blade, power_of_air
 from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, wave_grid
+from rotor.support.arrays import Array
 
 LEAST_AZIMUTHS = 40
 """Azimuths on which derivatives are evaluated, and first steps made: the power of a trim on 40 agrees with that on 120

@@ -25,14 +25,14 @@ from rotor.aero.momentum import axial_inflow
 from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, TH, UP, UT, M, SectionData, section
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array
 from rotor.columns.bending import freedoms_of
 from rotor.columns.blade import Torsion
 from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers
-from rotor.compiled import compiled
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY, wave_grid
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 LIFT_CURVE_MACH = 0.3
 """Mach number at which the linear lift curve of (3.3) is read off; the document's polar has no other."""

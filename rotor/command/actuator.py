@@ -13,17 +13,17 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, break_even, pay_sentence
 from rotor.actuator.pictures import break_even_chart
-from rotor.actuator.section import Host, Placement, default_placement
+from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
-from rotor.assets import SHIPPED_ROTORS
-from rotor.chart_svg import svg
 from rotor.command import common
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
-from rotor.terminal import wrapped
-from rotor.user_input import check_suffix, check_writable, write_whole
+from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.chart_svg import svg
+from rotor.support.terminal import wrapped
+from rotor.support.user_input import check_suffix, check_writable, write_whole
 
 
 def add_parser(commands: Any) -> None:
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
         check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
     stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
-    placement, host = _placement(args), Host(args.blade, stiffness)
+    placement, host = _placement(args), HostBlade(args.blade, stiffness)
     if args.plot is not None and args.what_would_pay is None:
         raise ValueError("--plot draws the break-even line: add --what-would-pay")
     if args.plot is not None:

@@ -17,9 +17,8 @@ from tqdm import tqdm
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import change_limit, install
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.assets import SHIPPED_ROTORS
 from rotor.command.names import COMMANDS
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
@@ -32,7 +31,8 @@ from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.optimisation.objective import MISSION_COLUMNS
 from rotor.study.results import design_at
-from rotor.user_input import check_writable, parse_range
+from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.user_input import check_writable, parse_range
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -265,7 +265,7 @@ def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
     if args.change_deg is not None:
         raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
     placement = default_placement(2 if args.plies is None else args.plies)
-    installed = install(find_actuator(args.actuator), placement, Host(), design.rotor)
+    installed = install(find_actuator(args.actuator), placement, HostBlade(), design.rotor)
     return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout)
 
 

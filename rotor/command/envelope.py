@@ -4,10 +4,10 @@ import argparse
 from typing import Any
 
 from rotor.command import common
-from rotor.study.envelope import SPEEDS, Envelope, Reach, envelope
-from rotor.table import Table, table
-from rotor.terminal import wrapped
-from rotor.user_input import parse_range
+from rotor.study.envelope import SPEEDS, Envelope, LimitReached, envelope
+from rotor.support.table import Table, table
+from rotor.support.terminal import wrapped
+from rotor.support.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
@@ -55,7 +55,7 @@ def points_table(*envelopes: Envelope) -> Table:
 def report(result: Envelope) -> str:
     here, craft = result.design.condition, result.design.aircraft
     lines = [
-        ", ".join((craft.name, result.label, f"{here.mass:.0f} kg, {here.altitude:.0f} m", *here.beside)),
+        ", ".join((craft.name, result.label, f"{here.mass:.0f} kg, {here.altitude:.0f} m", *here.unusual)),
         "",
         points_table(result).text(),
     ]
@@ -79,5 +79,5 @@ def report(result: Envelope) -> str:
     return "\n".join(lines)
 
 
-def _reach(form: str, limit: Reach) -> str:
+def _reach(form: str, limit: LimitReached) -> str:
     return "none found" if limit.value is None else f"{form.format(limit.value)} by {limit.limit}"

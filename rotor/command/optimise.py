@@ -10,14 +10,21 @@ from rotor.command import common
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
-from rotor.optimisation.objective import QUANTITIES, Objective, at_condition, hover_and_cruise, measure, read_mission
+from rotor.optimisation.objective import (
+    QUANTITIES,
+    Objective,
+    at_condition,
+    evaluate_objective,
+    hover_and_cruise,
+    read_mission,
+)
 from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
 from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
-from rotor.terminal import wrapped
+from rotor.support.terminal import wrapped
+from rotor.support.units import power_text
 from rotor.trim.doubt import other_models
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import Solution
-from rotor.units import power_text
 
 
 def add_parser(commands: Any) -> None:
@@ -66,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
-    beside = _beside(design, objective, optimum)
+    beside = _extra_results(design, objective, optimum)
     if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
         if args.doubt:
             beside = replace(beside, flights=_in_other_flights(search, optimum.best))
@@ -81,7 +88,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 @dataclass(frozen=True)
-class _Beside:
+class _ExtraResults:
     """What belongs beside the answer of a search."""
 
     caveats: tuple[str, ...] = ()
@@ -96,15 +103,17 @@ class _Beside:
     """Optima with other masses and drag areas, by the words for it."""
 
 
-def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
+def _extra_results(design: Design, objective: Objective, optimum: Optimum) -> _ExtraResults:
     if optimum.best is None:
-        return _Beside()
-    solutions = measure(objective, optimum.design, gradient=False).solutions
+        return _ExtraResults()
+    solutions = evaluate_objective(objective, optimum.design, gradient=False).solutions
     caveats = dict.fromkeys(caveat.sentence for solution in solutions for caveat in solution.caveats)
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
-    power = measure(objective, start, gradient=False).power if changed else None
-    return _Beside(tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power)
+    power = evaluate_objective(objective, start, gradient=False).power if changed else None
+    return _ExtraResults(
+        tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power
+    )
 
 
 def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum], ...]:
@@ -164,7 +173,7 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
     }
 
 
-def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any]:
+def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[str, Any]:
     """The JSON of `optimise --json`; values not found are null."""
     best, band = optimum.best, beside.index_band and list(beside.index_band)
     index = {"index_percent": best and best.index, "index_band_percent": band}
@@ -229,13 +238,13 @@ def digits_of_band(width: float) -> int:
     return min(max(math.ceil(1.0 - math.log10(width)), 0), 3) if width > 0.0 else 3
 
 
-def _in_hover(beside: _Beside, optimum: Optimum, k: int) -> list[float]:
+def _in_hover(beside: _ExtraResults, optimum: Optimum, k: int) -> list[float]:
     """The parameter of that index with the other inflow model of hover, where there is one."""
     optima = [other.best for _, other in beside.models] if optimum.design.hovering else []
     return [best.parameters[k] for best in optima if best is not None]
 
 
-def report(optimum: Optimum, concept: Concept, beside: _Beside, objective: Objective) -> str:
+def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective: Objective) -> str:
     best = optimum.best
     lines = [wrapped(f"{concept.title}: {optimum.status.value}. {optimum.message}")]
     if best is None:

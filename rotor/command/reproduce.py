@@ -8,7 +8,7 @@ from typing import Any
 from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, add_processes_argument, bar, interruptible, processes_from
-from rotor.user_input import make_folder
+from rotor.support.user_input import make_folder
 
 
 def add_parser(commands: Any) -> None:
@@ -26,13 +26,13 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
-    from rotor.plots import drawing_module
-    from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
-    from rotor.reproduce.files import write_report, write_results, written
-    from rotor.reproduce.report import Report
-    from rotor.reproduce.runs import compute_ahead
-    from rotor.units import typographic
+    from rotor.support.plots import drawing_module
+    from rotor.support.units import typographic
     from rotor.validation.page import SETS, write_trust
+    from rotor.validation.thesis.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
+    from rotor.validation.thesis.files import write_report, write_results, written
+    from rotor.validation.thesis.report import Report
+    from rotor.validation.thesis.runs import compute_ahead
 
     drawing_module()  # Missing, it is said before the searches.
     if args.trust and args.figure:

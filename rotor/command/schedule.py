@@ -7,15 +7,15 @@ from typing import Any
 
 from rotor.command import common
 from rotor.command.optimise import named
-from rotor.design.aircraft import told
+from rotor.design.aircraft import reported_names
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
-from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
-from rotor.table import CellValue, Table, table
-from rotor.terminal import wrapped
-from rotor.units import power_text, power_unit
-from rotor.user_input import parse_range
+from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
+from rotor.support.table import CellValue, Table, table
+from rotor.support.terminal import wrapped
+from rotor.support.units import power_text, power_unit
+from rotor.support.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     total = len(plan.concepts) * (len(plan.conditions) + 1)
     with common.interruptible() as stop, common.bar(total, " optima") as advance:
 
-        def add(cell: Cell) -> None:
+        def add(cell: ScheduleOptimum) -> None:
             advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
 
         schedule = run_plan(plan, add, stop, processes if total > 2 else 1)
@@ -68,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
     return common.STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
 
 
-def plan_from(args: argparse.Namespace) -> Plan:
+def plan_from(args: argparse.Namespace) -> SchedulePlan:
     names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
     division = common.parse_division(args.division)
     names.sort(key=lambda name: list(CONCEPTS).index(name) if name in CONCEPTS else -1)
@@ -87,7 +87,7 @@ def plan_from(args: argparse.Namespace) -> Plan:
     limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)
-    return Plan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
+    return SchedulePlan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
 
 
 def record(schedule: Schedule) -> dict[str, Any]:
@@ -125,9 +125,9 @@ def record(schedule: Schedule) -> dict[str, Any]:
     }
 
 
-def _quantities(plan: Plan) -> tuple[str, ...]:
+def _quantities(plan: SchedulePlan) -> tuple[str, ...]:
     """Quantities of the flight conditions that tables and JSON have."""
-    return told(condition.flight for condition in plan.conditions)
+    return reported_names(condition.flight for condition in plan.conditions)
 
 
 def _baseline(schedule: Schedule, condition: int) -> float | None:
@@ -188,7 +188,7 @@ def _where(schedule: Schedule, condition: int | None) -> str:
         return "One fixed blade for all"
     flight = schedule.plan.conditions[condition].flight
     return ", ".join(
-        (f"µ {flight.advance_ratio:.4g}", f"{flight.mass:.6g} kg", f"{flight.altitude:.4g} m", *flight.beside)
+        (f"µ {flight.advance_ratio:.4g}", f"{flight.mass:.6g} kg", f"{flight.altitude:.4g} m", *flight.unusual)
     )
 
 
@@ -196,7 +196,7 @@ def _power(power: float | None) -> str:
     return "no trim" if power is None else power_text(power, 1)
 
 
-def _line(cell: Cell, width: int) -> str:
+def _line(cell: ScheduleOptimum, width: int) -> str:
     """An optimum of the table, and below it what holds it; what could not be found says why."""
     optimum = cell.optimum
     if optimum.best is None:

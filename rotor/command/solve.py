@@ -10,16 +10,16 @@ from typing import Any
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
-from rotor.table import CellValue, table
-from rotor.terminal import wrapped
+from rotor.support.table import CellValue, table
+from rotor.support.terminal import wrapped
+from rotor.support.units import KNOT, power_unit
+from rotor.support.user_input import check_writable
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.export import solution_record
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import KNOT, power_unit
-from rotor.user_input import check_writable
 
 
 def add_parser(commands: Any) -> None:
@@ -113,9 +113,9 @@ def _load(design: Design) -> str:
     """What the rotor carries: weight at an altitude, or the inputs of a test."""
     condition = design.condition
     if condition.stand is None:
-        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *condition.beside))
+        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *condition.unusual))
     height = [f"{condition.altitude:.0f} m"] if condition.altitude else []
-    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *condition.beside))
+    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *condition.unusual))
 
 
 def _decimals(value: float) -> int:

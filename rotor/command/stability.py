@@ -8,13 +8,13 @@ from typing import Any
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.limits import actuator_stability
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.command import common
 from rotor.dynamics.structure import check_blade
-from rotor.table import CellValue, Table, table
-from rotor.terminal import wrapped
+from rotor.support.table import CellValue, Table, table
+from rotor.support.terminal import wrapped
+from rotor.support.user_input import parse_range
 from rotor.trim.stability import AIRS, BoundaryPoint, stability, stability_boundary
-from rotor.user_input import parse_range
 
 
 def add_parser(commands: Any) -> None:
@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
             check_blade(design.aircraft)
             placement = default_placement(2 if args.plies is None else args.plies)
             result = actuator_stability(
-                install(find_actuator(args.actuator), placement, Host(), design.rotor),
+                install(find_actuator(args.actuator), placement, HostBlade(), design.rotor),
                 design,
                 air=args.air,
                 offset=offset,

@@ -15,13 +15,21 @@ import numpy as np
 from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, add_output_arguments, check_output, interruptible, print_result
-from rotor.study.chunks import FinishedChunk, Store, StoreError, evaluate_points
-from rotor.study.results import Results, best_row, effects, read_results, robust_best
-from rotor.study.run import ChunkRun, ExecutorLost, check_workers, dask_client, open_store, processes_here, run_chunks
+from rotor.study.chunks import FinishedChunk, StudyFolder, StudyFolderError, evaluate_points
+from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
+from rotor.study.run import (
+    ChunkRun,
+    ExecutorLost,
+    check_workers,
+    dask_client,
+    open_study_folder,
+    processes_here,
+    run_chunks,
+)
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
-from rotor.table import table
-from rotor.units import power_text
+from rotor.support.table import table
+from rotor.support.units import power_text
 
 _SENTENCES = 3
 """Largest number of different failure messages printed."""
@@ -43,7 +51,7 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
         "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
         "robust": robust and asdict(robust),
-        "sensitivities": [asdict(effect) for effect in effects(results, least)],
+        "sensitivities": [asdict(effect) for effect in main_effects(results, least)],
         "package_version": results.about.get("package_version", ""),
         "commit": results.about.get("commit") or None,
     }
@@ -183,11 +191,11 @@ def run(args: argparse.Namespace) -> int:
     check_workers(args.workers)
     if args.dry_run:
         return _dry_run(file)
-    with closing(open_store(file, args.out)) as store:
+    with closing(open_study_folder(file, args.out)) as store:
         return _run(args, store)
 
 
-def _run(args: argparse.Namespace, store: Store) -> int:
+def _run(args: argparse.Namespace, store: StudyFolder) -> int:
     study = store.study
     missing = store.missing()
     done = study.count - study.points_of(missing)
@@ -198,7 +206,7 @@ def _run(args: argparse.Namespace, store: Store) -> int:
             try:
                 with _executor(args, study) as executor:
                     ended = run_chunks(executor, store, missing, progress.add, stop)
-            except (ExecutorLost, StoreError) as error:
+            except (ExecutorLost, StudyFolderError) as error:
                 message = str(error)
         if progress.points:
             print(progress.sentence())
@@ -264,7 +272,7 @@ class _Progress:
         return f"{self.points:,} points in {_span(elapsed)} on {workers}: {rate}, {each:.2f} ms of processor time each"
 
 
-def _summary(store: Store, ended: ChunkRun, message: str) -> int:
+def _summary(store: StudyFolder, ended: ChunkRun, message: str) -> int:
     missing = store.missing()
     done = store.study.count - store.study.points_of(missing)
     results = read_results(store.folder) if done else None

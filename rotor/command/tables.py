@@ -13,19 +13,19 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.airfoil.sections import TABLE_NAMES, Section, load_installed
-from rotor.arrays import Array
 from rotor.command import common
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, SWEPT
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.study.series import PARTS, SHARED_COLUMNS, SweepTable, Waterfall, WaterfallStep, sweep, waterfall
-from rotor.table import CellValue, Table, table
-from rotor.terminal import wrapped
+from rotor.support.arrays import Array
+from rotor.support.table import CellValue, Table, table
+from rotor.support.terminal import wrapped
+from rotor.support.units import power_unit
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import power_unit
 
 
 def add_sweep(commands: Any) -> None:

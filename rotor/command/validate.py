@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command, add_output_arguments
-from rotor.plots import draw_chart, drawing_module
-from rotor.table import CellValue, table
-from rotor.terminal import wrapped
-from rotor.user_input import make_folder
+from rotor.support.plots import draw_chart, drawing_module
+from rotor.support.table import CellValue, table
+from rotor.support.terminal import wrapped
+from rotor.support.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers

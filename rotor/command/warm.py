@@ -5,10 +5,10 @@ from typing import Any
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.common import add_command
-from rotor.compiled import tell_in_a_log, why_not_kept
 from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import jacobian
 from rotor.files.make_design import make_design
+from rotor.support.compiled import log_compiling, why_not_kept
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import analyse, solve
 
@@ -23,7 +23,7 @@ def add_parser(commands: Any) -> None:
 
 
 def run(_: argparse.Namespace) -> int:
-    tell_in_a_log()
+    log_compiling()
     compile_all()
     unkept = why_not_kept()
     print(unkept or "All kernels are compiled.")

@@ -12,8 +12,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from rotor.arrays import Array
-from rotor.units import degrees_text
+from rotor.support.arrays import Array
+from rotor.support.units import degrees_text
 
 HIGHEST = 8
 """Harmonic. Above it the 24 azimuths of a lifting line have fewer than three for a wave."""

@@ -14,9 +14,9 @@ from functools import cached_property
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
-from rotor.design.quantities import BESIDE, CONDITION, LOAD_KEYS, QUANTITIES, STAND, Flapping
+from rotor.design.quantities import CONDITION, LOAD_KEYS, QUANTITIES, STAND, UNUSUAL, Flapping
 from rotor.design.twist import TwistLaw
-from rotor.units import GRAVITY, KNOT
+from rotor.support.units import GRAVITY, KNOT
 
 SEA_LEVEL_TEMPERATURE = 288.15
 """[K] (ISO 2533)."""
@@ -166,10 +166,10 @@ class FlightCondition:
         return {name: getattr(self, row.field) for name, row in CONDITION.items()}
 
     @property
-    def beside(self) -> tuple[str, ...]:
+    def unusual(self) -> tuple[str, ...]:
         """The quantities that differ from ordinary level flight, in words: `climb 5 m/s`."""
         numbers = self.numbers
-        return tuple(row.said(numbers[name]) for name, row in BESIDE.items() if numbers[name] != row.default)
+        return tuple(row.in_words(numbers[name]) for name, row in UNUSUAL.items() if numbers[name] != row.default)
 
     @property
     def weight(self) -> float:
@@ -227,7 +227,7 @@ class Fuselage:
         return 0.5 * density * speed**2 * self.drag_area
 
 
-def told(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
+def reported_names(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
     """Names of the quantities that a table of these conditions shows: the usual ones, and those that are set."""
     numbers = [condition.numbers for condition in conditions]
     return tuple(
@@ -300,7 +300,7 @@ HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hing
 
 
 @dataclass(frozen=True)
-class Stated:
+class DocumentRotor:
     """The rotor as the source document states it, where that differs from the aircraft's rotor."""
 
     rotor: Rotor
@@ -362,7 +362,7 @@ class Aircraft:
     tail_rotor: TailRotor | None = None
     """None: no tail rotor, or an unknown one; five per cent of main-rotor power is used instead."""
     hub: Hub = "articulated"
-    stated: Stated | None = None
+    stated: DocumentRotor | None = None
     key: str = ""
     """Name of a shipped aircraft, as for `--rotor`; empty for a user's own."""
     files: RotorFiles | None = None

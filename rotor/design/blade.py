@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
-from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
+from rotor.support.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
-from rotor.user_input import check_suffix, did_you_mean, write_whole
+from rotor.support.user_input import check_suffix, did_you_mean, write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -205,7 +205,7 @@ class Design:
         if condition.stand is not None:
             height = f", {condition.altitude:.0f} m" if condition.altitude else ""
             load = f"{self.models.trim}: {condition.stand}{height}"
-        load = ", ".join((load, *condition.beside))
+        load = ", ".join((load, *condition.unusual))
         return (
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"

@@ -13,9 +13,9 @@ design with another, `row.check(value)` refuses what lies outside its bounds, `r
 from typing import Generic, Literal, TypedDict, TypeVar, get_args
 
 from rotor.airfoil.sections import TABLE_NAMES
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.quantity import Quantity, Slider
-from rotor.units import FOOT, POUND
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.support.units import FOOT, POUND
 
 HoverInflow = Literal["annulus", "closed-form"]
 LowSpeed = Literal["wake", "hover"]
@@ -364,7 +364,7 @@ CONDITION = {row.name: row for row in _CONDITION if row.place}
 """Numbers of the flight condition."""
 SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *CONDITION)}
 """What a sweep may go over, and what `Design.at` takes beside `hover`."""
-BESIDE = {name: row for name, row in CONDITION.items() if row.short}
+UNUSUAL = {name: row for name, row in CONDITION.items() if row.short}
 """Quantities of the flight condition that reports have only where they are not the default."""
 SPEED = ("mu", "speed_kt", "hover")
 """Ways to give the speed, of which one is used."""

@@ -8,7 +8,7 @@ from inspect import Parameter, signature
 from numbers import Real
 from typing import Any, Literal, TypeVar, cast
 
-from rotor.user_input import did_you_mean
+from rotor.support.user_input import did_you_mean
 
 Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
@@ -182,7 +182,7 @@ class Quantity:
             words = self.name.replace("_", " ")
             raise ValueError(f"{words} {value!r} is not known: use one of {', '.join(self.choices)}")
 
-    def said(self, value: float) -> str:
+    def in_words(self, value: float) -> str:
         """The value with its word: `climb 5 m/s`, `descent 3 m/s`."""
         falls = bool(self.below) and value < 0.0
         return f"{self.below if falls else self.short} {abs(value) if falls else value:g} {self.unit}".rstrip()

@@ -19,9 +19,9 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from rotor.arrays import Array
-from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.user_input import read_text, refusing
+from rotor.support.arrays import Array
+from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.user_input import read_text, refusing
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""

@@ -6,8 +6,8 @@ What they do to power: `rotor.trim.doubt`.
 import tomllib
 from dataclasses import dataclass, replace
 
-from rotor.assets import asset_path
 from rotor.design.design import Design
+from rotor.support.assets import asset_path
 
 
 @dataclass(frozen=True)

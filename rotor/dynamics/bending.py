@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 
-from rotor.arrays import Array, Integers, read_only
 from rotor.design.blade import BladeStructure
+from rotor.support.arrays import Array, Integers, read_only
 
 ELEMENTS = 40
 _PLACES, _SHARES = np.polynomial.legendre.leggauss(4)

@@ -14,7 +14,7 @@ import math
 from dataclasses import dataclass
 
 from rotor.design.blade import Rotor
-from rotor.units import GRAVITY
+from rotor.support.units import GRAVITY
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig, eigvals
 
-from rotor.arrays import Array, Integers
-from rotor.blas_threads import one_blas_thread
+from rotor.support.arrays import Array, Integers
+from rotor.support.blas_threads import one_blas_thread
 
 Complexes = NDArray[np.complex128]
 _COPY = 0.006

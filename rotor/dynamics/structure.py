@@ -5,10 +5,10 @@ from dataclasses import dataclass, fields
 from functools import cache
 from typing import Any
 
-from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import BladeStructure
 from rotor.dynamics.thin_wall import Material
+from rotor.support.assets import asset_path
 
 
 @dataclass(frozen=True, kw_only=True)

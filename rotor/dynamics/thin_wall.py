@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 
 @dataclass(frozen=True)

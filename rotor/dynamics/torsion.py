@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import eigh, solveh_banded
 
-from rotor.arrays import Array, read_only
-from rotor.blas_threads import one_blas_thread
 from rotor.design.blade import BladeStructure
+from rotor.support.arrays import Array, read_only
+from rotor.support.blas_threads import one_blas_thread
 
 ELEMENTS = 240
 
@@ -43,7 +43,7 @@ class TorsionBeam:
 
 
 @dataclass(frozen=True)
-class Addition:
+class AddedStructure:
     """Mass, inertia and stiffness that the actuator adds between two radii."""
 
     span: tuple[float, float]
@@ -63,7 +63,7 @@ def torsion_beam(
     angular_speed: float,
     *,
     scale: float = 1.0,
-    addition: Addition | None = None,
+    addition: AddedStructure | None = None,
     control: bool = False,
 ) -> TorsionBeam:
     """The blade with GJ × `scale` and an addition; held by its control system with `control`, else clamped."""
@@ -83,14 +83,14 @@ def torsion_beam(
     return TorsionBeam(r, stiffness + pull, inertia, pull, angular_speed, spring)
 
 
-def added_pull(addition: Addition, r: ArrayLike, angular_speed: float) -> Array:
+def added_pull(addition: AddedStructure, r: ArrayLike, angular_speed: float) -> Array:
     """Centrifugal force of the addition outboard of r [N]: ½mΩ²(r2² − r²)."""
     low, high = addition.span
     inner = np.clip(np.asarray(r, dtype=float), low, high)
     return 0.5 * addition.mass_per_length * angular_speed**2 * (high**2 - inner**2)
 
 
-def stiffer_blade(structure: BladeStructure, scale: float, addition: Addition) -> BladeStructure:
+def stiffer_blade(structure: BladeStructure, scale: float, addition: AddedStructure) -> BladeStructure:
     """The blade with GJ × `scale` and an addition, as a structure with stations of its own."""
     low, high = addition.span
     edge = 1e-6 * structure.radius

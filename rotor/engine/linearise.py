@@ -23,11 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
-from rotor.arrays import Array, Integers
-from rotor.compiled import compiled
-from rotor.engine.memory import Memory
+from rotor.engine.memory import LagFactors
 from rotor.engine.terms import NOTHING, Shape, Structure, Terms, summed
 from rotor.engine.waves import WaveGrid
+from rotor.support.arrays import Array, Integers
+from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy")
 
@@ -131,7 +131,7 @@ class System:
     """Largest step of each state solved for, (equations,)."""
     nodes: Nodes | None = None
     """Nodes, whose equations and unknowns come after all others."""
-    memory: Callable[[Array, Any], Memory] | None = None
+    memory: Callable[[Array, Any], LagFactors] | None = None
     """Channels and the data of the grid → how forces follow channels at other azimuths; None where they do not."""
 
     @cached_property
@@ -163,7 +163,7 @@ class Point:
     residual: Array
 
     @cached_property
-    def memory(self) -> Memory | None:
+    def memory(self) -> LagFactors | None:
         """How forces follow channels at other azimuths."""
         memory = self.system.memory
         return None if memory is None else memory(self.channels, self.grid.data)
@@ -428,7 +428,7 @@ def _by_free(structure: Structure, total: Array, by_roots: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Measure:
+class MeasureSlopes:
     """Slopes of a scalar at a point: what an adjoint begins with."""
 
     forces: Mapping[int, Array] = field(default_factory=dict[int, Array])
@@ -452,13 +452,13 @@ def _add_by_channels(slopes: Any, rows: Any, forces: Any, out: Any) -> None:
                 out[channel, i, j] += slopes[slope, i, j] * forces[force, i, j]
 
 
-def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[Array, Array]:
+def transposed(point: Point, v: Array, measure: MeasureSlopes | None = None) -> tuple[Array, Array]:
     """Slopes of v·R plus a measure: by the states solved for, and by every channel at every element and azimuth.
 
     (equations,), and (channels, elements, azimuths). `point` has slopes.
     """
     structure, waves, z, q, psi = point.system.structure, point.grid.waves, point.z, point.q, point.system.shapes.psi
-    measure, nodes, first = measure or Measure(), point.system.nodes, structure.first_state
+    measure, nodes, first = measure or MeasureSlopes(), point.system.nodes, structure.first_state
     v, on_nodes = np.split(v, [len(structure.equations)])
     on_q, on_z = structure.residual.transposed(v, z, q)
     if measure.terms is not None:

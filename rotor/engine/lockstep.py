@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from rotor.arrays import Array, Booleans, Integers
 from rotor.engine.linearise import Point, System
 from rotor.engine.newton import MOST_SLOW_STEPS, NEARLY, Factors, NewtonLimits, Solved, steps_left
 from rotor.engine.terms import Structure, summed
+from rotor.support.arrays import Array, Booleans, Integers
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ class _Points:
         return Point(system, system.grid, *at, channels, forces, slopes, flow, self.q[k], self.residual[k])
 
 
-def alike(system: System, other: System) -> bool:
+def can_share_steps(system: System, other: System) -> bool:
     """Whether two designs can lie beside each other; the section's data are for the caller to compare."""
     same = system.structure is other.structure and system.grid.waves is other.grid.waves
     same = same and system.grid.varying.keys() == other.grid.varying.keys() and system.section is other.section
@@ -59,7 +59,7 @@ def _sums(place: Integers, values: Array, size: int) -> Array:
     return summed(places.ravel(), values.ravel(), size * len(values)).reshape(-1, size)
 
 
-class _Beside:
+class _SideBySide:
     """Designs beside each other."""
 
     def __init__(self, systems: Sequence[System], data: Callable[[int], Any]) -> None:
@@ -119,7 +119,7 @@ def _residual(s: Structure, z: Array, q: Array) -> Array:
     return _sums(t.row, values, t.rows)
 
 
-class _Going:
+class _Unfinished:
     """The designs that go on, and the corrections of the factors by the steps of each, as in `newton`."""
 
     def __init__(self, x: Array, points: _Points, factors: Factors) -> None:
@@ -166,14 +166,15 @@ def _along(along: Array, step: Array) -> Array:
 def solve_together(
     systems: Sequence[System], x: Array, factors: Factors, limits: NewtonLimits, data: Callable[[int], Any]
 ) -> list[Solved | None]:
-    """What `newton.solve` makes of designs that are `alike`; None where it would need other derivatives than these.
+    """What `newton.solve` makes of designs that `can_share_steps` accepts; None where it would need other derivatives
+    than these.
 
     x: a start for each, (designs, …). data: the section's data for so many designs beside each other.
     """
-    beside, one, passes = _Beside(systems, data), systems[0], 1
+    beside, one, passes = _SideBySide(systems, data), systems[0], 1
     points = beside(np.arange(len(systems)), x, full=False)
     out = [Solved(points.point(k), 1, factors) if size <= 1.0 else None for k, size in enumerate(points.size.tolist())]
-    going, still = _Going(x, points, factors), points.size > 1.0
+    going, still = _Unfinished(x, points, factors), points.size > 1.0
     while still.any() and passes < limits.most_passes:
         going.keep(still)
         over = going.step(one.limits)

@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotor.arrays import Array, Integers
-from rotor.compiled import compiled
 from rotor.engine.terms import Structure
 from rotor.engine.waves import WaveGrid
+from rotor.support.arrays import Array, Integers
+from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy")
 
@@ -54,7 +54,7 @@ class Lags(NamedTuple):
 
 
 @_compile
-def spread(coarse: Any, steps: int, out: Any) -> None:
+def onto_finer(coarse: Any, steps: int, out: Any) -> None:
     """Linear between azimuths, onto finer ones; after the last comes the first again."""
     n = len(coarse)
     for m in range(steps):
@@ -66,8 +66,8 @@ def spread(coarse: Any, steps: int, out: Any) -> None:
 
 
 @_compile
-def gather(fine: Any, steps: int, out: Any) -> None:
-    """The transposed of `spread` over the steps: a mean about every azimuth."""
+def onto_coarser(fine: Any, steps: int, out: Any) -> None:
+    """The transposed of `onto_finer` over the steps: a mean about every azimuth."""
     n = len(out)
     out[:] = 0.0
     for m in range(steps):
@@ -195,11 +195,11 @@ def _remembered(lags: Any, inputs: Any, out: Any) -> None:
     for e in range(inputs.shape[1]):
         steps = fine // inputs.shape[2]
         z[:] = 0.0
-        spread(lags.share[e] * inputs[0, e], steps, z[0])
-        spread(inputs[1, e], steps, z[1])
+        onto_finer(lags.share[e] * inputs[0, e], steps, z[0])
+        onto_finer(inputs[1, e], steps, z[1])
         _along_links(lags, e, z)
         for k in range(OUTPUTS):
-            gather(z[INPUTS + k], steps, out[k, e])
+            onto_coarser(z[INPUTS + k], steps, out[k, e])
         out[OUTPUTS, e] = inputs[0, e]
 
 
@@ -212,12 +212,12 @@ def _transposed(lags: Any, weights: Any, out: Any) -> None:
         steps = fine // out.shape[2]
         z[:] = 0.0
         for k in range(OUTPUTS):
-            spread(weights[k, e], steps, z[INPUTS + k])
+            onto_finer(weights[k, e], steps, z[INPUTS + k])
             z[INPUTS + k, fine] = 0.0
         _back_along_links(lags, e, z)
         for k in range(INPUTS):
             z[k, 0] += z[k, fine]
-            gather(z[k], steps, out[k, e])
+            onto_coarser(z[k], steps, out[k, e])
         out[0, e] = lags.share[e] * out[0, e] + weights[OUTPUTS, e]
 
 
@@ -262,7 +262,7 @@ def _add_pairs(product: Any, of_measures: Any, of_columns: Any, out: Any) -> Non
 
 
 @dataclass(frozen=True, eq=False)
-class Memory:
+class LagFactors:
     """The three factors at a point."""
 
     left: Array

@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
 
-from rotor.arrays import Array
 from rotor.engine.linearise import Grid, Point, System, begin, evaluate, jacobian, transposed
+from rotor.support.arrays import Array
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""

@@ -15,9 +15,9 @@ from typing import Any, cast
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from rotor.arrays import Array, Integers, fix, fixed_property
-from rotor.compiled import compiled
 from rotor.engine.waves import STEADY, products, times_wave
+from rotor.support.arrays import Array, Integers, fix, fixed_property
+from rotor.support.compiled import compiled
 
 ONE = 0
 """The atom 1."""

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotor.arrays import Array, Integers, fixed_property, read_only
+from rotor.support.arrays import Array, Integers, fixed_property, read_only
 
 STEADY, COS, SIN = range(3)
 """The first three waves."""

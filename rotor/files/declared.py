@@ -14,8 +14,8 @@ import msgspec
 from msgspec import Meta, inspect
 
 from rotor.design.quantity import Kind
-from rotor.units import unit_of
-from rotor.user_input import did_you_mean, shorten
+from rotor.support.units import unit_of
+from rotor.support.user_input import did_you_mean, shorten
 
 Place = tuple[str | int, ...]
 """Keys, and positions in lists, that lead to a value."""

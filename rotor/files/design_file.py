@@ -12,7 +12,6 @@ import msgspec
 
 from rotor.aero.inflow import inflow_model
 from rotor.aero.problem import check_azimuths
-from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
@@ -21,7 +20,8 @@ from rotor.design.quantity import Quantity
 from rotor.files.declared import BY_KIND, FileTable, convert
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
-from rotor.user_input import read_bytes, refusing, shorten
+from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.user_input import read_bytes, refusing, shorten
 
 _GRID = ("elements", "azimuths")
 _MODELS = tuple(BY_KEY[key] for key in ("inflow", "hover_inflow", *SWITCHES, *OPTIONS))

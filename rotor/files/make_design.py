@@ -10,7 +10,6 @@ from typing import Any, Unpack
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import check_azimuths
 from rotor.aero.switches import parse_switches
-from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
@@ -19,7 +18,8 @@ from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
-from rotor.user_input import did_you_mean
+from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.user_input import did_you_mean
 
 ADVANCE_RATIO = 0.2
 """Advance ratio of a design whose speed is not given."""

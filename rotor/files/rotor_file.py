@@ -15,8 +15,7 @@ import msgspec
 
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
-from rotor.design.aircraft import SEA_LEVEL_DENSITY, Aircraft, Fuselage, RotorFiles, Stated
+from rotor.design.aircraft import SEA_LEVEL_DENSITY, Aircraft, DocumentRotor, Fuselage, RotorFiles
 from rotor.design.blade import Blade, BladeStructure, Rotor, Span
 from rotor.dynamics.structure import uh60a_torsion
 from rotor.files.declared import Place, Refusal, check_bounds, convert, naming, read_toml
@@ -30,8 +29,9 @@ from rotor.files.rotor_tables import (
     angular_speed,
 )
 from rotor.files.section_file import OwnSectionTable, check_section_name, read_section
-from rotor.units import GRAVITY
-from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
+from rotor.support.units import GRAVITY
+from rotor.support.user_input import did_you_mean, is_file, read_text, refusing, shorten
 
 ISOLATED_LOADING = 0.07
 """C_T/σ that a rotor without an airframe carries unless a test says otherwise."""
@@ -122,7 +122,7 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         stated, document = None, file.main.document
         if document is not None:
             blade = _blade(file.main, document, (*_MAIN, "document"), sections)
-            stated = Stated(replace(rotor, blade=blade), document.twist("document"))
+            stated = DocumentRotor(replace(rotor, blade=blade), document.twist("document"))
         controls = top.controls.range() if top.controls else None
         doubt = msgspec.structs.asdict(convert(top.doubt, DoubtTable, "doubt"))
         fuselage = (

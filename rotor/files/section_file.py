@@ -13,7 +13,7 @@ from rotor.airfoil.c81 import C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, USED_ALPHA_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, PolarSet, parse_polars
-from rotor.airfoil.reynolds import by_reynolds, same
+from rotor.airfoil.reynolds import by_reynolds, same_conditions
 from rotor.airfoil.section_table import SectionTable
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.declared import FileTable, Place, Refusal, Text, one_of
@@ -164,7 +164,7 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
     at = ("sections", name, "polars")
     polars = sorted((polar for each in sets for polar in each.polars), key=lambda polar: polar.mach)
     for one, other in combinations(polars, 2):
-        if same(one, other):
+        if same_conditions(one, other):
             says = f"two polars of {name} have Mach {one.mach:g}"
             if one.reynolds and other.reynolds:
                 raise Refusal(f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at)

@@ -6,31 +6,31 @@ from rotor.optimisation.objective import (
     Objective,
     WeightedCondition,
     at_condition,
+    evaluate_objective,
+    evaluate_objectives,
     hover_and_cruise,
-    measure,
-    measure_many,
 )
 from rotor.optimisation.results import Progress
-from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
+from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from rotor.optimisation.search import Search, optimise, run_search
 
 __all__ = (
     "CONCEPTS",
-    "Cell",
     "Concept",
     "Objective",
     "Parameter",
-    "Plan",
     "Progress",
     "Schedule",
+    "ScheduleOptimum",
+    "SchedulePlan",
     "Search",
     "WeightedCondition",
     "at_condition",
+    "evaluate_objective",
+    "evaluate_objectives",
     "even_change_limit",
     "find_concept",
     "hover_and_cruise",
-    "measure",
-    "measure_many",
     "nearest",
     "optimise",
     "run_plan",

@@ -8,9 +8,9 @@ from typing import Literal, Protocol
 import numpy as np
 import scipy
 
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist, TwistLaw
+from rotor.support.arrays import Array
 
 Values = Sequence[float] | Array
 """Parameters of a concept in its order, SI."""

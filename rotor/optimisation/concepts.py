@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.arrays import Array
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.twist import (
@@ -28,7 +27,8 @@ from rotor.optimisation.concept import Values as Values
 from rotor.optimisation.concept import nearest as nearest
 from rotor.optimisation.concept import on_top as on_top
 from rotor.optimisation.concept import restrict as restrict
-from rotor.user_input import did_you_mean
+from rotor.support.arrays import Array
+from rotor.support.user_input import did_you_mean
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
 """Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or carry negative lift at the tip."""

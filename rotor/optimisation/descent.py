@@ -19,10 +19,10 @@ from typing import Any, cast
 import numpy as np
 import scipy
 
-from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
-from rotor.optimisation.objective import Measured, Quantity
+from rotor.optimisation.objective import ObjectiveValue, Quantity
 from rotor.optimisation.results import ParameterBand
+from rotor.support.arrays import Array
 
 BAND = 1e-3
 """Relative rise of the objective that defines the band of each parameter."""
@@ -53,7 +53,7 @@ def second_derivatives(steps: Array, changes: Array, weights: Array, elsewhere: 
 
 
 @dataclass(frozen=True, eq=False)
-class Quadratic:
+class QuadraticMeasure:
     """A measure of the blade near one trim, as a function of the twist at the elements."""
 
     pitch: Array
@@ -70,7 +70,7 @@ class Quadratic:
         return self.value + float((self.slope + 0.5 * bent) @ step), self.slope + bent
 
 
-def _known(measured: Measured) -> tuple[float, Array]:
+def _known(measured: ObjectiveValue) -> tuple[float, Array]:
     """The objective and its slope by pitch [1/rad] of a blade that trims."""
     assert measured.value is not None
     assert measured.by_pitch is not None
@@ -84,7 +84,7 @@ _MODEL_TOLERANCE = 1e-6
 """Tolerance of the least of the model, in units of 2 BAND of the objective."""
 
 
-class Model:
+class LocalModel:
     """The objective and what limits hold as quadratics around one trim, limits and bounds as they are."""
 
     def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
@@ -110,13 +110,15 @@ class Model:
         first = _FIRST_CURVATURE * value
         size, axes = np.linalg.eigh(fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first))
         size = np.maximum(size, _FLATTEST * max(size[-1], first))
-        self.objective = Quadratic(centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric)
-        self.limited: list[Quadratic] = []
+        self.objective = QuadraticMeasure(
+            centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric
+        )
+        self.limited: list[QuadraticMeasure] = []
         if measured.limited_by_pitch is not None:
             for k, slope in enumerate(measured.limited_by_pitch):
                 slopes = [other.limited_by_pitch[k] for other, _, _ in pairs if other.limited_by_pitch is not None]
                 second = metric[:, None] * fit(slope, slopes, 0.0) * metric
-                self.limited.append(Quadratic(centre.pitch, measured.limited[k], slope, second))
+                self.limited.append(QuadraticMeasure(centre.pitch, measured.limited[k], slope, second))
 
     def cost(self, x: Array) -> float:
         """The objective at x."""
@@ -230,7 +232,7 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
     """Descend from a point that trims, as long as the model's minimum is not one that is `known`."""
     centre, reach = first, _FIRST_REACH
     for _ in range(_ITERATIONS):
-        model = Model(evaluate, centre.blade, evaluate.trimmed.all)
+        model = LocalModel(evaluate, centre.blade, evaluate.trimmed.all)
         x = model.least(centre.x, reach)
         foreseen = centre.cost - model.cost(x)
         if centre.feasible and foreseen <= TOLERANCE[evaluate.objective.quantity] * centre.cost:
@@ -270,13 +272,13 @@ def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[ParameterBand, 
 def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: float) -> float:
     """How far parameter k goes within the band on one side, scaled."""
     centre = best
-    x = Model(evaluate, best.blade, evaluate.trimmed.all).farthest(best.x, k, side, edge)
+    x = LocalModel(evaluate, best.blade, evaluate.trimmed.all).farthest(best.x, k, side, edge)
     for _ in range(_BAND_EVALUATIONS):
         record = evaluate(x)
         if record.power is None:
             break
         centre, before = record, x
-        x = Model(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
+        x = LocalModel(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
         if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
             break
     inside = [record.x for record in evaluate.records if record.feasible and record.cost <= edge]

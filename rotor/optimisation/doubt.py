@@ -9,13 +9,13 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, measure, measure_many
+from rotor.optimisation.objective import Objective, evaluate_objective, evaluate_objectives
 from rotor.optimisation.results import ParameterBand
+from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.doubt import Doubt, DoubtRow
 from rotor.trim.solution import Solution
@@ -42,7 +42,9 @@ def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: S
     """
     if objective.quantity != "total":
         return None
-    here, there = (measure(objective, design, starts(design), gradient=False).trims for design in (best, baseline))
+    here, there = (
+        evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)
+    )
     return mean_doubt(objective.shares, here, there)
 
 
@@ -95,7 +97,7 @@ def best_twist_doubt(
 
     places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
     designs = [concept.apply(design, place) for place in places]
-    found = measure_many(objective, designs, [starts(each) for each in designs])
+    found = evaluate_objectives(objective, designs, [starts(each) for each in designs])
     gradients, changes = list[Array](), list[dict[str, float]]()
     for place, measured in zip(places, found, strict=True):
         if measured.by_pitch is None:

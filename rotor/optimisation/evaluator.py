@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotor.aero.problem import build_problem
-from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import Limits, cheap_margins
-from rotor.optimisation.objective import Measured, Objective, measure, measure_many
+from rotor.optimisation.objective import Objective, ObjectiveValue, evaluate_objective, evaluate_objectives
 from rotor.optimisation.results import Phase, Progress
+from rotor.support.arrays import Array
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 
@@ -32,11 +32,11 @@ class TrimmedBlade:
     rotor: Rotor
     pitch: Array
     """Twist at the elements [rad], (elements,)."""
-    measured: Measured
+    measured: ObjectiveValue
     """Without the trims; solutions are kept of the last ones only."""
 
 
-class TrimmedBlades:
+class TrimHistory:
     """The blades that searches with one objective have trimmed."""
 
     def __init__(self) -> None:
@@ -55,7 +55,7 @@ class TrimmedBlades:
         gap = min(self._solved, key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()), default=None)
         return () if gap is None else gap[1]
 
-    def add(self, rotor: Rotor, pitch: Array, measured: Measured) -> TrimmedBlade:
+    def add(self, rotor: Rotor, pitch: Array, measured: ObjectiveValue) -> TrimmedBlade:
         """Keep what was trimmed."""
         blade = TrimmedBlade(rotor, pitch, replace(measured, trims=()))
         if measured.power is not None:
@@ -115,7 +115,7 @@ class Evaluator:
         starts: int,
         watch: Callable[[Progress], None] | None,
         stop: Callable[[], bool] | None,
-        trimmed: TrimmedBlades,
+        trimmed: TrimHistory,
     ) -> None:
         """trimmed: in earlier searches with this objective; the blades of this one are added."""
         self.design, self.concept, self.objective, self.limits = design, concept, objective, limits
@@ -161,7 +161,7 @@ class Evaluator:
         margins, slopes = cheap_margins(self.limits, self.concept, self.values(x), self.design.rotor.blade.root_cutout)
         return margins, slopes * self.span
 
-    def baseline(self) -> Measured:
+    def baseline(self) -> ObjectiveValue:
         """Evaluation of the design as given; its trim is where the first start begins."""
         self._check()
         return self._trim(self.design, remedy=True).measured
@@ -193,7 +193,7 @@ class Evaluator:
             self._ahead = [blade for blade in self._ahead if blade is not known]
             return known
         starts, options = self.trimmed.starts(pitch, self.r), SolverOptions(remedy=remedy)
-        measured = measure(self.objective, design, starts, limits=self.limits, options=options)
+        measured = evaluate_objective(self.objective, design, starts, limits=self.limits, options=options)
         return self.trimmed.add(design.rotor, pitch, measured)
 
     def trim_ahead(self, points: Iterable[Array]) -> None:
@@ -202,7 +202,7 @@ class Evaluator:
         every = [self.concept.apply(self.design, self.values(x)) for x in points]
         designs = [design for design in every if self.trimmed.known(design.rotor, design.twist(self.r)) is None]
         starts, options = [self.starts_for(each) for each in designs], SolverOptions(stop=self._stop, remedy=False)
-        found = measure_many(self.objective, designs, starts, limits=self.limits, options=options)
+        found = evaluate_objectives(self.objective, designs, starts, limits=self.limits, options=options)
         self._check()
         for design, measured in zip(designs, found, strict=True):
             self._ahead.append(self.trimmed.add(design.rotor, design.twist(self.r), measured))

@@ -21,10 +21,10 @@ from numpy.polynomial.chebyshev import chebvander
 from rotor.aero.inflow.lifting_line import LiftingLineInflow, mean_share
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence
 from rotor.aero.problem import build_problem
-from rotor.arrays import Array, fixed_property, read_only
-from rotor.assets import asset_path, csv_rows
-from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
+from rotor.support.arrays import Array, fixed_property, read_only
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.forward import with_course
 from rotor.trim.low_speed import hover_share
 

@@ -16,11 +16,11 @@ from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.unsteady_section import slopes_ahead
 from rotor.airfoil.section_table import MACH_STEP
-from rotor.arrays import Array
 from rotor.design.quantity import number
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values
-from rotor.trim.adjoint import Adjoint, Weights
+from rotor.support.arrays import Array
+from rotor.trim.adjoint import Adjoint, ElementSlopes
 
 _DEGREE = math.radians(1.0)
 PERCENT = 0.01
@@ -110,7 +110,7 @@ class Limits:
         return replace(self, change=even_change_limit(twist, math.radians(self.change_deg), root), change_deg=None)
 
     def largest(self, conditions: int) -> Array:
-        """Largest value of each quantity in `Measured.limited` [%]."""
+        """Largest value of each quantity in `ObjectiveValue.limited` [%]."""
         values: Array = np.zeros(0)
         for limit in (None if self.stalled is None else self.stalled / PERCENT, self.index):
             values = values if limit is None else np.append(values, np.full(conditions, limit))
@@ -180,7 +180,7 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     normal = elements.u_t * cos - elements.u_r * sin
     scale = problem.tip_mach**2 / elements.mach
     slope = ring * window * by_margin
-    weights = Weights(
+    weights = ElementSlopes(
         theta=slope * by_alpha,
         u_t=slope * (by_alpha * over_p + by_mach * scale * normal * cos) + ring * window_slope * counted,
         u_p=slope * (-by_alpha * over_t + by_mach * scale * elements.u_p),

@@ -10,12 +10,13 @@ from typing import Literal
 
 import numpy as np
 
-from rotor.arrays import Array
 from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
 from rotor.design.quantity import number
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
+from rotor.support.arrays import Array
+from rotor.support.user_input import read_text, refusing
 from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.adjoint import power_along
 from rotor.trim.analysis import Analysis
@@ -24,7 +25,6 @@ from rotor.trim.many import analyse_many
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import Start, analyse
-from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced", "vibration"]
 POWERS: tuple[PowerKind, ...] = ("total", "induced")
@@ -116,7 +116,7 @@ def hover_and_cruise(
 
 
 @dataclass(frozen=True, eq=False)
-class Measured:
+class ObjectiveValue:
     """An objective evaluated for a design."""
 
     power: float | None
@@ -159,7 +159,7 @@ def check_index(design: Design, objective: Objective, limits: Limits) -> None:
         raise ValueError("the vibration index needs bending blades: add --bending, or bending=True in Python")
 
 
-def measure(
+def evaluate_objective(
     objective: Objective,
     design: Design,
     starts: Sequence[Solution] = (),
@@ -168,7 +168,7 @@ def measure(
     limits: Limits | None = None,
     options: SolverOptions = DEFAULT_OPTIONS,
     solved: Sequence[Analysis] = (),
-) -> Measured:
+) -> ObjectiveValue:
     """Trim the design on every condition; the objective and what limits hold, with exact gradients by the pitch along
     the blade.
 
@@ -188,7 +188,7 @@ def measure(
             trims.append(analyse(replace(design, condition=condition.flight), start, options))
         solution = trims[-1].solution
         if not solution.converged:
-            return Measured(None, tuple(trims))
+            return ObjectiveValue(None, tuple(trims))
         power += share * getattr(solution.power, kind)
         if not gradient:
             index += share * hub_index(trims[-1].adjoint) if vibration or indexed else 0.0
@@ -203,7 +203,7 @@ def measure(
             area, slope = stalled_share(adjoint)
             stalled.append((area / PERCENT, slope / PERCENT))
     limited = [*stalled, *(indices if indexed else [])]
-    return Measured(
+    return ObjectiveValue(
         power=power,
         trims=tuple(trims),
         value=index if vibration else power,
@@ -214,7 +214,7 @@ def measure(
     )
 
 
-def measure_many(
+def evaluate_objectives(
     objective: Objective,
     designs: Sequence[Design],
     starts: Sequence[Sequence[Start]] = (),
@@ -222,8 +222,8 @@ def measure_many(
     gradient: bool = True,
     limits: Limits | None = None,
     options: SolverOptions = DEFAULT_OPTIONS,
-) -> list[Measured]:
-    """`measure` of many designs at once; starts: for each design, by condition."""
+) -> list[ObjectiveValue]:
+    """`evaluate_objective` of many designs at once; starts: for each design, by condition."""
     by_condition = [
         analyse_many(
             [replace(design, condition=condition.flight) for design in designs],
@@ -233,7 +233,7 @@ def measure_many(
         for k, condition in enumerate(objective.conditions)
     ]
     return [
-        measure(objective, design, gradient=gradient, limits=limits, solved=trims)
+        evaluate_objective(objective, design, gradient=gradient, limits=limits, solved=trims)
         for design, trims in zip(designs, zip(*by_condition, strict=True), strict=True)
     ]
 

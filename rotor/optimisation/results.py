@@ -6,8 +6,8 @@ from typing import Literal
 
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.support.units import power_text
 from rotor.trim.doubt import Doubt
-from rotor.units import power_text
 
 Phase = Literal["baseline", "search", "band"]
 

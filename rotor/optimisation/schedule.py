@@ -12,12 +12,12 @@ from dataclasses import dataclass, field, replace
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.doubt import mean_doubt
-from rotor.optimisation.evaluator import TrimmedBlades
+from rotor.optimisation.evaluator import TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
-from rotor.processes import Processes, WorkerLost, run_tasks
+from rotor.support.processes import Processes, WorkerLost, run_tasks
 from rotor.trim.doubt import Doubt
 from rotor.trim.solve import solve
 
@@ -26,7 +26,7 @@ CHUNK = 4
 
 
 @dataclass(frozen=True)
-class Plan:
+class SchedulePlan:
     """A schedule to compute, as a value: it pickles."""
 
     design: Design
@@ -56,7 +56,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Cell:
+class ScheduleOptimum:
     """The optimum of a concept at one condition, or fixed for all (condition None)."""
 
     condition: int | None
@@ -91,8 +91,8 @@ class InFlightGain:
 class Schedule:
     """Results of a plan, complete or partial."""
 
-    plan: Plan
-    cells: tuple[Cell, ...]
+    plan: SchedulePlan
+    cells: tuple[ScheduleOptimum, ...]
     message: str = ""
     """Error of the run itself, in one sentence."""
 
@@ -139,7 +139,10 @@ class Schedule:
 
 
 def run_plan(
-    plan: Plan, keep: Callable[[Cell], None] | None = None, stop: Callable[[], bool] | None = None, processes: int = 1
+    plan: SchedulePlan,
+    keep: Callable[[ScheduleOptimum], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+    processes: int = 1,
 ) -> Schedule:
     """Compute a plan; `keep` is called with every cell.
 
@@ -147,7 +150,7 @@ def run_plan(
     """
     cells: _Known = {}
 
-    def add(cell: Cell) -> None:
+    def add(cell: ScheduleOptimum) -> None:
         cells[cell.condition, cell.concept] = cell
         if keep is not None:
             keep(cell)
@@ -167,10 +170,12 @@ def run_plan(
     return Schedule(plan, tuple(cells[place] for place in order if place in cells), message)
 
 
-_Known = dict[tuple[int | None, str], Cell]
+_Known = dict[tuple[int | None, str], ScheduleOptimum]
 
 
-def _work_chunk(plan: Plan, conditions: tuple[int, ...], stop: Callable[[], bool] | None) -> Iterator[Cell]:
+def _work_chunk(
+    plan: SchedulePlan, conditions: tuple[int, ...], stop: Callable[[], bool] | None
+) -> Iterator[ScheduleOptimum]:
     """All concepts at neighbouring conditions, one after the other."""
     known: _Known = {}
     for condition in conditions:
@@ -182,8 +187,8 @@ def _work_chunk(plan: Plan, conditions: tuple[int, ...], stop: Callable[[], bool
 
 
 def _work_fixed(
-    plan: Plan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
-) -> Iterator[Cell]:
+    plan: SchedulePlan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
+) -> Iterator[ScheduleOptimum]:
     """The best fixed blades of some concepts, each started from the mean of its optima."""
 
     def mean(concept: Concept) -> list[tuple[float, ...]]:
@@ -198,15 +203,15 @@ def _work_fixed(
 
 
 def _searches(
-    plan: Plan,
+    plan: SchedulePlan,
     condition: int | None,
     concepts: tuple[Concept, ...],
     known: _Known,
     guesses_of: Callable[[Concept], list[tuple[float, ...]]],
     stop: Callable[[], bool] | None,
-) -> Iterator[Cell]:
+) -> Iterator[ScheduleOptimum]:
     """The cells of a condition, or of the fixed blade, added to those known: one model of power serves all."""
-    trimmed = TrimmedBlades()
+    trimmed = TrimHistory()
     objective = Objective(plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],))
     for concept in concepts:
         guesses = guesses_of(concept)
@@ -217,11 +222,11 @@ def _searches(
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
-        known[condition, concept.name] = cell = Cell(condition, concept.name, optimum)
+        known[condition, concept.name] = cell = ScheduleOptimum(condition, concept.name, optimum)
         yield cell
 
 
-def _guesses(plan: Plan, condition: int, concept: Concept, known: _Known) -> list[tuple[float, ...]]:
+def _guesses(plan: SchedulePlan, condition: int, concept: Concept, known: _Known) -> list[tuple[float, ...]]:
     """The neighbour's optimum, and the best of the simpler concepts at this condition."""
     guesses: list[tuple[float, ...]] = []
     neighbour = known.get((condition - 1, concept.name))

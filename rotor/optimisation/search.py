@@ -14,17 +14,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import scipy
 
-from rotor.arrays import Array
-from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
 from rotor.design.quantity import number
 from rotor.optimisation.concepts import Concept, find_concept, nearest
-from rotor.optimisation.descent import BAND, TOLERANCE, Model, descend, measure_band
+from rotor.optimisation.descent import BAND, TOLERANCE, LocalModel, descend, measure_band
 from rotor.optimisation.doubt import best_twist_doubt, saving_doubt
-from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
+from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimHistory
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Measured, Objective, Quantity, at_condition, check_index, over_conditions
+from rotor.optimisation.objective import Objective, ObjectiveValue, Quantity, at_condition, check_index, over_conditions
 from rotor.optimisation.results import BestTwist, Minimum, Optimum, ParameterBand, Progress, SearchStatus, TwistRange
+from rotor.support.arrays import Array
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.doubt import Doubt, other_models
 
 STARTS = 6
@@ -78,7 +78,7 @@ def run_search(
     search: Search,
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
-    trimmed: TrimmedBlades | None = None,
+    trimmed: TrimHistory | None = None,
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
@@ -88,7 +88,7 @@ def run_search(
     count = max(search.starts, len(search.guesses))
     objective = search.objective or at_condition(search.design)
     evaluate = Evaluator(
-        search.design, search.concept, objective, search.limits, count, watch, stop, trimmed or TrimmedBlades()
+        search.design, search.concept, objective, search.limits, count, watch, stop, trimmed or TrimHistory()
     )
     run = _Run(search, evaluate)
     try:
@@ -123,7 +123,7 @@ class _Run:
 
     def __init__(self, search: Search, evaluate: Evaluator) -> None:
         self.search, self.evaluate = search, evaluate
-        self.baseline = Measured(None, ())
+        self.baseline = ObjectiveValue(None, ())
         self.groups: list[tuple[Evaluation, list[int]]] = []
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
@@ -169,7 +169,7 @@ class _Run:
         for _ in range(_PLACES):
             if self.best is None:
                 return
-            model = Model(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
+            model = LocalModel(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
             x = min((model.least(place) for place in places), key=model.cost)
             if model.cost(x) >= self.best.cost * (1.0 - TOLERANCE[self.evaluate.objective.quantity]):
                 return
@@ -191,7 +191,7 @@ class _Run:
         """Whether a point is so near a minimum that a descent from there ends in it."""
         if np.abs(lead.x - x).max() < _SAME_PLACE:
             return True
-        model = Model(self.evaluate, lead.blade, self.evaluate.trimmed.all)
+        model = LocalModel(self.evaluate, lead.blade, self.evaluate.trimmed.all)
         return model.cost(x) <= lead.cost * (1.0 + _BESIDE)
 
     def _gather(self, start: int, end: Evaluation) -> None:

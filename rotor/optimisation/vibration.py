@@ -21,8 +21,6 @@ import numpy as np
 from rotor.aero.problem import given_torsion
 from rotor.aero.section import RATE, TH
 from rotor.aero.unsteady_section import DTH
-from rotor.arrays import Array
-from rotor.blas_threads import one_blas_thread
 from rotor.columns.bending import LOADS
 from rotor.design.active_twist import Harmonic, PerRev, linear_active_twist, read_harmonics
 from rotor.design.design import Design, require_design
@@ -30,11 +28,13 @@ from rotor.engine.linearise import jacobian
 from rotor.engine.linearise import response as linear_response
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.descent import slsqp
-from rotor.optimisation.evaluator import TrimmedBlades
+from rotor.optimisation.evaluator import TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, WeightedCondition, check_index
 from rotor.optimisation.results import Minimum, Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
+from rotor.support.arrays import Array
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.adjoint import tail_gain
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.hub_loads import band_inflows, hub_index, index_of, load_units, terms_and_loads
@@ -373,7 +373,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
     least = run_search(replace(plain, limits=Limits(index=_ANY)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
-    searches, trimmed = [least, calm], TrimmedBlades()
+    searches, trimmed = [least, calm], TrimHistory()
     front, (high, low) = [_best(least)], (_best(search).index or 0.0 for search in searches)
     for limit in np.linspace(high, low, points)[1:-1].tolist():
         guesses = front[-1].parameters, _best(calm).parameters

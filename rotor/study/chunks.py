@@ -18,14 +18,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from rotor.assets import package_version
-from rotor.blas_threads import one_blas_thread
 from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate, trims_in_step
 from rotor.study.study import QUANTITIES, Study, Value, columns_of
 from rotor.study.study_file import StudyFile
+from rotor.support.assets import package_version
+from rotor.support.blas_threads import one_blas_thread
+from rotor.support.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
 from rotor.trim.many import BESIDE
-from rotor.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
 """The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
@@ -153,11 +153,11 @@ def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     return out.getvalue()
 
 
-class StoreError(RuntimeError):
+class StudyFolderError(RuntimeError):
     """A chunk could not be written; earlier chunks are kept."""
 
 
-class Store:
+class StudyFolder:
     """The folder of one study, open for writing."""
 
     def __init__(self, folder: str | Path, file: StudyFile, provenance: StudyProvenance) -> None:
@@ -208,7 +208,7 @@ class Store:
         try:
             write_whole(self.folder / f"chunk-{chunk:06d}.parquet", content)
         except OSError as error:
-            raise StoreError(
+            raise StudyFolderError(
                 f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
                 "run the same command again; finished chunks are kept"
             ) from None

@@ -15,17 +15,17 @@ from typing import Any
 
 from scipy.optimize import brentq
 
-from rotor.chart import Axis, Chart, Line
 from rotor.design.design import Design, require_design
 from rotor.design.quantities import CONDITION
 from rotor.design.twist import LinearTwist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
+from rotor.support.chart import Axis, Chart, Line
+from rotor.support.units import KNOT
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.trim.validity import MOST_STALLED
-from rotor.units import KNOT
 
 SPEEDS = (0.0, 0.1, 0.2, 0.3, 0.4)
 """Advance ratios of an envelope."""
@@ -42,7 +42,7 @@ _NO_TRIM = -0.1
 
 
 @dataclass(frozen=True)
-class Reach:
+class LimitReached:
     """The largest value of one quantity, in the unit of its name, by stall and by engines."""
 
     stall: float | None
@@ -68,7 +68,7 @@ class EnvelopePoint:
 
     design: Design
     """At this speed, with the twist flown there."""
-    load_factor: Reach
+    load_factor: LimitReached
 
     @property
     def mu(self) -> float:
@@ -104,9 +104,9 @@ class Envelope:
     moving: bool
     """Whether the twist is the best linear one of each speed, in place of the design's."""
     points: tuple[EnvelopePoint, ...]
-    top_speed: Reach
+    top_speed: LimitReached
     """Advance ratio at the load factor, mass and altitude of the design."""
-    ceiling: Reach
+    ceiling: LimitReached
     """Pressure altitude at its speed [m]."""
 
     @property
@@ -142,7 +142,7 @@ class Envelope:
 
 
 def limit_line(
-    points: Iterable[EnvelopePoint], name: str, top_speed: Reach | None = None, flown: float = 1.0
+    points: Iterable[EnvelopePoint], name: str, top_speed: LimitReached | None = None, flown: float = 1.0
 ) -> tuple[list[float], list[float]]:
     """µ and largest load factor by `stall` or `engines`, NaN where there is none.
 
@@ -212,15 +212,17 @@ def envelope(
 
     points: list[EnvelopePoint] = []
     for flight in map(flown, flights):
-        points.append(EnvelopePoint(flight, reach(flight, "load_factor", both=True)))
+        points.append(EnvelopePoint(flight, find_limit(flight, "load_factor", both=True)))
         if tell is not None:
             tell(points[-1])
-    return Envelope(design, moving, tuple(points), reach(design, "mu", flown), reach(design, "altitude_m", flown))
+    return Envelope(
+        design, moving, tuple(points), find_limit(design, "mu", flown), find_limit(design, "altitude_m", flown)
+    )
 
 
-def reach(
+def find_limit(
     design: Design, name: str, flown: Callable[[Design], Design] = lambda design: design, *, both: bool = False
-) -> Reach:
+) -> LimitReached:
     """How far a quantity of the flight condition can rise; `flown` chooses the twist at each condition.
 
     name: `load_factor`, `mu` or `altitude_m`. both: beyond the engines too, until stall. A march in steps finds the
@@ -249,7 +251,7 @@ def reach(
 
     value = _FROM[name]
     if not trim(value).converged:
-        return Reach(None, None)
+        return LimitReached(None, None)
     ahead = value
     while trim(ahead).converged and ahead < row.high and (both or power(ahead) >= 0.0):
         value, ahead = ahead, min(ahead + _STEP[name], row.high)
@@ -260,7 +262,7 @@ def reach(
     good = sorted(at for at, there in known.items() if there.converged)
     over = next((k for k, at in enumerate(good) if power(at) < 0.0), None)
     if over is None:
-        return Reach(stalls, None)
+        return LimitReached(stalls, None)
     if over == 0:
-        return Reach(stalls, 0.0)
-    return Reach(stalls, float(brentq(power, good[over - 1], good[over], xtol=1e-2 * _WITHIN[name])))
+        return LimitReached(stalls, 0.0)
+    return LimitReached(stalls, float(brentq(power, good[over - 1], good[over], xtol=1e-2 * _WITHIN[name])))

@@ -20,9 +20,7 @@ import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, TrimState
 from rotor.aero.inflow import inflow_model
-from rotor.arrays import Array
-from rotor.assets import SHIPPED_ROTORS
-from rotor.design.aircraft import Aircraft, told
+from rotor.design.aircraft import Aircraft, reported_names
 from rotor.design.design import Design, check_preset, preset_models
 from rotor.design.quantities import ARGUMENTS, OPTIONS, STAND, SWITCHES
 from rotor.files.make_design import make_design
@@ -34,6 +32,8 @@ from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
+from rotor.support.arrays import Array
+from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim.analysis import Analysis
 from rotor.trim.export import solution_record
 from rotor.trim.forward import as_built
@@ -313,7 +313,7 @@ def _condition(design: Design) -> Row:
     return {
         "rotor": design.aircraft.key or design.aircraft.name,
         "speed_m_s": design.airspeed,
-        **{name: design.condition.numbers[name] for name in told([design.condition])},
+        **{name: design.condition.numbers[name] for name in reported_names([design.condition])},
         "preset": design.preset,
         "inflow": design.models.inflow,
     }

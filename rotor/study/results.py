@@ -13,12 +13,12 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.arrays import Array, Booleans, Integers
 from rotor.design.design import Design
 from rotor.study.chunks import CONVERGED, arrow_modules, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
-from rotor.user_input import is_file, shorten
+from rotor.support.arrays import Array, Booleans, Integers
+from rotor.support.user_input import is_file, shorten
 
 _MANY = 20
 """Number of values from which an axis is divided into ten parts."""
@@ -244,7 +244,7 @@ def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> Rob
 
 
 @dataclass(frozen=True)
-class Effect:
+class MainEffect:
     """Main effect of one axis, averaged over all others."""
 
     axis: str
@@ -257,7 +257,7 @@ class Effect:
     most: float
 
 
-def effects(results: Results, column: str) -> tuple[Effect, ...]:
+def main_effects(results: Results, column: str) -> tuple[MainEffect, ...]:
     """The main effect of every axis on a column, the strongest first; ranges in tenths, or in fewer parts."""
     values = results.columns[column]
     known = results.good & np.isfinite(values)
@@ -270,13 +270,13 @@ def effects(results: Results, column: str) -> tuple[Effect, ...]:
     return tuple(sorted(shares, key=lambda effect: -effect.share))
 
 
-def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> Effect:
+def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> MainEffect:
     count = np.bincount(code, minlength=len(levels))
     means = np.bincount(code, weights=values, minlength=len(levels)) / np.maximum(count, 1)
     share = float((count * (means - values.mean()) ** 2).sum() / count.sum() / np.var(values))
     low = int(np.argmin(np.where(count > 0, means, math.inf)))
     high = int(np.argmax(np.where(count > 0, means, -math.inf)))
-    return Effect(axis, share, levels[low], float(means[low]), levels[high], float(means[high]))
+    return MainEffect(axis, share, levels[low], float(means[low]), levels[high], float(means[high]))
 
 
 def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Integers]:

@@ -16,11 +16,9 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from rotor.assets import commit, package_version
-from rotor.processes import Processes
 from rotor.study.chunks import (
     FinishedChunk,
-    Store,
+    StudyFolder,
     StudyProvenance,
     VersionMismatch,
     arrow_modules,
@@ -30,7 +28,9 @@ from rotor.study.chunks import (
 from rotor.study.results import Results, read_results
 from rotor.study.study import Study
 from rotor.study.study_file import StudyFile, read_study
-from rotor.user_input import extra_module
+from rotor.support.assets import commit, package_version
+from rotor.support.processes import Processes
+from rotor.support.user_input import extra_module
 
 _LOOK = 0.1
 """[s] between the questions whether to stop."""
@@ -108,7 +108,7 @@ def run_study(
         raise ValueError("workers are the processes of this machine: omit them, or omit executor")
     check_workers(workers)
     file = read_study(study)
-    with closing(open_store(file, out)) as store:
+    with closing(open_study_folder(file, out)) as store:
         missing, total = store.missing(), store.study.count
         done = total - store.study.points_of(missing)
 
@@ -126,11 +126,11 @@ def run_study(
         return read_results(store.folder)
 
 
-def open_store(file: StudyFile, out: str | Path | None) -> Store:
+def open_study_folder(file: StudyFile, out: str | Path | None) -> StudyFolder:
     """The folder of a study, by default named as its file. ValueError with one sentence where it cannot be used."""
     arrow_modules()  # Before a folder is made.
     provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
-    return Store(out or Path(file.path).stem, file, provenance)
+    return StudyFolder(out or Path(file.path).stem, file, provenance)
 
 
 def check_workers(workers: int | None) -> None:
@@ -173,7 +173,7 @@ def dask_client(address: str) -> Generator[Any]:
 
 def run_chunks(
     executor: Executor,
-    store: Store,
+    store: StudyFolder,
     chunks: Sequence[int],
     notify: Callable[[FinishedChunk], None],
     stop: Callable[[], bool] = lambda: False,

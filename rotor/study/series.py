@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any, Unpack, cast
 
 from rotor.aero.switches import SWITCHES, no_effect, with_switches
-from rotor.chart import Axis, Chart, Line
 from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
-from rotor.design.aircraft import told
+from rotor.design.aircraft import reported_names
 from rotor.design.design import Design, require_design
 from rotor.design.quantities import ARGUMENTS, CONDITION, SWEPT, Flight
 from rotor.design.quantity import Quantity, takes
@@ -21,14 +20,15 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import Plan, Schedule, run_plan
-from rotor.plots import draw_chart
+from rotor.optimisation.schedule import Schedule, SchedulePlan, run_plan
+from rotor.support.chart import Axis, Chart, Line
+from rotor.support.plots import draw_chart
+from rotor.support.units import KNOT, unit_of
+from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import KNOT, unit_of
-from rotor.user_input import check_suffix, csv_text, extra_module, write_whole
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
 _INDICES = ("index_percent", "least_index_percent", "largest_index_percent")
@@ -252,7 +252,7 @@ def schedule(
         for speed, time in sorted(zip(speeds, times, strict=True))
     ]
     blades = tuple(find_concept(name) for name in concepts)
-    plan = Plan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
+    plan = SchedulePlan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
     return run_plan(plan, processes=processes)
 
 
@@ -330,7 +330,7 @@ def _kilowatts(solutions: Sequence[Solution], part: str) -> list[float]:
 
 def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     """Columns of a sweep over these designs."""
-    names = ("speed_kt", *told(design.condition for design in designs))
+    names = ("speed_kt", *reported_names(design.condition for design in designs))
     condition = (name for name in SWEPT if name in names)
     powers = (f"{part}_kw" for part in POWERS)
     blade = ("rotor", "twist", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev")

@@ -14,11 +14,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.arrays import Array, read_only
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import fingerprint
-from rotor.design.quantities import BESIDE, STAND
 from rotor.design.quantities import QUANTITIES as QUANTITIES_OF_DESIGN
+from rotor.design.quantities import STAND, UNUSUAL
 from rotor.design.quantity import Quantity
 from rotor.optimisation.concepts import (
     CONCEPTS,
@@ -30,7 +29,8 @@ from rotor.optimisation.concepts import (
 )
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.series import HUB_COLUMNS, POWERS
-from rotor.units import unit_of
+from rotor.support.arrays import Array, read_only
+from rotor.support.units import unit_of
 
 Value = float | str | bool
 Ints = NDArray[np.int64]
@@ -88,7 +88,7 @@ class StudyAxis:
 
 
 @dataclass(frozen=True)
-class Sample:
+class StudySample:
     """Points distributed evenly over several ranges together."""
 
     method: Method
@@ -103,7 +103,7 @@ class StudyPoints:
     """All points of a study; the values of each by quantity."""
 
     axes: tuple[StudyAxis, ...]
-    sample: Sample | None
+    sample: StudySample | None
 
     @property
     def count(self) -> int:
@@ -133,9 +133,9 @@ class StudyPoints:
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     @property
-    def _order(self) -> list[tuple[StudyAxis | Sample, int]]:
+    def _order(self) -> list[tuple[StudyAxis | StudySample, int]]:
         """Axes from slow to fast: texts, then axes by increasing number of values."""
-        ranked: list[tuple[float, StudyAxis | Sample, int]] = [
+        ranked: list[tuple[float, StudyAxis | StudySample, int]] = [
             (0.0 if axis.textual else len(axis.values), axis, len(axis.values)) for axis in self.axes
         ]
         if self.sample is not None:
@@ -157,7 +157,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 
 @cache
 @read_only
-def _spread(sample: Sample) -> Array:
+def _spread(sample: StudySample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
     from scipy.stats import qmc  # Here, for it takes 0.4 s to import.
 
@@ -301,13 +301,13 @@ FREQUENCIES = ("flap_1", "flap_2", "lag_1", "lag_2", "torsion_1")
 
 
 @dataclass(frozen=True)
-class Column:
+class StudyColumn:
     name: str
     kind: Literal["number", "count", "text"]
     unit: str
 
 
-_BESIDE = tuple(name for name, row in BESIDE.items() if row.told)
+_BESIDE = tuple(name for name, row in UNUSUAL.items() if row.told)
 _FLIGHT = ("rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", *_BESIDE, "preset", "inflow", "twist")
 _HEAD = ("point", "status", "message", *_FLIGHT)
 ANSWER = (
@@ -325,7 +325,7 @@ _COUNTS = ("point", "passes", "local_minima", "evaluations")
 _WORDS = ("status", "message", "caveats", "active")
 
 
-def columns_of(study: Study) -> tuple[Column, ...]:
+def columns_of(study: Study) -> tuple[StudyColumn, ...]:
     """All columns of a study's table: point, status, condition, values set or found, results."""
     given = dict.fromkeys(study.parameters, 0.0)
     searched = [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
@@ -336,8 +336,8 @@ def columns_of(study: Study) -> tuple[Column, ...]:
     return tuple(_column(name) for name in dict.fromkeys(names))
 
 
-def _column(name: str) -> Column:
+def _column(name: str) -> StudyColumn:
     row = QUANTITIES.get(name)
     if name in _COUNTS or name in _WORDS or (row is not None and not row.numeric):
-        return Column(name, "count" if name in _COUNTS else "text", "")
-    return Column(name, "number", unit_of(name) if row is None else row.unit)
+        return StudyColumn(name, "count" if name in _COUNTS else "text", "")
+    return StudyColumn(name, "number", unit_of(name) if row is None else row.unit)

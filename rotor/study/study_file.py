@@ -12,7 +12,6 @@ from typing import Annotated, Any
 
 from msgspec import Meta, field
 
-from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
 from rotor.files.declared import BY_KIND, FileTable, Number, Refusal, Text, convert, naming, read_toml
@@ -25,17 +24,18 @@ from rotor.study.study import (
     QUANTITIES,
     Method,
     OptimumSettings,
-    Sample,
     ShowSettings,
     Study,
     StudyAxis,
     StudyPoints,
+    StudySample,
     Value,
     check_uncertain,
     columns_of,
     default_chunk,
 )
-from rotor.user_input import did_you_mean, is_file, parse_range, read_text, refusing, shorten
+from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.user_input import did_you_mean, is_file, parse_range, read_text, refusing, shorten
 
 _MANY = 10**10
 _STEEPEST = 100.0
@@ -114,7 +114,7 @@ class Reader:
         if ranges and not top.sample:
             key = ranges[0][0]
             raise Refusal(f"axis {key} is a range: add [sample] with method and count", "axes", key)
-        sample = top.sample and Sample(top.sample.method, top.sample.count, top.sample.seed, tuple(ranges))
+        sample = top.sample and StudySample(top.sample.method, top.sample.count, top.sample.seed, tuple(ranges))
         places = StudyPoints(axes, sample)
         if not axes and not ranges:
             raise Refusal("the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]", "axes")

@@ -16,14 +16,14 @@ import numpy as np
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow.local_momentum import BALANCED
 from rotor.aero.section import FX, FZ, RATE, TH, UP, UR, UT
-from rotor.arrays import Array, ShortRepr
-from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE
 from rotor.columns.hover import turning_of
 from rotor.design.twist import TwistLaw
-from rotor.engine.linearise import Measure, jacobian, transposed
+from rotor.engine.linearise import MeasureSlopes, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import Terms
+from rotor.support.arrays import Array, ShortRepr
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.low_speed import HoverDifference, joined_hover
 from rotor.trim.newton import LinearisedTrim
 from rotor.trim.power import tail_power
@@ -57,7 +57,7 @@ class PitchGradient(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class Weights:
+class ElementSlopes:
     """Derivatives of a measure at each element, (elements, azimuths) or 0."""
 
     fz: Array | float = 0.0
@@ -108,7 +108,7 @@ class _Linear:
         matrix, power = jacobian(self.point, self.power_terms)
         return Factors.of_matrix(matrix), power[0]
 
-    def multipliers(self, measure: Measure) -> Array:
+    def multipliers(self, measure: MeasureSlopes) -> Array:
         """a of Jᵀ a = ∂(measure)/∂x, (equations,)."""
         point = self.point
         none = np.zeros(len(point.system.free))
@@ -129,9 +129,9 @@ class _Linear:
     @cached_property
     def of_total(self) -> Array:
         """The multipliers of `total_terms`, (equations,)."""
-        return self.multipliers(Measure(terms=self.total_terms))
+        return self.multipliers(MeasureSlopes(terms=self.total_terms))
 
-    def slopes(self, measure: Measure) -> tuple[Array, Array]:
+    def slopes(self, measure: MeasureSlopes) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
         multipliers = self.of_total if measure.terms is self.total_terms else self.multipliers(measure)
@@ -150,14 +150,14 @@ class _Linear:
             solution = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
         return solution
 
-    def measure(self, weights: Weights) -> Measure:
+    def measure(self, weights: ElementSlopes) -> MeasureSlopes:
         """Weights as the engine takes them; in annuli U_T and U_P follow the inflow that they balance by themselves."""
         terms = self.problem.inflow_terms
         given = weights.over(self.problem.disk.shape)
         if self.problem.design.hovering:
             fz, fx, inflow, theta, u_t, u_p, _, _, swirl = (weight.sum(axis=1)[:, None] for weight in given)
             balanced = inflow + u_p + (swirl - u_t) * turning_of(self.point)[:, None]
-            return Measure(forces={FZ: fz, FX: fx, BALANCED: balanced}, channels={TH: theta})
+            return MeasureSlopes(forces={FZ: fz, FX: fx, BALANCED: balanced}, channels={TH: theta})
         fz, fx, inflow, theta, u_t, u_p, u_r, rate, swirl = given
         forces = {FZ: fz, FX: fx}
         if terms.interface.balanced is not None:
@@ -165,7 +165,7 @@ class _Linear:
         channels = {TH: theta, UT: u_t, UP: u_p, UR: u_r, RATE: rate}
         parts = [(UP, list(terms.names), inflow), (UT, [SWIRL, SWIRL_SLOPE], -swirl)]
         nodes = None if self.point.system.nodes is None else inflow
-        return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes)
+        return MeasureSlopes(forces=forces, channels=channels, parts=parts, nodes=nodes)
 
 
 class Adjoint(_Linear):
@@ -177,26 +177,28 @@ class Adjoint(_Linear):
         same = start.structure == linear.point.system.structure.name
         super().__init__(linear, start.factors if same else None)
 
-    def by_pitch(self, weights: Weights | Terms) -> Array:
+    def by_pitch(self, weights: ElementSlopes | Terms) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,).
 
         Of weighted fields, or of a sum of terms of the trim's own equations.
         """
         with one_blas_thread():
             of_terms = isinstance(weights, Terms)
-            gradient, by_channel = self.slopes(Measure(terms=weights) if of_terms else self.measure(weights))
+            gradient, by_channel = self.slopes(MeasureSlopes(terms=weights) if of_terms else self.measure(weights))
             joined = joined_hover(self.solution.design)
             if joined is None:
                 return gradient
-            return gradient + self._by_difference(*joined, Weights() if of_terms else weights, by_channel)
+            return gradient + self._by_difference(*joined, ElementSlopes() if of_terms else weights, by_channel)
 
-    def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
+    def _by_difference(
+        self, share: float, difference: HoverDifference, weights: ElementSlopes, by_channel: Array
+    ) -> Array:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
         shape = self.problem.disk.shape
         on_inflow = share * (by_channel[UP] + np.broadcast_to(weights.inflow, shape).sum(axis=1))
         on_swirl = share * (np.broadcast_to(weights.swirl, shape).sum(axis=1) - by_channel[UT])
         around = np.ones(shape) / shape[1]
-        hovering = Weights(
+        hovering = ElementSlopes(
             fz=-(on_inflow @ difference.axial)[:, None] * around,
             inflow=on_inflow[:, None] * around,
             u_t=-(on_inflow @ difference.by_speed)[:, None] * around,
@@ -227,7 +229,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
         )
     if objective == "induced":
         e = adjoint.elements
-        weights = Weights(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
+        weights = ElementSlopes(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
         by_element = adjoint.by_pitch(weights)
     else:
         by_element = adjoint.by_pitch(adjoint.total_terms) * tail_gain(adjoint.solution)

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 
-from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import flight_system
 from rotor.engine.linearise import evaluate
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.adjoint import Adjoint, Objective, PitchGradient, power_along
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem

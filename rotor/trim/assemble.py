@@ -15,14 +15,14 @@ from rotor.aero.unsteady_section import apparent
 from rotor.columns.bending import coordinates_of
 from rotor.columns.flight import disk_sums
 from rotor.engine.waves import wave_grid
+from rotor.support.units import power_text
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import vortex_ring
 from rotor.trim.newton import TrimResult
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
-from rotor.trim.validity import Trimmed, caveats, failure_sentence, implausible
-from rotor.units import power_text
+from rotor.trim.validity import CaveatInputs, caveats, failure_sentence, implausible
 
 _ENERGY = 1e-6
 """Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
@@ -89,7 +89,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         deflections=_deflections(result),
         freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
     )
-    said = tuple(caveats(Trimmed(problem, solution))) if converged else ()
+    said = tuple(caveats(CaveatInputs(problem, solution))) if converged else ()
     return Analysis(replace(solution, caveats=said), result.linear)
 
 

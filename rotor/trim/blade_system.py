@@ -39,9 +39,9 @@ from rotor.aero.bending import build_bending, can_bend
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem
 from rotor.aero.section import CHANNELS, FX, FZ, RATE, TH, UP, UR, UT, M
-from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, at_three_quarters, slopes_ahead, unsteady
-from rotor.arrays import Array
+from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, at_three_quarters, slopes_ahead, unsteady_interface
 from rotor.dynamics.periodic import first_order
+from rotor.support.arrays import Array
 from rotor.trim.newton import LinearisedTrim
 
 JONES = ((0.165, 0.0455), (0.335, 0.3))
@@ -279,7 +279,7 @@ def _air(
     c[:_FIRST] = e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate
     for channel, source in ((DTH, c[RATE]), (DUT, c[UT]), (DUP, c[UP] - e.induced)):
         c[_FIRST + channel] = _derivative(source)
-    interface = unsteady(PLAIN)
+    interface = unsteady_interface(PLAIN)
     _, slopes, _ = interface.section(c, data, True, False)
     motion = _motion(e.u_t, e.u_p, e.u_r, e.beta, shapes, phi)
     n_bend, n = shapes.shape[1], shapes.shape[1] + len(phi)

@@ -8,8 +8,8 @@ import numpy as np
 
 from rotor.aero.problem import LOW_MACH, build_problem, on_azimuths
 from rotor.airfoil.sections import Section
-from rotor.arrays import Array, ShortRepr
 from rotor.design.design import Design
+from rotor.support.arrays import Array, ShortRepr
 from rotor.trim.solution import DiskFields, Solution, require_solution
 
 _SHOWN = (0.25, 0.4, 0.55, 0.7, 0.8, 0.87, 0.92, 0.96, 0.99)

@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
+from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.units import power_unit
 
 SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
-LEAST_TOLD = 0.01
+LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
 
 
@@ -86,7 +86,7 @@ class Doubt:
     @property
     def sureness(self) -> str | None:
         """`sure`, `likely` or `unclear`: whether the sign of the change is known; None without a change."""
-        change, band, least = self.change, self.change_band, 0.01 * LEAST_TOLD * abs(self.against or 0.0)
+        change, band, least = self.change, self.change_band, 0.01 * LEAST_REPORTED * abs(self.against or 0.0)
         return None if change is None or band is None or max(abs(change), band) < least else sureness(change, band)
 
     @property
@@ -95,7 +95,7 @@ class Doubt:
         within, sure = self.change_band_percent, self.sureness
         if within is None or sure is None:
             return ""
-        return f"± {max(within, LEAST_TOLD):.{min(decimals(within), 2)}f} %: {sure}"
+        return f"± {max(within, LEAST_REPORTED):.{min(decimals(within), 2)}f} %: {sure}"
 
     @property
     def sentence(self) -> str:
@@ -194,7 +194,7 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
         tuple(rows),
         None if other is None else other.solution.power.total,
         None if other is None else other.solution.design.twist.spec(),
-        models_beside(solution.design, None if other is None else other.solution.design) if models else (),
+        alternative_models(solution.design, None if other is None else other.solution.design) if models else (),
     )
 
 
@@ -203,7 +203,7 @@ def usual_inflows() -> tuple[str, ...]:
     return tuple(name for name, model in reversed(INFLOW_MODELS.items()) if model.usual)
 
 
-def models_beside(design: Design, against: Design | None = None) -> tuple[OtherModels, ...]:
+def alternative_models(design: Design, against: Design | None = None) -> tuple[OtherModels, ...]:
     """A design, or two, solved with one model changed, a new trim each; those that do not trim are left out."""
     rows: list[OtherModels] = []
     for name, changed in other_models(design).items():

@@ -8,14 +8,14 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.aero.switches import switched_off
-from rotor.arrays import Array
-from rotor.assets import package_version
 from rotor.design.active_twist import active_twist_record, harmonics_record
-from rotor.design.aircraft import told
-from rotor.design.quantities import BESIDE
-from rotor.plots import new_axes
+from rotor.design.aircraft import reported_names
+from rotor.design.quantities import UNUSUAL
+from rotor.support.arrays import Array
+from rotor.support.assets import package_version
+from rotor.support.plots import new_axes
+from rotor.support.user_input import check_suffix, write_whole
 from rotor.trim.solution import ElasticTwist, Solution, require_solution
-from rotor.user_input import check_suffix, write_whole
 
 SCHEMA = "rotor-explorer solution 1"
 """Of `solution_record`: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
@@ -88,7 +88,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "speed_m_s": design.airspeed,
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
-        **{name: design.condition.numbers[name] for name in told([design.condition]) if name in BESIDE},
+        **{name: design.condition.numbers[name] for name in reported_names([design.condition]) if name in UNUSUAL},
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),

@@ -18,11 +18,11 @@ from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import Problem, build_problem
-from rotor.arrays import bytes_cache
 from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, STAND
+from rotor.support.arrays import bytes_cache
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 FAST = 0.25

@@ -6,9 +6,9 @@ import numpy as np
 
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.problem import Problem
-from rotor.arrays import Array
 from rotor.columns.hover import hover_system
 from rotor.engine.linearise import Point, System, evaluate, jacobian
+from rotor.support.arrays import Array
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult
 
 _LARGEST_COLLECTIVE = math.radians(40.0)

@@ -19,10 +19,10 @@ import numpy as np
 
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.arrays import Array
 from rotor.columns.bending import LOADS, has_hub_loads, hub_load_terms
 from rotor.design.design import Design
 from rotor.engine.terms import Terms
+from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.newton import Guess

@@ -30,9 +30,9 @@ from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
-from rotor.arrays import Array, fix
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
+from rotor.support.arrays import Array, fix
 from rotor.trim.forward import SLOWEST, found_course, with_course
 from rotor.trim.hover import hover
 from rotor.trim.newton import TrimResult

@@ -8,15 +8,15 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.analysis import Analysis
 from rotor.trim.assemble import assemble
 from rotor.trim.forward import as_built, start_as_built
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions, newton_together
 from rotor.trim.solution import Solution
-from rotor.trim.solve import Start, analyse, doubtful, guess_of
+from rotor.trim.solve import Start, analyse, guess_of, is_suspect_branch
 
 BESIDE = 32
 """Designs in one step: their fields then stay in the processor's cache. Our choice."""
@@ -84,4 +84,4 @@ def analyse_in_step(
     results = newton_together(problems, guesses, options)
     each = (time.perf_counter() - begin) / len(designs)
     trims = [None if result is None else assemble(result, time.perf_counter() - each) for result in results]
-    return [None if trim is None or doubtful(trim) else trim for trim in trims]
+    return [None if trim is None or is_suspect_branch(trim) else trim for trim in trims]

@@ -10,14 +10,14 @@ from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
 from rotor.aero.section import FZ
 from rotor.aero.side_by_side import side_by_side
-from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.lockstep import alike, solve_together
+from rotor.engine.lockstep import can_share_steps, solve_together
 from rotor.engine.newton import Factors, NewtonLimits, Solved, solve
 from rotor.engine.waves import STEADY
+from rotor.support.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ def newton_together(
     places = [
         k
         for k, x in enumerate(begun)
-        if alike(systems[k], one) and (one.nodes is None or x[one.structure.given :].any())
+        if can_share_steps(systems[k], one) and (one.nodes is None or x[one.structure.given :].any())
     ]
     x = np.array([begun[k] for k in places])
     limits, data = _limits(problems[0], one, options), partial(side_by_side, one.grid.data)

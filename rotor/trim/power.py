@@ -29,10 +29,10 @@ import numpy as np
 from rotor.aero.elements import BladeElements, DiskSums
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import Problem
-from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
 from rotor.engine.waves import wave_grid
+from rotor.support.arrays import Array
 
 
 @dataclass(frozen=True)

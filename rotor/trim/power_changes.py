@@ -15,12 +15,12 @@ import numpy as np
 
 from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import EARLIER_RISE, MORE_DRAG, MORE_LIFT, MORE_MOMENT, SCATTER
-from rotor.arrays import Array
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
+from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.low_speed import hover_share
 from rotor.trim.power import outside_power
@@ -38,7 +38,7 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
     solution = adjoint.solution
     if solution.design.models.trim == "free-rotor":
         raise RuntimeError("A free rotor takes no power from its shaft, so there is no band: use trim wind-tunnel.")
-    near = _Near(adjoint)
+    near = _PowerNearby(adjoint)
     changes = dict[str, float]()
     for row in uncertain_inputs(solution.design):
         if row.name in _POWERS:
@@ -64,7 +64,7 @@ def hover_part(mu: float, thrust: float) -> float:
     return (thrust / (math.hypot(mu**2, thrust) + mu**2)) ** 2 if mu else 1.0
 
 
-class _Near:
+class _PowerNearby:
     """A trim, and the power of designs near it."""
 
     def __init__(self, adjoint: Adjoint) -> None:

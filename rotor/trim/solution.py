@@ -17,13 +17,13 @@ from rotor.aero.display import STALLED, pitch_of_alpha
 from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
-from rotor.arrays import Array, Booleans, ShortRepr
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
+from rotor.support.arrays import Array, Booleans, ShortRepr
+from rotor.support.units import power_unit
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
-from rotor.units import power_unit
 
 
 class Status(Enum):

@@ -4,10 +4,10 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotor.blas_threads import one_blas_thread
 from rotor.columns.blade import Freedom
 from rotor.columns.flight import check_freedoms
 from rotor.design.design import Design, require_design
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.analysis import Analysis
 from rotor.trim.assemble import assemble
 from rotor.trim.branches import least_of_branches
@@ -58,7 +58,7 @@ def analyse(
     """`solve`, with the equations at the solution kept: for gradients, `doubt`, `hub_loads` and `stability`."""
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
-    found = _once(require_design(design), start, options, freedoms)
+    found = _trim_branch(require_design(design), start, options, freedoms)
     solution = found.solution
     if not solution.converged or design.hovering or solution.stalled_thrust <= stall_limit(found.linear.problem):
         return found
@@ -69,7 +69,7 @@ def analyse(
     return Analysis(refused, found.linear)
 
 
-def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]) -> Analysis:
+def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]) -> Analysis:
     """The trim of least power, however much is stalled."""
     begin = time.perf_counter()
     problem = trim_problem(design, freedoms)
@@ -84,12 +84,12 @@ def _once(design: Design, start: Start, options: SolverOptions, freedoms: Sequen
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
     found = assemble(result, begin)
-    if design.condition.stand is not None or not (result.converged and doubtful(found)):
+    if design.condition.stand is not None or not (result.converged and is_suspect_branch(found)):
         return found
     return least_of_branches(found, stall_limit(problem), options)
 
 
-def doubtful(found: Analysis) -> bool:
+def is_suspect_branch(found: Analysis) -> bool:
     """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
     return found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
 

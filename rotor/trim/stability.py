@@ -19,10 +19,10 @@ from scipy.linalg import eigvals
 from scipy.linalg import solve as solve_linear
 from scipy.optimize import brentq, linear_sum_assignment
 
-from rotor.arrays import Array
-from rotor.assets import package_version
 from rotor.design.design import Design
 from rotor.dynamics.periodic import Exponents, exponents, growth
+from rotor.support.arrays import Array
+from rotor.support.assets import package_version
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.blade_system import BladeSystem, blade_system
 from rotor.trim.newton import LinearisedTrim

@@ -14,14 +14,14 @@ from rotor.aero.momentum import VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
-from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, Stand
 from rotor.design.design import Design
+from rotor.support.arrays import Array
+from rotor.support.units import power_text
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.power import HubMoment
 from rotor.trim.solution import Caveat, Solution
-from rotor.units import power_text
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -51,7 +51,7 @@ FAST_PITCH = 0.2
 
 
 @dataclass(frozen=True)
-class Trimmed:
+class CaveatInputs:
     """A converged trim, and what caveats read of it."""
 
     problem: Problem
@@ -75,7 +75,7 @@ class Trimmed:
         return not self.problem.inflow.load_dependent
 
 
-def caveats(trim: Trimmed) -> Iterator[Caveat]:
+def caveats(trim: CaveatInputs) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds, in the order in which they are listed."""
     for remark in trim.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
@@ -84,7 +84,7 @@ def caveats(trim: Trimmed) -> Iterator[Caveat]:
         yield Caveat(name, sentence)
 
 
-def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
+def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
     design, models = trim.design, trim.design.models
     said = dict[str, str]()
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
@@ -126,7 +126,7 @@ def _of_the_rotor(trim: Trimmed) -> dict[str, str]:
     return said
 
 
-def _of_the_models(trim: Trimmed) -> dict[str, str]:
+def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
     design, models, power = trim.design, trim.design.models, trim.solution.last_power
     said = dict[str, str]()
     if off := switched_off(models):
@@ -165,7 +165,7 @@ def _of_the_models(trim: Trimmed) -> dict[str, str]:
     return said
 
 
-def _of_the_flight(trim: Trimmed) -> dict[str, str]:
+def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     design, mu, power = trim.design, trim.mu, trim.solution.last_power
     said = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
@@ -219,7 +219,7 @@ def _of_the_flight(trim: Trimmed) -> dict[str, str]:
     return said
 
 
-def _of_the_sections(trim: Trimmed) -> dict[str, str]:
+def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
     design, fields, disk = trim.design, trim.solution.disk, trim.problem.disk
     said = dict[str, str]()
     if trim.solution.stalled_area > STALL_SHARE:
@@ -260,7 +260,7 @@ def _of_the_sections(trim: Trimmed) -> dict[str, str]:
     return said
 
 
-def _held_reynolds(trim: Trimmed) -> str:
+def _held_reynolds(trim: CaveatInputs) -> str:
     """Where the blade has Reynolds numbers beyond those of its section data; empty where it has none."""
     design, r = trim.design, trim.problem.disk.r
     blade, said = design.rotor.blade, list[str]()
@@ -283,7 +283,7 @@ def _held_reynolds(trim: Trimmed) -> str:
     return " ".join(said)
 
 
-def _beyond_stops(trim: Trimmed) -> list[str]:
+def _beyond_stops(trim: CaveatInputs) -> list[str]:
     """What each control that is beyond its stops needs, and what it has, in words."""
     stops, state, words = trim.design.aircraft.controls, trim.solution.controls, list[str]()
     if stops is None:
@@ -395,7 +395,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
     share, advice = _share(stalled, reached), _advice(design)
-    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.beside))
+    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.unusual))
     if design.hovering:
         return (
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "

@@ -1,6 +1,6 @@
 """Our number beside every measured point of rotors that were tested. Nothing is fitted to these points."""
 
-from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, agreement, measured_curves, our_curve
+from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, agreement, computed_curve, measured_curves
 from rotor.validation.compare import Comparison, MeasuredSet, compare, compare_point, design_at, load_set, sets_of
 from rotor.validation.trust import TrustRow, trust_rows
 from rotor.validation.uh60a import public_data
@@ -15,10 +15,10 @@ __all__ = (
     "agreement",
     "compare",
     "compare_point",
+    "computed_curve",
     "design_at",
     "load_set",
     "measured_curves",
-    "our_curve",
     "public_data",
     "sets_of",
     "trust_rows",

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import AZIMUTH, Axis, Chart, Series
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import AZIMUTH, Axis, Chart, Series
 from rotor.trim.distribution import distribution
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -133,11 +133,11 @@ class CurveAgreement:
 
     def amplitude(self, n: int, *, measured: bool = False) -> float:
         """Amplitude of harmonic n."""
-        return abs(wave(self.measured_waves if measured else self.waves, n))
+        return abs(wave_amplitude(self.measured_waves if measured else self.waves, n))
 
     def phase_deg(self, n: int, *, measured: bool = False) -> float:
         """φ of A cos(nψ − φ), −180 to 180°."""
-        return math.degrees(cmath.phase(wave(self.measured_waves if measured else self.waves, n)))
+        return math.degrees(cmath.phase(wave_amplitude(self.measured_waves if measured else self.waves, n)))
 
     def ratio(self, n: int) -> float:
         """Our amplitude over the measured one, less 1."""
@@ -145,7 +145,7 @@ class CurveAgreement:
 
     def late_deg(self, n: int) -> float:
         """Our phase less the measured one, −180 to 180°."""
-        return math.degrees(cmath.phase(wave(self.waves, n) / wave(self.measured_waves, n)))
+        return math.degrees(cmath.phase(wave_amplitude(self.waves, n) / wave_amplitude(self.measured_waves, n)))
 
     def to_dict(self) -> dict[str, Any]:
         """For `validate --json`."""
@@ -189,7 +189,7 @@ def columns(rows: Sequence[Mapping[str, str]], *names: str) -> list[Array]:
     return [np.array([float(row[name]) for row in rows]) for name in names]
 
 
-def our_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array]:
+def computed_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array]:
     """Azimuths [rad] and our values of a measured quantity there, (azimuths,) each."""
     disk = solution.disk
     if measured.quantity == "tip_twist_deg":
@@ -239,12 +239,12 @@ def harmonics(psi: Array, values: Array, highest: int) -> Array:
     return np.asarray(np.linalg.lstsq(basis, values, rcond=None)[0], dtype=np.float64)
 
 
-def wave(of: Array, n: int) -> complex:
+def wave_amplitude(of: Array, n: int) -> complex:
     """A exp(iφ) of the part A cos(nψ − φ) of `harmonics`."""
     return complex(of[n], of[n + len(of) // 2])
 
 
-def closed(psi: Array, values: Array) -> tuple[Array, Array]:
+def closed_around(psi: Array, values: Array) -> tuple[Array, Array]:
     """Azimuths [°] and values of a line around the azimuth, with the first repeated at 360°."""
     return np.append(np.degrees(psi), 360.0), np.append(values, values[0])
 
@@ -264,7 +264,7 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
     """A measured curve beside that of a solution."""
-    theirs, ours = measured.waves, harmonics(*our_curve(measured, solution), measured.highest)
+    theirs, ours = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
     computed, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
     size = math.sqrt((computed @ computed) * (other @ other))
     return CurveAgreement(

@@ -11,13 +11,13 @@ from typing import Any, Literal, cast
 
 import numpy as np
 
-from rotor.assets import asset_path
-from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.design.quantities import HoverInflow
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.assets import asset_path
+from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet

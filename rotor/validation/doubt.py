@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from rotor.chart import Axis, Chart, Points
 from rotor.files.make_design import make_design
+from rotor.support.chart import Axis, Chart, Points
 from rotor.trim.doubt import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -25,7 +25,7 @@ FLOWN = {"gazelle": "level flight", "bo105": "Bo 105, mass assumed"}
 
 
 @dataclass(frozen=True)
-class HeldPoint:
+class PointAndBand:
     """One measured power beside ours with its band."""
 
     name: str
@@ -42,7 +42,7 @@ class HeldPoint:
         return abs(self.error) <= self.band
 
 
-def held_points() -> Iterator[HeldPoint]:
+def points_and_bands() -> Iterator[PointAndBand]:
     """All measured powers at which our rotor trims, in order of kind."""
     for kind, names in POWERS.items():
         for measured in map(load_set, names):
@@ -51,24 +51,26 @@ def held_points() -> Iterator[HeldPoint]:
             yield from _flown()
 
 
-def _flown() -> Iterator[HeldPoint]:
+def _flown() -> Iterator[PointAndBand]:
     for power in measured_powers():
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         if solution.converged:
-            yield _held(TITLES[power.rotor], FLOWN[power.rotor], solution, power.power)
+            yield _point_and_band(TITLES[power.rotor], FLOWN[power.rotor], solution, power.power)
 
 
-def _held_of(measured: MeasuredSet, point: dict[str, float], kind: str) -> Iterator[HeldPoint]:
+def _held_of(measured: MeasuredSet, point: dict[str, float], kind: str) -> Iterator[PointAndBand]:
     """One point of a set; none where our rotor does not trim."""
     solution = solve(design_at(measured, point))
     if solution.converged:
         design, above_zero = solution.design, measured.quantity == "cq_above_zero"
         part = design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0
         power = point[measured.quantity] * part * design.power_unit
-        yield _held(measured.title, kind, solution, power, at_zero(design) if above_zero else None)
+        yield _point_and_band(measured.title, kind, solution, power, at_zero(design) if above_zero else None)
 
 
-def _held(name: str, kind: str, solution: Solution, measured: float, zero: Solution | None = None) -> HeldPoint:
+def _point_and_band(
+    name: str, kind: str, solution: Solution, measured: float, zero: Solution | None = None
+) -> PointAndBand:
     """A power at the main rotor's shaft, or what it is above that without thrust, beside a measurement.
 
     The band is that of the same power or difference, without that of the tail rotor.
@@ -78,12 +80,12 @@ def _held(name: str, kind: str, solution: Solution, measured: float, zero: Solut
         ours, total = ours - zero.power.main_rotor, total - zero.power.total
     rows = [row for row in doubt(solution, zero).rows if row.name != "tail_rotor_percent"]
     band = math.hypot(*(row.power if row.change is None else row.change for row in rows))
-    return HeldPoint(name, kind, measured / ours - 1.0, band / abs(total))
+    return PointAndBand(name, kind, measured / ours - 1.0, band / abs(total))
 
 
 def doubt_set() -> TrustSet:
     """For the trust page."""
-    words, held = description(NAME), list(held_points())
+    words, held = description(NAME), list(points_and_bands())
     by_name = {name: [point for point in held if point.name == name] for name in dict.fromkeys(p.name for p in held)}
     heads = ("Set", "Kind of flight", "Points", "Inside", "Mean band [%]", "Mean error [%]", "Worst error [%]")
     rows: list[TrustRow] = []
@@ -98,11 +100,11 @@ def doubt_set() -> TrustSet:
         parts = f"{100 * band:.1f}", f"{100 * mean:+.1f}", f"{100 * max(errors, key=abs):+.1f}"
         cells.append((name, points[0].kind, f"{count}", f"{inside}", *parts))
     chart = Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=tuple(by_name)), tuple(series))
-    text = (paragraph.format(counted=counted(held)) for paragraph in words.text)
-    return words.page(counted(held), rows, (chart,), text=text, points=cells)
+    text = (paragraph.format(counted=count_by_kind(held)) for paragraph in words.text)
+    return words.page(count_by_kind(held), rows, (chart,), text=text, points=cells)
 
 
-def counted(held: Iterable[HeldPoint]) -> str:
+def count_by_kind(held: Iterable[PointAndBand]) -> str:
     """Points inside their band and outside, by kind of flight: many of one rotor in hover do not stand for the rest."""
     kinds: dict[str, list[bool]] = {}
     for point in held:

@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.momentum import glauert_inflow
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.study.series import between_drag_areas
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation import airloads
@@ -73,7 +73,7 @@ class MeasuredPower:
         here = design.condition
         pairs = ((here.mass, self.mass), (here.altitude, self.altitude))
         same = all(math.isclose(value, other, abs_tol=1e-6) for value, other in pairs)
-        return here.stand is None and same and not here.beside
+        return here.stand is None and same and not here.unusual
 
     def same_flight(self, design: Design) -> bool:
         """Whether a design also flies at this advance ratio."""
@@ -309,7 +309,7 @@ def _lift_chart(solution: Solution, curves: Sequence[airloads.MeasuredCurve]) ->
     series: list[Series] = []
     for k, measured in enumerate(curves, start=1):
         series.append(Points(f"measured, {measured.r:g} R", np.degrees(measured.psi), measured.values, k))
-        series.append(Line("computed", *airloads.closed(*airloads.our_curve(measured, solution)), k))
+        series.append(Line("computed", *airloads.closed_around(*airloads.computed_curve(measured, solution)), k))
     case = curves[0].case
     title = f"Section lift coefficient, {case.name}, µ {case.conditions['mu']:g}"
     return airloads.azimuth_chart(title, f"c_l, {case.name}", series)

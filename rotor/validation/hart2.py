@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from rotor.aero.lifting_line import WakeCourse
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import Axis, Chart, Line, Points, Series
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation import airloads
@@ -129,19 +129,19 @@ def _charts(solutions: Mapping[str, Solution]) -> Iterator[Chart]:
     for quantity in ("cn_m2", "cm_m2"):
         for name, solution in solutions.items():
             measured = beside[name, quantity]
-            psi, values = airloads.our_curve(measured, solution)
+            psi, values = airloads.computed_curve(measured, solution)
             theirs = measured.values - measured.values.mean()
             label = f"{QUANTITIES[quantity]}, {name}, without mean"
             points = Points("measured", np.degrees(measured.psi[::2]), theirs[::2])
             yield airloads.azimuth_chart(
-                label, label, (points, Line("computed", *airloads.closed(psi, values - values.mean()), 1))
+                label, label, (points, Line("computed", *airloads.closed_around(psi, values - values.mean()), 1))
             )
     for quantity in ("tip_twist_deg", "tip_flap"):
         series: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
             measured = beside[name, quantity]
             series.append(Points(f"{name}, measured", np.degrees(measured.psi), measured.values, k))
-            series.append(Line("computed", *airloads.closed(*airloads.our_curve(measured, solution)), k))
+            series.append(Line("computed", *airloads.closed_around(*airloads.computed_curve(measured, solution)), k))
         yield airloads.azimuth_chart(QUANTITIES[quantity], QUANTITIES[quantity], series)
 
 

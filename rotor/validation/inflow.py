@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import Chart, Line, Points, Series
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import Chart, Line, Points, Series
 from rotor.trim.doubt import usual_inflows
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution

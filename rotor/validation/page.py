@@ -13,9 +13,9 @@ from dataclasses import astuple, fields
 from functools import partial
 from pathlib import Path
 
-from rotor.chart_svg import small_svg, svg
-from rotor.markup import tag
-from rotor.user_input import csv_text
+from rotor.support.chart_svg import small_svg, svg
+from rotor.support.markup import tag
+from rotor.support.user_input import csv_text
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
@@ -28,7 +28,7 @@ from rotor.validation.trust import KINDS, VERDICTS, TrustRow, TrustSet
 
 SETS: dict[str, Callable[[], TrustSet]] = {
     **{name: partial(measured_set, name) for name in MEASURED},
-    "uh60a-hover": uh60a.hover,
+    "uh60a-hover": uh60a.hover_set,
     INFLOW_SET: inflow_set,
     hart2.SET: hart2.hart2_set,
     flown.AIRLOADS: flown.gazelle_set,
@@ -36,14 +36,15 @@ SETS: dict[str, Callable[[], TrustSet]] = {
     flown.POWERS: flown.flown_set,
     DOUBT_SET: doubt_set,
     stall_loops.SET: stall_loops.loops_set,
-    "sc1095": uh60a.section,
-    "uh60a-constants": uh60a.constants,
-    "uh60a-forward": uh60a.forward,
-    "theory": verification.theory,
-    "dynbem": verification.dynbem,
-    "ccblade": verification.ccblade,
+    "sc1095": uh60a.section_set,
+    "uh60a-constants": uh60a.constants_set,
+    "uh60a-forward": uh60a.forward_set,
+    "theory": verification.theory_set,
+    "dynbem": verification.dynbem_set,
+    "ccblade": verification.ccblade_set,
 }
-"""Maker of each set by its name. Statements of the thesis come from its figures (`rotor.reproduce.catalogue`)."""
+"""Maker of each set by its name. Statements of the thesis come from its figures
+(`rotor.validation.thesis.catalogue`)."""
 LONGEST = 64
 """Letters of a cell that fit into two lines; a test holds it, so that a long run is not lost for a word."""
 FOLDER = "validation"

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, follow, room_for
+from rotor.aero.dynamic_stall import ADDED_M, ADDED_N, StallData, empty_lags, stall_states
 from rotor.aero.lifting_line import theodorsen
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.airfoil.section_table import SectionTable, table_from_deck
 from rotor.airfoil.stall_onset import stall_onset
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import Axis, Chart, Line, Points
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.validation.airloads import columns
 from rotor.validation.trust import TrustSet, description
 
@@ -101,7 +101,7 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     data = StallData(**own, section=section, weight=weight, tip_mach=mach)
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     x = seen - float(table.zero_lift_alpha(mach))
-    follow(0, x, np.full(_AZIMUTHS, mach), data, False, added, room_for(0, _AZIMUTHS), shown)
+    stall_states(0, x, np.full(_AZIMUTHS, mach), data, False, added, empty_lags(0, _AZIMUTHS), shown)
     mass = math.pi * (q + 0.5 * turning)
     moment = -0.25 * (mass + math.pi * q + 0.25 * math.pi * turning)
     dynamic = _static(table, seen, mach) + np.stack([added[ADDED_N] + mass, added[ADDED_M] + moment])

@@ -14,8 +14,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.assets import asset_path, csv_rows
-from rotor.chart import Chart
+from rotor.support.assets import asset_path, csv_rows
+from rotor.support.chart import Chart
 
 Kind = Literal["validation", "indicative", "verification", "public code", "document"]
 KINDS: dict[Kind, str] = {

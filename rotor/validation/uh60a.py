@@ -17,13 +17,13 @@ import numpy as np
 
 from rotor.airfoil.public_points import agreement, public_points
 from rotor.airfoil.sections import load_section
-from rotor.arrays import Array
-from rotor.assets import asset_path
-from rotor.chart import Axis, Chart, Line, Points, Series
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path
+from rotor.support.chart import Axis, Chart, Line, Points, Series
+from rotor.support.units import KNOT
 from rotor.trim.solve import solve
-from rotor.units import KNOT
 from rotor.validation import airloads
 from rotor.validation.trust import TrustRow, TrustSet, description, rms
 
@@ -47,7 +47,7 @@ def public_data() -> dict[str, Any]:
 
 
 @cache
-def beside_hover_points() -> tuple[list[float], list[float], list[float]]:
+def hover_comparison() -> tuple[list[float], list[float], list[float]]:
     """C_T/σ, digitised C_P/σ and ours."""
     points = public_data()["hover"]
     solidity = points["solidity"]
@@ -62,7 +62,7 @@ def beside_hover_points() -> tuple[list[float], list[float], list[float]]:
 
 
 @cache
-def beside_model_curve(preset: str) -> tuple[list[float], list[float], list[float]]:
+def model_curve_comparison(preset: str) -> tuple[list[float], list[float], list[float]]:
     """Advance ratios, the public model curve and ours, main-rotor power [kW]."""
     curve = public_data()["forward"]
     tip_speed = make_design().rotor.tip_speed
@@ -76,14 +76,14 @@ def beside_model_curve(preset: str) -> tuple[list[float], list[float], list[floa
 
 def model_curve_errors(preset: str = "flight") -> tuple[float, float]:
     """Root mean square and mean of a preset over the model's curve, less one, above `SLOWEST`."""
-    speeds, theirs, ours = map(np.array, beside_model_curve(preset))
+    speeds, theirs, ours = map(np.array, model_curve_comparison(preset))
     errors = (ours / theirs - 1.0)[speeds > SLOWEST]
     return rms(errors), float(errors.mean())
 
 
-def hover() -> TrustSet:
+def hover_set() -> TrustSet:
     """Every point counts, whatever the test's own tolerance leaves out."""
-    words, (ct, cp, ours) = description("uh60a-hover"), beside_hover_points()
+    words, (ct, cp, ours) = description("uh60a-hover"), hover_comparison()
     ratio = np.array(ours) / np.array(cp) - 1.0
     rows = (
         words.share("Hover C_P, worst of ten points", float(ratio.min()), 3e-3),
@@ -100,9 +100,9 @@ def hover() -> TrustSet:
     )  # fmt: skip
 
 
-def forward() -> TrustSet:
+def forward_set() -> TrustSet:
     """Power over speed beside another model's."""
-    words, (speeds, theirs, ours) = description("uh60a-forward"), beside_model_curve("flight")
+    words, (speeds, theirs, ours) = description("uh60a-forward"), model_curve_comparison("flight")
     size, mean = model_curve_errors()
     rows = (
         words.share("Main-rotor power in forward flight, rms over seven speeds", size, 3e-3, note="rms"),
@@ -119,7 +119,7 @@ def forward() -> TrustSet:
     )  # fmt: skip
 
 
-def section() -> TrustSet:
+def section_set() -> TrustSet:
     """SC1095 against the public data that no constant was read off."""
     words, rms = description("sc1095"), agreement("sc1095")
     divergence = "Drag-divergence Mach number at 0, 2, 4°, largest difference"
@@ -160,7 +160,7 @@ def _drag_rise() -> Chart:
     return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 
-def constants() -> TrustSet:
+def constants_set() -> TrustSet:
     """Published constants of sections and blade."""
     words, rows = description("uh60a-constants"), list[TrustRow]()
     for name, published in LIFT_SLOPE.items():
@@ -217,9 +217,9 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
             design = measured.case.design()
             solution = solve(design).require()
             rigid = solve(replace(design, models=replace(design.models, bending=False))).require()
-            psi, ours = airloads.our_curve(measured, solution)
+            psi, ours = airloads.computed_curve(measured, solution)
             yield PitchLinkLoad(
-                design.condition.advance_ratio, measured, psi, ours, airloads.our_curve(measured, rigid)[1],
+                design.condition.advance_ratio, measured, psi, ours, airloads.computed_curve(measured, rigid)[1],
                 airloads.agreement(measured, solution),
             )  # fmt: skip
 
@@ -276,8 +276,8 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
     title = f"Pitch-link load, µ {load.mu:g}"
     series = (
         Points("measured", np.degrees(load.measured.psi), 1e-3 * load.measured.values),
-        Line("computed", *airloads.closed(load.psi, 1e-3 * load.ours), 1),
-        Line("without bending", *airloads.closed(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
+        Line("computed", *airloads.closed_around(load.psi, 1e-3 * load.ours), 1),
+        Line("without bending", *airloads.closed_around(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
     )
     return airloads.azimuth_chart(title, f"{title} [kN]", series)
 

@@ -16,12 +16,12 @@ from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import build_problem
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UR, UT, section
-from rotor.arrays import Array
-from rotor.chart import Axis, Chart, Line, Points
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
@@ -35,7 +35,7 @@ CCBLADE_MASSES = (5000.0, 8322.4)
 """[kg] in hover."""
 
 
-def theory() -> TrustSet:
+def theory_set() -> TrustSet:
     """The equations as solved against what they must satisfy."""
     words, (marched, balanced, second) = description("theory"), marched_flapping("thesis", 0.15)
     flapping = math.degrees(np.abs(marched - balanced).max())
@@ -181,7 +181,7 @@ _IDENTITIES = (
 """What and against what, the error, its bound, and the test."""
 
 
-def dynbem() -> TrustSet:
+def dynbem_set() -> TrustSet:
     """Pitt–Peters inflow in forward flight."""
     rows = _stored("dynbem")
     power = _percent(rows)
@@ -190,7 +190,7 @@ def dynbem() -> TrustSet:
     return description("dynbem").page(f"{power[-1]:+.2f} % at most", rows, (chart,))
 
 
-def ccblade() -> TrustSet:
+def ccblade_set() -> TrustSet:
     """Hover, without and with swirl."""
     rows = _stored("ccblade")
     power = _percent(rows)

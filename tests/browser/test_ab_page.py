@@ -13,8 +13,8 @@ _ALPHA = "RX.state.strip.find(one => one.name === 'alpha').chart.series"
 _BESIDE_A = f"{_ALPHA}.some(line => line.colour === 'var(--rx-pinned)')"
 
 
-def ghost_seen(watched: Watched) -> bool:
-    return watched.page.evaluate("() => window.__viserMutable.nodeRefFromName['/rotor/blade_0/ghost'].visible")
+def overlay_seen(watched: Watched) -> bool:
+    return watched.page.evaluate("() => window.__viserMutable.nodeRefFromName['/rotor/blade_0/overlay'].visible")
 
 
 def total_row(watched: Watched) -> list[str]:
@@ -63,7 +63,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     page.keyboard.press("Escape")
     watched.says("against", "A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", "0.0"])
-    watched.until(lambda: ghost_seen(watched))  # A and B are one blade: the ghost is its jig shape.
+    watched.until(lambda: overlay_seen(watched))  # A and B are one blade: the overlay is its jig shape.
     page.wait_for_function(f"() => {_BESIDE_A}")
 
     disk = watched.node("/rotor/disk/field")
@@ -99,7 +99,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     press(watched, "Unpin")
     page.wait_for_selector('[data-explorer="ab"]', state="detached")
     page.wait_for_function("() => !RX.state.bar.pinned")
-    watched.until_changed(lambda: ghost_seen(watched), False)  # Of the blade as built.
+    watched.until_changed(lambda: overlay_seen(watched), False)  # Of the blade as built.
     watched.says("against", "UH-60A as built")
     watched.until(lambda: "B − A" not in page.locator('[data-part="unit"]').inner_text())
     page.get_by_role("button", name="Show B − A").wait_for(state="detached")

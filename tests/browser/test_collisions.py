@@ -69,7 +69,7 @@ def explore(watched: Watched) -> States:
     send(watched, "view", "3d")
     page.evaluate("() => document.activeElement?.blur()")
     page.keyboard.press("g")
-    page.wait_for_function("() => RX.state.rubber")
+    page.wait_for_function("() => RX.state.twisting")
     watched.drawn()  # Keys are heard from the frame on that shows it.
     for times, name in ((2, "tip held"), (9, "tip far from the least")):
         for _ in range(times):
@@ -78,7 +78,7 @@ def explore(watched: Watched) -> States:
         page.wait_for_function("() => RX.state.hand?.best")
         yield name, ""
     page.keyboard.press("Escape")
-    page.wait_for_function("() => !RX.state.rubber && !document.documentElement.hasAttribute('data-rubber')")
+    page.wait_for_function("() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')")
     yield "let go", "3d"
 
 

@@ -22,7 +22,7 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
             page.wait_for_timeout(60)
         page.wait_for_function("() => RX.state.hand?.power")
         page.mouse.up()
-        page.wait_for_function("() => RX.state.hand === null && RX.state.rubber === null")
+        page.wait_for_function("() => RX.state.hand === null && RX.state.twisting === null")
         watched.answered()
 
     # Open: a trimmed rotor, its power, and where to begin.

@@ -55,7 +55,9 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
         page.mouse.move(x, y - 3 * step)
         page.wait_for_timeout(60)
     page.wait_for_function("() => RX.state.hand?.place.startsWith('tip 1.00 R')")
-    page.wait_for_function("() => RX.state.plan?.held === 'before' && RX.part('rubber').textContent.includes('before')")
+    page.wait_for_function(
+        "() => RX.state.plan?.held === 'before' && RX.part('twisting').textContent.includes('before')"
+    )
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null")
     watched.until_changed(lambda: watched.text("total-power"), before)

@@ -30,7 +30,7 @@ def presenting(visit: Visit) -> tuple[Watched, str]:
     presenter = visit()
     presenter.drawer("lecture")
     presenter.page.get_by_role("button", name="Present", exact=True).click()
-    link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
+    link = presenter.page.locator('[data-explorer="presentation"] a').get_attribute("href")
     assert link is not None
     return presenter, link
 
@@ -120,7 +120,7 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
     page = presenter.page
     follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
-    follower.reads("presence", "the presenter controls")
+    follower.reads("presentation", "the presenter controls")
     page.keyboard.press("t")
     for k in (1, 2, 3):
         stands_at(page, k)
@@ -159,12 +159,12 @@ def test_others_follow_the_presenter_and_may_leave(visit: Visit):
     secret = page.wait_for_function(present).json_value()
     assert secret not in page.url  # Whoever is sent the address must not become the presenter.
     page.reload()
-    page.wait_for_selector('[data-explorer="presence"] a')  # The page itself presents on.
-    assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
+    page.wait_for_selector('[data-explorer="presentation"] a')  # The page itself presents on.
+    assert page.locator('[data-explorer="presentation"] a').get_attribute("href") == link
     follower = visit(COARSE + link.replace("?", "&"))
     other = follower.page
-    follower.reads("presence", "the presenter controls")
-    presenter.reads("presence", "1 follower")
+    follower.reads("presentation", "the presenter controls")
+    presenter.reads("presentation", "1 follower")
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)
     presenter.until_changed(lambda: shown_kw(presenter), before)

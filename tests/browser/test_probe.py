@@ -8,7 +8,7 @@ import pytest
 from watched import Watched
 
 from explorer.model.inputs import Inputs
-from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, Covered, View, fit
 from rotor.files.make_design import uh60a_rotor
 
 pytestmark = pytest.mark.browser
@@ -48,10 +48,10 @@ def eye(watched: Watched) -> np.ndarray:
     return np.array([-z, -x, y])  # three.js has y up; the session's world is turned against it.
 
 
-def _cover(watched: Watched) -> Cover:
+def _cover(watched: Watched) -> Covered:
     """What cards cover of the canvas, as the page says."""
     above, below = watched.page.evaluate("() => RX.covered")
-    return Cover(min(above, 0.45), min(below, 0.45))
+    return Covered(min(above, 0.45), min(below, 0.45))
 
 
 def stands(watched: Watched, view: View) -> bool:

@@ -16,7 +16,7 @@ from watched import OPEN, WAIT, Watched
 
 from explorer import web
 from explorer.app import App
-from explorer.hosting.gate import ServerLimits
+from explorer.hosting.server_limits import ServerLimits
 
 pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parent.parent.parent

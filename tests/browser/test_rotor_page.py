@@ -6,7 +6,7 @@ import pytest
 from watched import WAIT, Watched
 
 from explorer.model.inputs import Inputs
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="builtin")

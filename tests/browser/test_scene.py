@@ -71,10 +71,10 @@ def value(watched: Watched, label: str) -> float:
 
 
 # Height [px] of the held trailing edge, where the blade is seen from the tip.
-EDGE = "() => Number(RX.part('rubber').querySelector('circle').getAttribute('cy'))"
+EDGE = "() => Number(RX.part('twisting').querySelector('circle').getAttribute('cy'))"
 # Boxes of the live disk, of the blade with its words, and of the card of power.
 BOXES = """() => {
-    const blade = RX.part('rubber').querySelectorAll('path[fill]:not([fill=none])');
+    const blade = RX.part('twisting').querySelectorAll('path[fill]:not([fill=none])');
     const disk = RX.part('plan').querySelector('[data-colours]');
     return [disk, ...blade, document.querySelector('.rxf-power')].map(one => {
         const box = one.getBoundingClientRect();
@@ -87,7 +87,7 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     page = watched.page
     camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
     x, y = watched.grab_tip()
-    page.wait_for_function("() => document.documentElement.hasAttribute('data-rubber')")
+    page.wait_for_function("() => document.documentElement.hasAttribute('data-twisting')")
     edge = watched.at_rest(lambda: page.evaluate(EDGE))
     for step in range(1, 11):
         page.mouse.move(x, y + 12 + 4 * step)
@@ -100,13 +100,13 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     assert disk[2] <= min(box[0] for box in blade) + 1.0
     assert min(box[1] for box in (disk, *blade)) >= card[3] - 1.0
     assert page.evaluate("() => RX.state.plan.regions.some(one => one.before.length)")
-    told = page.evaluate("() => RX.part('rubber').textContent")
+    told = page.evaluate("() => RX.part('twisting').textContent")
     assert all(word in told for word in ("kW", "before ", "least "))
     assert page.evaluate("() => RX.state.hand.best.theta") < -2.0  # It began at −2°.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
     page.mouse.up()
-    page.wait_for_function("() => RX.state.hand === null && RX.state.rubber === null")
-    page.wait_for_function("() => !document.documentElement.hasAttribute('data-rubber')")
+    page.wait_for_function("() => RX.state.hand === null && RX.state.twisting === null")
+    page.wait_for_function("() => !document.documentElement.hasAttribute('data-twisting')")
     outer = watched.at_rest(lambda: value(watched, "Outboard"))
     assert outer > -7.0
     assert value(watched, "Inboard") == -14.0
@@ -121,18 +121,18 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     page = watched.page
     undo = page.evaluate("() => RX.state.bar.undo")
     page.keyboard.press("g")
-    page.wait_for_function("() => RX.state.rubber?.by === 'key'")
+    page.wait_for_function("() => RX.state.twisting?.by === 'key'")
     watched.drawn()  # Keys are heard from the frame on that shows it.
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
     watched.until(lambda: value(watched, "Outboard") > -3.0)
     for _ in range(20):
         page.keyboard.press("Shift+ArrowUp")
-    page.wait_for_function("() => RX.part('rubber').textContent.includes('limit of Outboard')")
+    page.wait_for_function("() => RX.part('twisting').textContent.includes('limit of Outboard')")
     watched.until(lambda: value(watched, "Outboard") == 10.0)
     page.keyboard.press("Escape")
     watched.until(lambda: value(watched, "Outboard") == -8.0)
-    page.wait_for_function("() => RX.state.rubber === null")
+    page.wait_for_function("() => RX.state.twisting === null")
     watched.answered()
     assert page.evaluate("() => RX.state.bar.undo") is undo
 

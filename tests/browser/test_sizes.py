@@ -106,17 +106,18 @@ def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit, size: tuple[int, 
         "() => RX.state.hand && document.documentElement.style.getPropertyValue('--rx-shown') === '1'"
     )
     watched.until(lambda: page.evaluate("() => RX.state.power.total") != power)
-    page.wait_for_function("() => RX.part('rubber').textContent.includes('second finger')")
+    page.wait_for_function("() => RX.part('twisting').textContent.includes('second finger')")
     stage = """() => [[...document.querySelectorAll('.rxf-stage > *')]
             .filter(e => e.checkVisibility({opacityProperty: true, visibilityProperty: true}) && e.innerHTML.trim())
             .map(e => e.dataset.part), document.querySelectorAll('.rxf-plan text').length,
-            ...['.rxf-rubber', '.rxf-plan circle'].map(name => document.querySelector(name).getBoundingClientRect())]"""
+            ...['.rxf-twisting', '.rxf-plan circle'].map(name =>
+            document.querySelector(name).getBoundingClientRect())]"""
     shown, words, blade, disk = watched.at_rest(lambda: page.evaluate(stage))
-    assert (shown, words) == (["plan", "rubber"], 0)
+    assert (shown, words) == (["plan", "twisting"], 0)
     assert (blade["width"], blade["height"]) == size  # Over the bar and the sheet.
     assert disk["height"] >= 0.4 * min(width, height)
     touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [finger, {"x": 40, "y": 60, "id": 1}]})
-    page.wait_for_function("() => !RX.state.rubber && !document.documentElement.hasAttribute('data-rubber')")
+    page.wait_for_function("() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')")
     touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     watched.answered()
     assert page.evaluate("() => RX.state.power.total") == power

@@ -108,7 +108,7 @@ class Watched:
         self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")  # viser has seen it.
         self.page.mouse.down()
         self.page.mouse.move(x, y + 12, steps=4)
-        self.page.wait_for_function("() => RX.state.rubber")
+        self.page.wait_for_function("() => RX.state.twisting")
         return x, y
 
     def section(self, title: str) -> None:

@@ -9,14 +9,14 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer.colours import PINNED_GHOST, VOID
+from explorer.colours import PINNED_OVERLAY, VOID
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Pinboard, Pinned, act
+from explorer.model.session_state import Pinboard, Pinned, apply_order
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values
-from explorer.picture.polar import Drawn, polar_grid
-from explorer.scene.overlays import ghost_of
+from explorer.picture.polar import DrawnSolution, polar_grid
+from explorer.scene.overlays import overlay_of
 from explorer.text import readout
 from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
@@ -61,40 +61,40 @@ class TestButtons:
     def test_a_design_without_a_trim_is_told_and_a_stays(self, a: Solution):
         before = Pinned(A_INPUTS, a)
         for order in ("pin", "swap"):
-            after = act(order, before, B_INPUTS, None, True)
+            after = apply_order(order, before, B_INPUTS, None, True)
             assert (after.pinned, after.inputs) == (before, None)
             assert "no trim" in after.sentence
-        assert act("unpin", before, B_INPUTS, None, True).pinned is None
+        assert apply_order("unpin", before, B_INPUTS, None, True).pinned is None
 
     def test_swap_exchanges_the_two_in_the_flight_that_is_compared(self, a: Solution, b: Solution):
-        after = act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, True)
+        after = apply_order("swap", Pinned(A_INPUTS, a), B_INPUTS, b, True)
         assert (after.pinned.inputs, after.pinned.solution) == (B_INPUTS, b)
         assert after.inputs == replace(A_INPUTS, advance_ratio=0.3, mass_t=7.5)
-        assert act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, False).inputs == A_INPUTS
+        assert apply_order("swap", Pinned(A_INPUTS, a), B_INPUTS, b, False).inputs == A_INPUTS
 
     def test_back_puts_a_on_the_sliders_and_keeps_it(self, a: Solution, b: Solution):
         pinned = Pinned(A_INPUTS, a)
         for trimmed in (b, None):
-            after = act("back", pinned, B_INPUTS, trimmed, False)
+            after = apply_order("back", pinned, B_INPUTS, trimmed, False)
             assert (after.pinned, after.inputs, after.sentence) == (pinned, A_INPUTS, "")
 
     def test_buttons_of_a_pinned_design_do_nothing_without_one(self, b: Solution):
         for order in ("swap", "back", "unpin"):
-            after = act(order, None, B_INPUTS, b, True)
+            after = apply_order(order, None, B_INPUTS, b, True)
             assert (after.pinned, after.inputs, after.sentence) == (None, None, "")
 
     def test_a_driven_blade_is_named_and_said_to_stay_driven(self, a: Solution, b: Solution):
         driven = replace(a, design=replace(a.design, twist=SumTwist(a.design.twist, LinearTwist(0.02))))
         pinned = Pinned(A_INPUTS, driven)
         assert title_words(driven.design) == "UH-60A · linear −8\u00a0°/R + linear 1.1\u00a0°/R"
-        assert "actuator" in act("back", pinned, B_INPUTS, b, True).sentence
+        assert "actuator" in apply_order("back", pinned, B_INPUTS, b, True).sentence
 
-    def test_the_ghost_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
+    def test_the_overlay_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
         pinned = Pinned(A_INPUTS, a)
-        of_a, of_search = ghost_of(None, pinned), ghost_of(b.design, pinned)
-        assert (of_a.twist, of_a.colour) == (a.design.twist, PINNED_GHOST)
+        of_a, of_search = overlay_of(None, pinned), overlay_of(b.design, pinned)
+        assert (of_a.twist, of_a.colour) == (a.design.twist, PINNED_OVERLAY)
         assert (of_search.twist, of_search.colour) == (b.design.twist, None)
-        assert ghost_of(None, None) is None
+        assert overlay_of(None, None) is None
 
 
 class TestPinboard:
@@ -192,9 +192,9 @@ class TestDisk:
     def test_is_b_minus_a(self, along: Solution, b: Solution):
         field = FIELDS["Induced inflow λi"]
         grid = polar_grid(b.disk, 60, 90)
-        expected = field.sample(Drawn(b), grid) - field.sample(Drawn(along), grid)
+        expected = field.sample(DrawnSolution(b), grid) - field.sample(DrawnSolution(along), grid)
         apart = difference(field, along)
-        assert_allclose(apart.sample(Drawn(b), grid), expected, atol=1e-12)
+        assert_allclose(apart.sample(DrawnSolution(b), grid), expected, atol=1e-12)
         low, high = fitted_range(apart, field_values(b, apart))
         assert low == -high < 0.0
 
@@ -204,7 +204,9 @@ class TestDisk:
         # Further in, Mach has a kink round the reverse flow, and further out the sweep of the tip bends it within an
         # element: no two grids see these alike.
         outboard = (grid.r > 0.4) & (grid.r < 0.85)
-        coarse_apart, fine_apart = (difference(field, one).sample(Drawn(b), grid)[outboard] for one in (along, fine))
+        coarse_apart, fine_apart = (
+            difference(field, one).sample(DrawnSolution(b), grid)[outboard] for one in (along, fine)
+        )
         assert_allclose(fine_apart, coarse_apart, atol=1e-3)
 
     def test_void_beyond_the_shorter_blade_and_in_either_reverse_flow(self, along: Solution, b: Solution):
@@ -212,12 +214,12 @@ class TestDisk:
         blade = replace(rotor.blade, root_cutout=0.3)
         short = solve(replace(along.design, rotor=replace(rotor, blade=blade)))
         grid = polar_grid(b.disk, 60, 90)
-        void = difference(FIELDS["Mach number"], short).void(Drawn(b), grid)
+        void = difference(FIELDS["Mach number"], short).void(DrawnSolution(b), grid)
         assert void[grid.r < 0.299].all()
         assert not void[grid.r > 0.301].any()
         slow = solve(replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1)))
-        alpha = difference(FIELDS["Angle of attack"], slow).void(Drawn(b), grid)
-        other_way = difference(FIELDS["Angle of attack"], b).void(Drawn(slow), grid)
+        alpha = difference(FIELDS["Angle of attack"], slow).void(DrawnSolution(b), grid)
+        other_way = difference(FIELDS["Angle of attack"], b).void(DrawnSolution(slow), grid)
         assert other_way is not None
         assert alpha.any()
         assert (alpha == other_way).all()

@@ -17,8 +17,8 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     drive_of,
     lean_verdict,
-    question_of,
     swing_of,
+    verdict_inputs_of,
     verdict_on,
     verdict_tasks,
 )
@@ -33,14 +33,14 @@ from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND, FLIGHT
-from explorer.views.now import SetHand
+from explorer.views.page_state import SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.limits import actuator_stability
 from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
-from rotor.processes import JobEnded, JobEvent, JobFailed, JobStarted
+from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
 from tests.actuate import actuate, told
 from tests.actuate import asked as asked_by
@@ -106,11 +106,12 @@ def test_the_question_hangs_on_the_baseline_and_not_on_flight_voltage_or_view():
     climbing = make_design(preset="flight", mu=0.3)
     climbing = replace(climbing, condition=replace(climbing.condition, climb_speed=5.0))
     moved = replace(inputs, drives=FULL, crossed=True)
-    assert question_of(inputs, DESIGN) == question_of(moved, climbing)
+    assert verdict_inputs_of(inputs, DESIGN) == verdict_inputs_of(moved, climbing)
     others = {
-        question_of(replace(inputs, **{key: one}), DESIGN) for key, one in (("plies", 3), ("against", "best-fixed"))
+        verdict_inputs_of(replace(inputs, **{key: one}), DESIGN)
+        for key, one in (("plies", 3), ("against", "best-fixed"))
     }
-    assert question_of(inputs, DESIGN) not in others
+    assert verdict_inputs_of(inputs, DESIGN) not in others
 
 
 @pytest.mark.parametrize("blade", ["retrofit", "new"])
@@ -155,14 +156,14 @@ def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
         nose, tail = ring[19], ring[0]
         angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
     assert_allclose(angles[1] - angles[0], TIMES * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
-    assert len(rest.lines["ghost"]) == len(rest.lines["arrow"]) == 0
-    assert len(driven.lines["ghost"]) > 0
+    assert len(rest.lines["overlay"]) == len(rest.lines["arrow"]) == 0
+    assert len(driven.lines["overlay"]) > 0
     assert len(driven.lines["arrow"]) > 0
 
 
 @pytest.fixture(scope="module")
 def verdict() -> Verdict:
-    return verdict_on(question_of(ActuatorInputs(), DESIGN))
+    return verdict_on(verdict_inputs_of(ActuatorInputs(), DESIGN))
 
 
 def test_the_verdict_is_told_whole(verdict: Verdict):
@@ -225,7 +226,7 @@ def until(true: Callable[[], bool]) -> None:
 
 
 def test_the_chosen_actuator_is_judged_first_and_then_all_others():
-    question = question_of(ActuatorInputs(actuator="extension_twist"), DESIGN)
+    question = verdict_inputs_of(ActuatorInputs(actuator="extension_twist"), DESIGN)
     tasks = verdict_tasks(question)
     assert next(iter(tasks)) == "extension_twist"
     assert sorted(tasks) == sorted(ALL)
@@ -302,7 +303,7 @@ def test_the_lifted_blade_is_drawn_as_flown():
 
 def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     """What comes through the pipe has everything that the tab shows, at a hundredth of the size."""
-    small = lean_verdict(question_of(ActuatorInputs(), DESIGN))
+    small = lean_verdict(verdict_inputs_of(ActuatorInputs(), DESIGN))
     assert len(pickle.dumps(small)) < 0.03 * len(pickle.dumps(verdict))
     page = [
         (actuator_words.fit_panel(one.installed, one), actuator_words.limits_panel(one), balance(one.savings, SI))

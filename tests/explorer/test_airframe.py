@@ -8,9 +8,9 @@ import trimesh
 
 from explorer.picture.airframe import airframe, mast, rotor_head
 from explorer.picture.blade_mesh import Mesh
-from rotor.assets import SHIPPED_ROTORS
 from rotor.design.blade import Rotor
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.assets import SHIPPED_ROTORS
 
 
 def rotor_named(name: str) -> Rotor:

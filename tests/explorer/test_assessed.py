@@ -20,7 +20,7 @@ from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ASSESSED, Assessed, assessed, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
-from explorer.views.now import Now, SetHand
+from explorer.views.page_state import PageState, SetHand
 from explorer.workers.call import Call
 from rotor.actuator import with_actuator_mass
 from rotor.actuator.verdict import Against, Verdict
@@ -38,7 +38,7 @@ def run(call: Call) -> Any:
     return call.run()
 
 
-def answered(against: Against, drives: tuple[float, ...]) -> Now:
+def answered(against: Against, drives: tuple[float, ...]) -> PageState:
     """The page once all that the value waits for is known."""
     now = actuate(INPUTS, actuator=ActuatorInputs(against=against, drives=drives))
     for panel, name in (
@@ -51,20 +51,20 @@ def answered(against: Against, drives: tuple[float, ...]) -> Now:
     return now
 
 
-def card(now: Now) -> AssessedPart:
+def card(now: PageState) -> AssessedPart:
     part = ASSESSED.view(now)["assessed"]
     assert isinstance(part, AssessedPart)
     return part
 
 
-def known(now: Now) -> tuple[Assessed, Verdict]:
+def known(now: PageState) -> tuple[Assessed, Verdict]:
     value = assessed(now)
     assert value is not None
     assert value.one.verdict is not None
     return value, value.one.verdict
 
 
-def balance_here(now: Now) -> dict[str, str]:
+def balance_here(now: PageState) -> dict[str, str]:
     """Each part of the power in this flight, as written."""
     flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
     assert FLIGHT.view(flown)["earns"].kind == "computing"
@@ -74,7 +74,7 @@ def balance_here(now: Now) -> dict[str, str]:
     return {bar.name: bar.text for bar in part.bars}
 
 
-def screen(now: Now) -> dict[str, list[str]]:
+def screen(now: PageState) -> dict[str, list[str]]:
     """Every number of all panels of Actuate, by its quantity."""
     found: dict[str, list[str]] = defaultdict(list)
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from explorer.tabs.background import BackgroundWork
-from rotor.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobStarted
+from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobStarted
 
 
 class FakePool:

@@ -11,7 +11,7 @@ import pytest
 
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from explorer.tabs.probe_drawing import ALPHA, DRAG, LIFT
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 EYES = {
     "ordinary": np.eye(3),

@@ -8,11 +8,11 @@ import pytest
 
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, with_rotor
-from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, Settled
+from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
-from explorer.views.dial import DIAL, act, take_dot
+from explorer.views.dial import DIAL, move_dot, take_dot
 from explorer.views.dial_answer import DialAnswer
-from explorer.views.now import Grab, Move, Now, Ui
+from explorer.views.page_state import MoveSliders, OpenPanels, PageState, SetGrabbed
 from rotor import Design
 from rotor.actuator import EffectInFlight
 from rotor.design.active_twist import Harmonic, read_harmonics
@@ -36,25 +36,25 @@ OWN, OTHER = numbers(-0.5), numbers(0.25)
 MOVED = EffectInFlight((1500.0, 900.0), (-20.004, 3.0))
 
 
-def dial(now: Now) -> DialPart:
+def dial(now: PageState) -> DialPart:
     return DIAL.view(now)["dial"]
 
 
 @pytest.fixture(scope="module")
-def asking() -> Now:
+def asking() -> PageState:
     """Against the same blade, which needs no verdict."""
     return actuate(BENDING, actuator=SAME)
 
 
 @pytest.fixture(scope="module")
-def answered(asking: Now) -> Now:
+def answered(asking: PageState) -> PageState:
     """By the own inflow model, by two of the others, and by one that does not trim."""
     own, *others = [call for one in DIAL.asks(asking)[1:] for call in one.calls]
     given = {own: DialAnswer(OWN, ((0.0,) * 8, STEP)), **dict.fromkeys(others, DialAnswer(OTHER, ()))}
     return told(DIAL, replace(asking, answers={**given, others[-1]: "No trim."}), effect=MOVED)
 
 
-def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
+def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: PageState):
     """The best fixed blade is found by the verdict."""
     unknown = replace(asking, hand=replace(asking.hand, actuator=ActuatorInputs(against="best-fixed")))
     assert asked(DIAL, unknown) == {}
@@ -70,12 +70,12 @@ def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: Now):
     assert list(asked(DIAL, asking)) == ["dial_answer", "effect"]  # The trim is asked first.
 
 
-def test_what_is_answered_is_shown(answered: Now):
+def test_what_is_answered_is_shown(answered: PageState):
     shown = DIAL.view(answered)
     assert shown == DIAL.view(replace(answered))
     assert shown["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER, OTHER))
     one = dial(answered)
-    assert one.settled == Settled((1.5, 0.9), (-20.0, 3.0))
+    assert one.settled == ModelChanges((1.5, 0.9), (-20.0, 3.0))
     assert (one.computing, one.words, one.problem, one.held) == (False, "", "", False)
     assert [[round(value, 6) for value in dot[:2]] for dot in one.front] == [[0.0, 0.0], [0.5, -40.2]]
     assert [dot[2] for dot in one.front] == [(0.0,) * 8, STEP]
@@ -86,10 +86,10 @@ def test_what_is_answered_is_shown(answered: Now):
     assert DIAL.view(waits)["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER,))
     assert one.whole > 0.5
     assert one.room == 1.0
-    assert dial(replace(answered, ui=Ui("actuate", held=True))).held
+    assert dial(replace(answered, ui=OpenPanels("actuate", held=True))).held
 
 
-def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered: Now):
+def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered: PageState):
     driven = replace(answered, hand=replace(answered.hand, actuator=replace(SAME, drives=(50.0,) * 4)))
     assert dial(driven).room < 1.0
     wide = replace(answered, inputs=replace(BENDING, twist_per_rev=read_harmonics("3:2.2:60", "test")))
@@ -97,7 +97,7 @@ def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered:
     assert dial(wide).now == ((3, 2.2, 60.0),)
 
 
-def test_what_fails_is_a_sentence(answered: Now):
+def test_what_fails_is_a_sentence(answered: PageState):
     calls = asked(DIAL, answered)
     failed = replace(answered, answers={calls["effect"]: "No trim.", calls["dial_answer"]: "No response."})
     assert (dial(failed).problem, dial(failed).words, dial(failed).computing) == ("No trim.", "No response.", False)
@@ -115,7 +115,7 @@ def test_a_blade_that_carries_no_actuator_is_compared_with_itself():
     assert "effect" in asked(DIAL, other)
 
 
-def test_it_says_what_is_set_that_it_does_not_show(asking: Now):
+def test_it_says_what_is_set_that_it_does_not_show(asking: PageState):
     """By a file too, at harmonics that the dial does not have."""
     assert "Active" not in DIAL.view(asking)["actuator.per_rev"]
     waves, pitch = read_harmonics("8:15:20", "test"), read_harmonics("3:1.5:180", "test")
@@ -125,19 +125,19 @@ def test_it_says_what_is_set_that_it_does_not_show(asking: Now):
         assert part in words
 
 
-def test_the_dot_is_taken_dragged_and_let_go(asking: Now):
-    assert act(asking, "start") == (Grab(True),)
-    (drag,) = act(asking, [WavePress(3, 0.75, 60.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
-    assert isinstance(drag, Move)
+def test_the_dot_is_taken_dragged_and_let_go(asking: PageState):
+    assert move_dot(asking, "start") == (SetGrabbed(True),)
+    (drag,) = move_dot(asking, [WavePress(3, 0.75, 60.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
+    assert isinstance(drag, MoveSliders)
     assert drag.by_hand
     assert drag.inputs == replace(BENDING, twist_per_rev=(Harmonic(3, math.radians(0.75), math.radians(60.0)),))
-    assert act(replace(asking, inputs=drag.inputs), [WavePress(3, 0.75, 60.0)]) == ()
-    assert act(asking, "end") == (Grab(False),)
+    assert move_dot(replace(asking, inputs=drag.inputs), [WavePress(3, 0.75, 60.0)]) == ()
+    assert move_dot(asking, "end") == (SetGrabbed(False),)
 
 
-def test_a_dot_of_the_front_is_put_with_the_digits_shown(answered: Now, asking: Now):
+def test_a_dot_of_the_front_is_put_with_the_digits_shown(answered: PageState, asking: PageState):
     (put,) = take_dot(answered, 1)
-    assert isinstance(put, Move)
+    assert isinstance(put, MoveSliders)
     assert not put.by_hand
     assert [round(math.degrees(wave.amplitude), 6) for wave in put.inputs.twist_per_rev] == [0.8, 0.5]
     assert take_dot(answered, 2) == take_dot(asking, 0) == ()

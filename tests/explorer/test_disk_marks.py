@@ -15,16 +15,16 @@ from PIL import Image
 
 from explorer.colours import LIGHT
 from explorer.picture import disk_image
-from explorer.picture.blade_mesh import inset
+from explorer.picture.blade_mesh import inset_sections
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.plan import stall_segments
 from explorer.picture.polar import (
     NO_MARKS,
-    Drawn,
+    DrawnSolution,
     MarkedRegion,
-    Marks,
-    Refined,
+    RefinedFlow,
+    RegionMarks,
     mark_line,
     polar_grid,
     region_codes,
@@ -51,31 +51,33 @@ def with_inflow(inflow: str, mu: float) -> Solution:
     return solve(make_design(mu=mu, inflow=inflow)).require()
 
 
-def shown(solution: Solution, size: int, marks: Marks) -> np.ndarray:
+def shown(solution: Solution, size: int, marks: RegionMarks) -> np.ndarray:
     """RGBA of the angle of attack, shape (size, size, 4)."""
     png = disk_png(solution, ALPHA, (-6.0, 14.0), size=size, marks=marks, ink=LIGHT.ink)
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA")).astype(int)
 
 
-def codes_of(solution: Solution, marks: Marks, size: int = 960) -> np.ndarray:
+def codes_of(solution: Solution, marks: RegionMarks, size: int = 960) -> np.ndarray:
     grid = polar_grid(solution.disk, *disk_image.grid_size(size))
-    made = region_codes(Drawn(solution), grid, marks, 2.8 / size)
+    made = region_codes(DrawnSolution(solution), grid, marks, 2.8 / size)
     assert made is not None
     return made
 
 
 class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
-        codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
+        codes = codes_of(fast, RegionMarks(drag_divergence=False, reverse_flow=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (Refined(fast, grid).attached < 0.0)
+        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (
+            RefinedFlow(fast, grid).attached < 0.0
+        )
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
         assert share == pytest.approx(fast.stalled_area, abs=0.02)
         assert share > 0.02
 
     def test_reverse_flow_is_the_circle_r_equals_minus_mu_sin_psi(self, fast: Solution):
-        codes = codes_of(fast, Marks(stall=False, drag_divergence=False))
+        codes = codes_of(fast, RegionMarks(stall=False, drag_divergence=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
         mu = fast.design.condition.advance_ratio * math.cos(fast.controls.shaft_tilt)
         edge = grid.r[:, None] + mu * np.sin(grid.psi)[None, :]
@@ -86,7 +88,7 @@ class TestRegions:
         assert np.abs(edge[rim]).max() < 0.02
 
     def test_drag_divergence_is_dashed(self, fast: Solution):
-        dashes = codes_of(fast, Marks(stall=False, reverse_flow=False)) == MarkedRegion.DASH
+        dashes = codes_of(fast, RegionMarks(stall=False, reverse_flow=False)) == MarkedRegion.DASH
         around = dashes.any(axis=0)
         assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
 
@@ -94,10 +96,10 @@ class TestRegions:
 class TestHatch:
     def test_stall_is_striped_over_the_colours_of_the_field(self, fast: Solution):
         """About a third of the stalled part is striped; the rest keeps the field's colour."""
-        regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
+        regions = (NO_MARKS, RegionMarks(reverse_flow=False, drag_divergence=False))
         plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = Refined(fast, grid).attached < -0.02
+        stalled = RefinedFlow(fast, grid).attached < -0.02
         row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
         x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
         y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)
@@ -115,7 +117,7 @@ class TestDynamicStall:
         assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
         assert 0.02 < vortex.max() < 1.0
         grid = polar_grid(solution.disk, 80, 240)
-        masks, flow = region_masks(Drawn(solution), grid), Refined(solution, grid)
+        masks, flow = region_masks(DrawnSolution(solution), grid), RefinedFlow(solution, grid)
         stalled = masks["stall"]
         assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05
         assert len(stall_segments(solution)) > 10
@@ -230,7 +232,7 @@ class TestInset:
     ROTOR = make_design().rotor
 
     def test_it_is_json_with_true_angles_and_small(self):
-        made = inset(self.ROTOR, LinearTwist(math.radians(-12.0)), self.ROTOR.builtin_twist, 4.0)
+        made = inset_sections(self.ROTOR, LinearTwist(math.radians(-12.0)), self.ROTOR.builtin_twist, 4.0)
         assert len(msgspec.json.encode(made)) < 6000
         assert made.times == 4.0
         assert len(made.cuts) == 8
@@ -240,14 +242,14 @@ class TestInset:
         assert made.cuts[-1].r == 1.0
 
     def test_outlines_are_true_sections_about_the_quarter_chord(self):
-        made = inset(self.ROTOR, LinearTwist(0.0), None, 4.0)
+        made = inset_sections(self.ROTOR, LinearTwist(0.0), None, 4.0)
         for cut in made.cuts:
             forward, up = np.array(cut.outline).T
             assert forward.max() == pytest.approx(0.25, abs=0.02)
             assert forward.min() == pytest.approx(-0.75, abs=0.02)
             assert 0.09 < np.ptp(up) < 0.13
-            assert cut.ghost is None
-        assert made.ghost is None
+            assert cut.overlay is None
+        assert made.overlay is None
 
 
 class TestLine:

@@ -9,21 +9,30 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.model.actuator_inputs import ActuatorInputs, flight_legs, flight_of, lean_verdict, question_of
+from explorer.model.actuator_inputs import ActuatorInputs, flight_legs, flight_of, lean_verdict, verdict_inputs_of
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import SI
 from explorer.parts.actuate import FlightPart
 from explorer.views.actuator import ACTUATOR
-from explorer.views.flight import FLIGHT, HALVES, condition_at, earns_state, fly, landed, place_of, stop_here
-from explorer.views.now import Now, SetHand, Ui
+from explorer.views.flight import (
+    FLIGHT,
+    HALVES,
+    after_landing,
+    condition_at,
+    earns_state,
+    fly_to,
+    position_of,
+    stop_here,
+)
+from explorer.views.page_state import OpenPanels, PageState, SetHand
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
-from rotor.chart import DrawnBand, DrawnLine
+from rotor.support.chart import DrawnBand, DrawnLine
 from tests.actuate import actuate, asked, done, told
 
 INPUTS = Inputs(advance_ratio=0.2, elastic_twist=False)
 RIGID = INPUTS.design()
-QUESTION = question_of(ActuatorInputs(), RIGID)
+QUESTION = verdict_inputs_of(ActuatorInputs(), RIGID)
 LEGS = flight_legs(RIGID)
 
 
@@ -41,40 +50,40 @@ def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs(
     assert LEGS[::HALVES] == standard_flight(RIGID)
     for k, leg in enumerate(standard_flight(RIGID)):
         assert condition_at(LEGS, float(k)) == (leg.advance_ratio, leg.climb_speed)
-        assert place_of(LEGS, leg.advance_ratio) == pytest.approx(k)
+        assert position_of(LEGS, leg.advance_ratio) == pytest.approx(k)
     (mu, climb), (one, two) = condition_at(LEGS, 0.5), standard_flight(RIGID)[:2]
     assert mu == pytest.approx(0.5 * (one.advance_ratio + two.advance_ratio), abs=5e-4)
     assert climb == pytest.approx(0.5 * (one.climb_speed + two.climb_speed), abs=5e-3)
     assert condition_at(LEGS, 1.5)[1] == 0.0  # Level again, as a flight at that speed is that one enters with.
-    assert place_of(LEGS, 0.5) == len(standard_flight(RIGID)) - 1  # Faster than the flight: its end.
+    assert position_of(LEGS, 0.5) == len(standard_flight(RIGID)) - 1  # Faster than the flight: its end.
 
 
 @pytest.fixture(scope="module")
-def waiting() -> Now:
+def waiting() -> PageState:
     """Nothing is known yet."""
     return actuate(INPUTS)
 
 
 @pytest.fixture(scope="module")
-def ready(waiting: Now, verdict: Verdict, flight: ActuatorFlight) -> Now:
+def ready(waiting: PageState, verdict: Verdict, flight: ActuatorFlight) -> PageState:
     """Verdict and flight are known, and remembered."""
     now = told(FLIGHT, told(ACTUATOR, waiting, lean_verdict=verdict), flight_of=flight)
     return replace(now, memory=FLIGHT.remember(now, FLIGHT.view(now)))
 
 
-def shown(now: Now) -> FlightPart:
+def shown(now: PageState) -> FlightPart:
     flown = FLIGHT.view(now)["flight"]
     assert isinstance(flown, FlightPart)
     return flown
 
 
-def tip(now: Now) -> float:
+def tip(now: PageState) -> float:
     """What the widgets make of the blade [rad]."""
     actuator = now.hand.actuator
     return actuator.tip(actuator.installed(RIGID.rotor))
 
 
-def test_the_page_draws_the_flight_as_it_was_computed(ready: Now, flight: ActuatorFlight):
+def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: ActuatorFlight):
     assert FLIGHT.view(ready) == FLIGHT.view(replace(ready))
     state = shown(ready)
     assert state.kind == "ready"
@@ -94,7 +103,7 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: Now, flight: Actuat
     assert "kt" in shown(aviation).legs[1][1]
 
 
-def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: Now, ready: Now, verdict: Verdict):
+def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, ready: PageState, verdict: Verdict):
     """Nothing jumps: the curves and the balance of the question before stay, marked."""
     assert (shown(waiting).kind, shown(waiting).words, shown(waiting).chart.series) == ("computing", "computing…", [])
     assert asked(FLIGHT, waiting) == {}
@@ -128,23 +137,23 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert state.fuel_kind == ("loss" if burnt > 0.0 else "gain")
 
 
-def test_a_place_of_the_bar_sets_condition_and_voltages(ready: Now, flight: ActuatorFlight):
+def test_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight: ActuatorFlight):
     """By the inputs of the sliders; the blade has the twist that the chart says is reached there."""
     for x, leg in enumerate(standard_flight(RIGID)):
-        there = done(ready, fly(ready, x))
+        there = done(ready, fly_to(ready, x))
         assert (there.inputs.advance_ratio, there.inputs.climb_m_s) == (leg.advance_ratio, leg.climb_speed)
         assert_allclose(tip(there), flight.reached[HALVES * x], atol=math.radians(0.02))  # In whole per cent.
         assert shown(there).flown
-    between = done(ready, fly(ready, 0.25))
+    between = done(ready, fly_to(ready, 0.25))
     assert_allclose(tip(between), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02))
-    assert done(ready, fly(ready, 99)).inputs.advance_ratio == LEGS[-1].advance_ratio
+    assert done(ready, fly_to(ready, 99)).inputs.advance_ratio == LEGS[-1].advance_ratio
     untrimmed = replace(ready, problem="No trim there.")  # It can be flown out of.
     assert FLIGHT.view(untrimmed) == {}
-    assert done(untrimmed, fly(untrimmed, 1)).inputs.advance_ratio == LEGS[HALVES].advance_ratio
+    assert done(untrimmed, fly_to(untrimmed, 1)).inputs.advance_ratio == LEGS[HALVES].advance_ratio
 
 
-def test_the_voltages_follow_once_the_flight_is_known(waiting: Now, ready: Now, flight: ActuatorFlight):
-    flown = done(waiting, fly(waiting, 3))
+def test_the_voltages_follow_once_the_flight_is_known(waiting: PageState, ready: PageState, flight: ActuatorFlight):
+    flown = done(waiting, fly_to(waiting, 3))
     assert flown.inputs.advance_ratio == LEGS[-1].advance_ratio  # The condition needs no answer.
     assert tip(flown) == 0.0
     assert FLIGHT.reacts(flown) == ()
@@ -154,14 +163,14 @@ def test_the_voltages_follow_once_the_flight_is_known(waiting: Now, ready: Now, 
     assert FLIGHT.reacts(replace(known, hand=replace(known.hand, flown=None))) == ()
 
 
-def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: Now, flight: ActuatorFlight):
-    hover = done(ready, fly(ready, 0))
+def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: PageState, flight: ActuatorFlight):
+    hover = done(ready, fly_to(ready, 0))
     stopped = done(hover, stop_here(hover, "on"))
     frozen = shown(stopped)
     assert (frozen.flown, frozen.frozen) == (False, math.degrees(tip(hover)))
     (line,) = [one for one in frozen.chart.series if isinstance(one, DrawnLine) and one.label == "stopped"]
     assert_allclose(np.array(line.y, dtype=float), math.degrees(tip(hover)), atol=6e-4)
-    fast = done(stopped, fly(stopped, 3))
+    fast = done(stopped, fly_to(stopped, 3))
     assert fast.inputs.advance_ratio == LEGS[-1].advance_ratio
     assert tip(fast) == tip(hover) != 0.0
     assert shown(fast).tip == frozen.tip
@@ -173,21 +182,21 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: Now, fligh
     assert shown(done(by_hand, stop_here(by_hand, "on"))).frozen == math.degrees(tip(by_hand)) != 0.0
 
 
-def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: Now):
-    flown = done(ready, fly(ready, 3))
+def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: PageState):
+    flown = done(ready, fly_to(ready, 3))
     stopped = done(flown, stop_here(flown, "on"))
     for one in (flown, stopped):
-        back = done(one, (landed(one.hand),))
+        back = done(one, (after_landing(one.hand),))
         assert (tip(back), back.hand.lifted, back.hand.stopped, back.hand.flown) == (0.0, False, False, None)
     by_hand = replace(flown, hand=replace(flown.hand, flown=None))
-    assert tip(done(by_hand, (landed(by_hand.hand),))) == tip(flown) != 0.0
+    assert tip(done(by_hand, (after_landing(by_hand.hand),))) == tip(flown) != 0.0
 
 
-def test_both_are_gone_where_the_blade_is_in_the_rotor(ready: Now):
+def test_both_are_gone_where_the_blade_is_in_the_rotor(ready: PageState):
     """Also in another mode, where nothing is asked."""
     back = replace(ready, hand=replace(ready.hand, lifted=False))
-    for one in (back, replace(ready, ui=Ui("explore"))):
+    for one in (back, replace(ready, ui=OpenPanels("explore"))):
         assert FLIGHT.view(one) == {"flight": None, "earns": None}
         assert FLIGHT.seen(one.ui)
     assert list(asked(FLIGHT, back)) == ["flight_of"]
-    assert asked(FLIGHT, replace(ready, ui=Ui("explore"))) == {}
+    assert asked(FLIGHT, replace(ready, ui=OpenPanels("explore"))) == {}

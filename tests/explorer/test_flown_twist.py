@@ -1,4 +1,4 @@
-"""Jig and flown twist on the page: shapes of the blades, ghost, inset, curves, field, probe and numbers."""
+"""Jig and flown twist on the page: shapes of the blades, overlay, inset, curves, field, probe and numbers."""
 
 import math
 import re
@@ -9,17 +9,17 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState
-from explorer.picture.blade_mesh import PAGE, blade_shape, drawn_pitch, inset
+from explorer.picture.blade_mesh import PAGE, blade_shape, drawn_pitch, inset_sections
 from explorer.picture.fields import FIELDS, fitted_range
-from explorer.picture.picture import field_values, flown_twist, follows_azimuth, ghost_twist, turned_blades
-from explorer.picture.polar import Drawn, polar_grid
+from explorer.picture.picture import field_values, flown_twist, follows_azimuth, overlay_twist, turned_blades
+from explorer.picture.polar import DrawnSolution, polar_grid
 from explorer.tabs.element import probe
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.readout import compared_trim_panel as both_panel
 from explorer.text.readout import trim_panel
-from rotor.arrays import Array
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -76,20 +76,20 @@ class TestBlades:
 
 
 class TestInset:
-    def test_the_ghost_differs_by_its_jig_twist_alone(self, fast: Solution):
+    def test_the_overlay_differs_by_its_jig_twist_alone(self, fast: Solution):
         other, r = LinearTwist(-0.1), np.linspace(0.2, 1.0, 9)
-        ghost = ghost_twist(fast, other, 1.0)
-        assert ghost is not None
-        assert_allclose(flown_twist(fast, 1.0)(r) - ghost(r), fast.design.twist(r) - other(r), atol=1e-15)
+        overlay = overlay_twist(fast, other, 1.0)
+        assert overlay is not None
+        assert_allclose(flown_twist(fast, 1.0)(r) - overlay(r), fast.design.twist(r) - other(r), atol=1e-15)
 
     def test_it_holds_the_flown_angles_and_those_at_three_quarters(self, fast: Solution):
         twist = flown_twist(fast, 1.0)
-        made = inset(fast.design.rotor, twist, fast.design.twist, 4.0)
+        made = inset_sections(fast.design.rotor, twist, fast.design.twist, 4.0)
         assert made.datum == pytest.approx(math.degrees(float(twist([0.75])[0])), abs=0.006)
-        assert made.ghost_datum == pytest.approx(0.0, abs=0.006)
+        assert made.overlay_datum == pytest.approx(0.0, abs=0.006)
         tip = made.cuts[-1]
-        assert tip.ghost is not None
-        assert tip.theta - tip.ghost == pytest.approx(
+        assert tip.overlay is not None
+        assert tip.theta - tip.overlay == pytest.approx(
             math.degrees(float(twist([1.0])[0] - fast.design.twist([1.0])[0])), abs=0.011
         )
 
@@ -116,12 +116,12 @@ class TestField:
 
     def test_a_rigid_blade_has_none(self, rigid: Solution):
         grid = polar_grid(rigid.disk, 40, 120)
-        void = FIELD.void(Drawn(rigid), grid)
+        void = FIELD.void(DrawnSolution(rigid), grid)
         assert void.all()
         assert flown_twist(rigid, 1.0) == rigid.design.twist
         assert probe(rigid, 0.8, 1.0).elastic is None
         assert "rigid" in trim_panel(rigid)
-        assert np.isfinite(FIELD.sample(Drawn(rigid), grid)).all()
+        assert np.isfinite(FIELD.sample(DrawnSolution(rigid), grid)).all()
         assert fitted_range(FIELD, field_values(rigid, FIELD)) == (FIELD.low, FIELD.high)
 
 

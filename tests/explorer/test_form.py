@@ -7,7 +7,7 @@ import viser
 
 from explorer.model.inputs import ROWS
 from explorer.model.units import AVIATION, SI, form_of
-from explorer.tabs.form import Form
+from explorer.tabs.form import WidgetForm
 from rotor.design.quantity import Slider
 
 
@@ -17,8 +17,8 @@ def moved() -> list[tuple[str, bool]]:
 
 
 @pytest.fixture
-def form(server: viser.ViserServer, moved: list[tuple[str, bool]]) -> Form:
-    form = Form(server.gui, lambda name, by_hand: moved.append((name, by_hand)), ROWS)
+def form(server: viser.ViserServer, moved: list[tuple[str, bool]]) -> WidgetForm:
+    form = WidgetForm(server.gui, lambda name, by_hand: moved.append((name, by_hand)), ROWS)
     form.slider("altitude_m", form_of(ROWS["altitude_m"], SI), 500.0, below="<b></b>")
     form.menu("preset", "Preset", {"flight": "Best", "thesis": "Thesis"}, "thesis")
     form.span("span", "Span", (0.0, 1.0), (0.2, 0.8), 0.1)
@@ -26,7 +26,7 @@ def form(server: viser.ViserServer, moved: list[tuple[str, bool]]) -> Form:
     return form
 
 
-def test_values_are_those_of_the_inputs(form: Form, moved: list[tuple[str, bool]]):
+def test_values_are_those_of_the_inputs(form: WidgetForm, moved: list[tuple[str, bool]]):
     values = {"altitude_m": 500.0, "preset": "thesis", "span": (0.2, 0.8), "fuselage": True}
     assert form.values() == values
     form.place("preset", "thesis")  # It is there already.
@@ -38,7 +38,7 @@ def test_values_are_those_of_the_inputs(form: Form, moved: list[tuple[str, bool]
     assert (form._handles["preset"].value, form["preset"]) == ("As flown", "flight")
 
 
-def test_in_other_units_the_values_stay(form: Form):
+def test_in_other_units_the_values_stay(form: WidgetForm):
     handle = form._handles["altitude_m"]
     form.translate(AVIATION, lambda name: form_of(ROWS[name], AVIATION))
     assert (handle.label, round(handle.value, 3), form["altitude_m"]) == ("Altitude [ft]", 1640.42, 500.0)
@@ -51,7 +51,7 @@ def test_in_other_units_the_values_stay(form: Form):
 @pytest.mark.parametrize(
     ("low", "high", "value"), [(9000.0, 9500.0, 9100.0), (-900.0, -100.0, -200.0), (0.0, 9.0, 4.0)]
 )
-def test_a_slider_with_other_ends_never_has_its_value_outside(form: Form, low: float, high: float, value: float):
+def test_a_slider_with_other_ends_never_has_its_value_outside(form: WidgetForm, low: float, high: float, value: float):
     handle, seen = form._handles["altitude_m"], []
     handle.on_update(lambda event: seen.append((handle.min, event.target.value, handle.max)))
     form.fit("altitude_m", Slider("Altitude [m]", low, high, 1.0), value)
@@ -59,7 +59,7 @@ def test_a_slider_with_other_ends_never_has_its_value_outside(form: Form, low: f
     assert all(least <= place <= most for least, place, most in seen)
 
 
-def test_what_is_shown_and_held(form: Form):
+def test_what_is_shown_and_held(form: WidgetForm):
     handles: dict[str, Any] = form._handles
     form.show({"altitude_m": False})
     assert not handles["altitude_m"].visible

@@ -16,15 +16,15 @@ from explorer.model.sliders import (
     DETENT,
     PIECES,
     BestTurn,
-    Grab,
-    begin,
+    StationDrag,
+    drag_from,
     grabbed_inputs,
     limits,
     place_of,
     slid,
     stations,
-    turned,
     twist_sensitivities,
+    with_station_turned,
 )
 from explorer.model.undo import History
 from explorer.tabs.twist_curve import TwistCurveEditor
@@ -69,7 +69,7 @@ class TestTurning:
             neighbour = stations(inputs)[1 if index == 0 else -2]
             if law == "quadratic":  # Its ends turn against each other.
                 neighbour = stations(inputs)[-1 if index == 0 else 0]
-            after = turned(inputs, station, 2.0)
+            after = with_station_turned(inputs, station, 2.0)
             change = angles(after, station.r, neighbour.r) - angles(inputs, station.r, neighbour.r)
             assert change[0] - change[1] == pytest.approx(2.0, abs=0.05)
 
@@ -79,7 +79,7 @@ class TestTurning:
         inputs = Inputs(law=law)
         station = stations(inputs)[1]
         inboard, outboard = stations(inputs)[0].r, stations(inputs)[2].r
-        after = turned(inputs, station, 1.5)
+        after = with_station_turned(inputs, station, 1.5)
         change = angles(after, inboard, station.r, outboard) - angles(inputs, inboard, station.r, outboard)
         assert change[2] - change[0] == pytest.approx(0.0, abs=0.06)
         assert change[1] - change[0] == pytest.approx(1.5, abs=0.06)
@@ -87,7 +87,7 @@ class TestTurning:
     def test_the_middle_of_a_quadratic_bends_it(self):
         inputs = Inputs(law="quadratic", quadratic_curvature=0.0, quadratic_difference=-10.0)
         root, middle, tip = stations(inputs)
-        after = turned(inputs, middle, 1.0)
+        after = with_station_turned(inputs, middle, 1.0)
         at = angles(after, root.r, middle.r, tip.r)
         # The slider has steps of 0.5 °/R², 0.1° of bend.
         assert at[1] - 0.5 * (at[0] + at[2]) == pytest.approx(1.0, abs=0.1)
@@ -96,7 +96,7 @@ class TestTurning:
     @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
     def test_no_slider_leaves_its_limits(self, law: str, degrees: float):
         for station in stations(Inputs(law=law)):
-            after = turned(Inputs(law=law), station, degrees)
+            after = with_station_turned(Inputs(law=law), station, degrees)
             for name in (*PIECES.get(law, ((), ()))[0], "quadratic_curvature", "quadratic_difference"):
                 low, high = limits(name)
                 assert low <= getattr(after, name) <= high
@@ -104,7 +104,7 @@ class TestTurning:
     def test_at_a_limit_both_sides_stop_together(self):
         """The bend stays what the hand has made it: one piece does not go on alone."""
         inputs = replace(TWO, two_inner=9.0)
-        after = turned(inputs, stations(inputs)[1], 10.0)
+        after = with_station_turned(inputs, stations(inputs)[1], 10.0)
         assert after.two_inner == 10.0
         bent = (after.two_inner - 9.0) * (0.5 - ROOT)
         assert after.two_outer == pytest.approx(-8.0 - bent / 0.5, abs=0.06)
@@ -120,15 +120,15 @@ class TestSliding:
         assert slid(three, second, 1.2).three_second == limits("three_second")[1]
 
 
-def grab_at(r: float, inputs: Inputs = TWO) -> Grab:
-    grab = begin(inputs, r)
+def grab_at(r: float, inputs: Inputs = TWO) -> StationDrag:
+    grab = drag_from(inputs, r)
     assert grab is not None
     return grab
 
 
-def seen_at(grab: Grab, turn: float) -> tuple[float, float, float]:
+def seen_at(grab: StationDrag, turn: float) -> tuple[float, float, float]:
     """Turn that the sliders reach, power there, and its exact slope."""
-    inputs = turned(grab.inputs, grab.station, turn)
+    inputs = with_station_turned(grab.inputs, grab.station, turn)
     solution = solve(inputs.design())
     slopes = {name: one.slope for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()}
     reached, slope = grab.turn_to(inputs), grab.power_slope(slopes)
@@ -257,20 +257,20 @@ class TestTwistCurve:
     def test_a_pressed_blade_is_shown_from_the_tip_and_its_station_held_at_the_best_angle(self):
         editor, bridge, now, took = editor_of(TWO)
         editor.grab(0.9)
-        assert bridge.state["rubber"].knot == "2"
-        assert bridge.state["rubber"].stations == pytest.approx([ROOT, 0.5, 1.0])
+        assert bridge.state["twisting"].knot == "2"
+        assert bridge.state["twisting"].stations == pytest.approx([ROOT, 0.5, 1.0])
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         for turn, power, slope in ((0.0, 1225.0, -300.0), (0.5, 1100.0, -200.0)):
-            editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
+            editor.learn(with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
         best = editor.held.best
         assert best.theta == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
         assert best.power == pytest.approx(1000.0)
         assert not best.held
         bridge.press("knot", ["2", [None, best.theta + 0.1]])
-        assert now[0] == turned(TWO, stations(TWO)[2], 1.5)
+        assert now[0] == with_station_turned(TWO, stations(TWO)[2], 1.5)
         assert editor.held.best.held
         bridge.press("knot", ["2", "end"])
-        assert bridge.state["rubber"] is None
+        assert bridge.state["twisting"] is None
         assert took == [True, False]
 
     def test_the_blade_stops_where_its_first_slider_ends(self):
@@ -279,7 +279,7 @@ class TestTwistCurve:
         editor.grab(1.0)
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         wanted = [(start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")]
-        for (theta, title), (expected, name) in zip(bridge.state["rubber"].ends, wanted, strict=True):
+        for (theta, title), (expected, name) in zip(bridge.state["twisting"].ends, wanted, strict=True):
             assert (theta, title) == (pytest.approx(expected, abs=0.02), name)
         bridge.press("knot", ["2", [None, 60.0]])
         assert now[0].two_outer == limits("two_outer")[1]
@@ -293,7 +293,7 @@ class TestTwistCurve:
         end = (limits("two_outer")[1] - TWO.two_outer) * 0.5
         for turn in (0.0, 1.0):
             power, slope = (turn - end - 1.0) ** 2, 2.0 * (turn - end - 1.0)
-            editor.learn(turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
+            editor.learn(with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
         assert editor.held.best is None
 
     def test_escape_brings_back_the_law_that_was_there(self):

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.undo import PAUSE, STEPS, History, Pauses, PowerTracker
+from explorer.model.undo import PAUSE, STEPS, History, LongestPause, PowerTracker
 from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing.share import (
@@ -63,7 +63,7 @@ class TestHistory:
         assert history.undo() == replace(START, two_inner=-15.0)
 
     def test_slow_answers_do_not_split_a_drag(self):
-        pauses = Pauses()
+        pauses = LongestPause()
         for time in (10.0, 10.1, 10.2):
             pauses.moved(time)
         assert pauses.longest() > PAUSE  # Nothing had moved before.
@@ -74,7 +74,7 @@ class TestHistory:
         assert pauses.longest() > PAUSE
 
     def test_a_rest_in_the_hand_is_no_pause_and_the_last_movement_may_come_after_the_release(self):
-        pauses, history = Pauses(), History(START)
+        pauses, history = LongestPause(), History(START)
         pauses.begin(10.0)
         history.hold()
         for time in (10.1, 14.0):

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from explorer.app import App
-from explorer.hosting.gate import ServerLimits
+from explorer.hosting.server_limits import ServerLimits
 from explorer.session import Session
 from explorer.sharing.presentation import PRESENT, follow_name
 from tests.tools.visitor import Visitor, ran
@@ -33,8 +33,8 @@ async def dragging(visitor: Visitor) -> None:
 
 async def holding_the_blade(visitor: Visitor) -> None:
     await visitor.press("grab_at", 1.0)
-    await visitor.until(lambda: visitor.frame.get("rubber") is not None)
-    await visitor.press("knot", [visitor.frame["rubber"]["knot"], [None, -4.0]])
+    await visitor.until(lambda: visitor.frame.get("twisting") is not None)
+    await visitor.press("knot", [visitor.frame["twisting"]["knot"], [None, -4.0]])
 
 
 async def comparing(visitor: Visitor) -> None:

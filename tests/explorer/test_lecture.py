@@ -16,8 +16,8 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import AVIATION, SI, UNITS
 from explorer.picture.fields import FIELDS
 from explorer.story import steps
-from explorer.story.facts import Facts, facts_of
-from explorer.story.steps import STEPS, LectureStep, beside, quantities, step_text, view_of
+from explorer.story.facts import StepFacts, facts_of
+from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
 from explorer.story.story_file import answer_record, step_record
 from explorer.tabs.lecture import lecture_panel
 from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel, PageSnapshot
@@ -25,9 +25,9 @@ from rotor import hub_loads
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
-from rotor.reproduce.ladder import RUNGS, SPEEDS, moving_twist
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation.thesis.ladder import RUNGS, SPEEDS, moving_twist
 
 BY_TITLE = {step.text.title: step for step in STEPS}
 
@@ -40,7 +40,7 @@ def both(title: str, **changed: object) -> tuple[Solution, Solution]:
     """A and B of a step, with something changed in both."""
     step = BY_TITLE[title]
     own = step.begin()
-    against = beside(step.against, step.inputs, own)
+    against = compared_inputs(step.against, step.inputs, own)
     assert against is not None
     return solved(replace(against, **changed)), solved(replace(own, **changed))
 
@@ -97,7 +97,7 @@ class TestClaims:
 
 
 @pytest.fixture(scope="module")
-def facts() -> dict[str, Facts]:
+def facts() -> dict[str, StepFacts]:
     """What every step tells, computed once."""
     return {step.name: facts_of(step) for step in STEPS}
 
@@ -108,7 +108,7 @@ NAMED = re.compile(r"\{(\w+)\}")
 @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.name)
 class TestSteps:
     @pytest.mark.slow
-    def test_every_name_has_a_number(self, step: LectureStep, facts: dict[str, Facts]):
+    def test_every_name_has_a_number(self, step: LectureStep, facts: dict[str, StepFacts]):
         wanted = {name for part in step.text.parts for name in NAMED.findall(part)}
         assert wanted <= set(facts[step.name].numbers)
         for units in UNITS.values():
@@ -117,7 +117,9 @@ class TestSteps:
             assert not any(mark in said for mark in (" kW", " hp", " %,", "\u2009kW"))  # A unit stays with its number.
 
     @pytest.mark.slow
-    def test_each_place_of_the_control_is_another_design_that_trims(self, step: LectureStep, facts: dict[str, Facts]):
+    def test_each_place_of_the_control_is_another_design_that_trims(
+        self, step: LectureStep, facts: dict[str, StepFacts]
+    ):
         stops = facts[step.name].stops
         assert len({stop.inputs.design() for stop in stops}) == len(stops) == len(step.control.values)
         for stop in (stops[0], stops[step.control.start], stops[-1]):
@@ -125,13 +127,13 @@ class TestSteps:
             assert stop.against is None or solve(stop.against.design()).converged
 
     @pytest.mark.slow
-    def test_each_answer_can_be_told_from_the_others(self, step: LectureStep, facts: dict[str, Facts]):
+    def test_each_answer_can_be_told_from_the_others(self, step: LectureStep, facts: dict[str, StepFacts]):
         assert len(set(step.text.options)) == len(step.text.options) == len(step.bounds) + 1
         assert list(step.bounds) == sorted(step.bounds)
         assert 0 <= facts[step.name].right < len(step.text.options)
 
     @pytest.mark.slow
-    def test_the_chart_has_a_dot_for_each_place(self, step: LectureStep, facts: dict[str, Facts]):
+    def test_the_chart_has_a_dot_for_each_place(self, step: LectureStep, facts: dict[str, StepFacts]):
         """On its line, so that what is seen and what is drawn agree."""
         chart, stops = facts[step.name].chart, facts[step.name].stops
         for line in chart.lines:
@@ -144,11 +146,11 @@ class TestSteps:
                 assert line.y[chart.x.index(x)] == pytest.approx(y)
 
     @pytest.mark.slow
-    def test_the_large_numbers_are_there(self, step: LectureStep, facts: dict[str, Facts]):
+    def test_the_large_numbers_are_there(self, step: LectureStep, facts: dict[str, StepFacts]):
         stop = facts[step.name].stops[step.control.start]
         b = solved(stop.inputs)
         a = b if stop.against is None else solved(stop.against)
-        values = {**facts[step.name].words(SI), **quantities(b, a, SI)}
+        values = {**facts[step.name].words(SI), **compared_quantities(b, a, SI)}
         assert len({caption for _, caption in step.figures}) == 3
         for name, _ in step.figures:
             assert re.search(r"\d", values[name])
@@ -167,7 +169,7 @@ class TestAnswers:
     """The right answers, and numbers of their texts, against what is known from elsewhere."""
 
     @pytest.mark.slow
-    def test_the_right_ones(self, facts: dict[str, Facts]):
+    def test_the_right_ones(self, facts: dict[str, StepFacts]):
         """That of `trim` by momentum theory: far from hover induced power falls as 1/µ; at µ 0.3 to well below half."""
         right = {"trim": 0, "hover_twist": 1, "linear_inflow": 0, "responding_wake": 1, "fast_twist": 0,
                  "reverse_flow": 2, "two_segments": 1, "fixed_or_moving": 0, "power_or_vibration": 1,
@@ -177,7 +179,7 @@ class TestAnswers:
         assert weak < strong
 
     @pytest.mark.slow
-    def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, Facts]):
+    def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, StepFacts]):
         """The band over inflow models is that of the ladder, row by row."""
         found = facts["fixed_or_moving"]
         gains = [moving_twist(tuple(RUNGS), SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
@@ -186,7 +188,7 @@ class TestAnswers:
         assert min(gains) <= numbers["gain"].value <= max(gains) < 0.01
 
     @pytest.mark.slow
-    def test_moving_saves_what_the_trims_say(self, facts: dict[str, Facts]):
+    def test_moving_saves_what_the_trims_say(self, facts: dict[str, StepFacts]):
         """The mean over the designs of the control, trimmed anew; their twists are rounded to a hundredth."""
         stops = facts["fixed_or_moving"].stops
         moving, fixed = (
@@ -196,7 +198,7 @@ class TestAnswers:
         assert 1.0 - moving / fixed == pytest.approx(facts["fixed_or_moving"].numbers["gain"].value, abs=2e-5)
 
     @pytest.mark.slow
-    def test_the_front_trades_power_for_vibration(self, facts: dict[str, Facts]):
+    def test_the_front_trades_power_for_vibration(self, facts: dict[str, StepFacts]):
         found = facts["power_or_vibration"]
         powers, (line,) = found.chart.x, found.chart.lines
         assert list(powers) == sorted(powers)
@@ -209,7 +211,7 @@ class TestAnswers:
         assert loads_b.index / loads_a.index - 1.0 == pytest.approx(line.y[-1], abs=1e-4)
 
     @pytest.mark.slow
-    def test_the_ply_costs_more_than_it_saves(self, facts: dict[str, Facts]):
+    def test_the_ply_costs_more_than_it_saves(self, facts: dict[str, StepFacts]):
         """Its mass at the power that a kilogram costs is more than what its twist saves."""
         numbers = facts["piezoelectric_ply"].numbers
         heavy = rotor.make_design(mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value)
@@ -218,7 +220,7 @@ class TestAnswers:
         assert numbers["attainable"].value < numbers["required"].value
 
     @pytest.mark.slow
-    def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, Facts]):
+    def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, StepFacts]):
         step = BY_TITLE["What two segments add"]
         best = optimise(step.begin().design(), "two-segment-free")
         assert solved(step.begin()).power.total < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
@@ -286,7 +288,7 @@ class TestBeside:
 
     @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.name)
     def test_a_is_the_steps_own(self, step: LectureStep):
-        against = beside(step.against, step.inputs, step.inputs)
+        against = compared_inputs(step.against, step.inputs, step.inputs)
         if step.against is None or against is None:
             assert step.against is against is None
         else:
@@ -294,18 +296,20 @@ class TestBeside:
 
     def test_the_other_wake_is_compared_with_itself(self):
         step = BY_TITLE["A wake that responds to loading"]
-        against = beside(step.against, step.inputs, replace(step.inputs, inflow="local-momentum", linear=-17.0))
+        against = compared_inputs(
+            step.against, step.inputs, replace(step.inputs, inflow="local-momentum", linear=-17.0)
+        )
         assert against.design() == replace(step.against or Inputs(), inflow="local-momentum").design()
 
     def test_the_twist_and_the_flight_are_the_users(self):
         step = BY_TITLE["What reverse flow costs"]
         flown = replace(step.inputs, advance_ratio=0.3, tip_loss=False)
-        assert beside(step.against, step.inputs, flown) == replace(flown, reverse_flow=False)
+        assert compared_inputs(step.against, step.inputs, flown) == replace(flown, reverse_flow=False)
 
     @pytest.mark.slow
-    def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, Facts]):
+    def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, StepFacts]):
         stop = facts["power_or_vibration"].stops[0]
-        against = beside(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))
+        against = compared_inputs(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))
         assert against.twist_per_rev == ()
         assert against.advance_ratio == 0.25
 

@@ -12,10 +12,10 @@ import pytest
 from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
 from explorer.model.stand import StandInputs
 from explorer.sharing.share import DESIGN, Address, code_of, design_from, inputs_from, parameter, with_parameter
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
 """Characters of a query that the parser of addresses leaves as they are; a `#` would end the query."""

@@ -13,7 +13,7 @@ from explorer.model.inputs import baseline_of
 from explorer.model.units import SI
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise import search_words as search_text
-from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words, place_on, refined
+from explorer.tabs.optimise.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchFrame, SearchRequest, SearchRun
 from explorer.tabs.optimise.search_words import concept_picture
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
@@ -22,7 +22,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.results import SearchStatus as Status
-from rotor.processes import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
+from rotor.support.processes import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -215,7 +215,7 @@ class TestMap:
 
     def test_the_least_is_said_with_what_is_held(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
-        drawn = Map(task, np.array(told[-1].powers, dtype=float))
+        drawn = PowerMap(task, np.array(told[-1].powers, dtype=float))
         x, y, power = drawn.least
         assert solve(task.at(x, y)).power.total == pytest.approx(power, rel=1e-7)
         across, up = drawn.parameters
@@ -225,7 +225,7 @@ class TestMap:
 
     def test_it_is_drawn_with_its_least_and_the_design_on_the_sliders(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
-        drawn = Map(task, np.array(told[-1].powers, dtype=float))
+        drawn = PowerMap(task, np.array(told[-1].powers, dtype=float))
         picture = ET.fromstring(drawing(drawn, task.at(0.5, 0.25).twist))
         assert picture.find(".//g[@data-map]/image") is not None
         (x, y), exact = place_on(drawn, task.at(0.5, 0.25).twist)

@@ -19,9 +19,9 @@ from explorer.text.design_words import twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.views.dial import front_chart, validation_words, with_wave
-from explorer.views.dial_answer import DialAnswer, Fitted, FrontDot, compared, dial_answer, front_dots
+from explorer.views.dial_answer import DialAnswer, FittedBlade, FrontDot, compared, dial_answer, front_dots
 from rotor.actuator import (
-    Host,
+    HostBlade,
     default_placement,
     effect,
     find_actuator,
@@ -31,12 +31,12 @@ from rotor.actuator import (
     tip_amplitude,
     with_actuator_mass,
 )
-from rotor.chart import Points
 from rotor.design import LinearTwist
 from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
+from rotor.support.chart import Points
 from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.solve import solve
@@ -188,8 +188,8 @@ def test_the_front_is_near_its_trims(whole: list[DialAnswer], answer: DialNumber
 
 def test_the_blade_with_the_actuator_is_compared_with_another_one():
     """Mass and stiffness are those that a verdict counts; the other blade is as it was given, and both bend."""
-    installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), BENDING.rotor)
-    fitted = Fitted(installed, (0.0,), LinearTwist(math.radians(-12.0)), "that blade")
+    installed = install(find_actuator("MFC_P1"), default_placement(2), HostBlade(), BENDING.rotor)
+    fitted = FittedBlade(installed, (0.0,), LinearTwist(math.radians(-12.0)), "that blade")
     design = make_design(mu=0.3, twist="builtin")
     pair = compared(design, design, fitted)
     assert pair is not None

@@ -12,10 +12,10 @@ from PIL import Image
 from explorer.colours import VOID
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
-from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cover, View, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Covered, View, fit
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_picture, rotate, tip_path_pose
-from explorer.picture.polar import Drawn, PolarGrid, Refined, polar_grid
+from explorer.picture.polar import DrawnSolution, PolarGrid, RefinedFlow, polar_grid
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
@@ -88,12 +88,12 @@ class TestFields:
     @pytest.mark.parametrize("mu", [0.0, 0.05, 0.3])
     def test_every_field_is_finite(self, title: str, mu: float):
         solution = solve(make_design(mu=mu))
-        assert np.isfinite(FIELDS[title].sample(Drawn(solution), grid_of(solution))).all()
+        assert np.isfinite(FIELDS[title].sample(DrawnSolution(solution), grid_of(solution))).all()
 
     def test_thrust_per_blade_sums_to_the_weight(self, hover: Solution):
         """∫ dT/dr dr over R, four blades, is the thrust that holds 8322.4 kg and 3.5 % of download up."""
         grid = grid_of(hover)
-        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(Drawn(hover), grid).mean(axis=1)  # [N/m]
+        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(DrawnSolution(hover), grid).mean(axis=1)  # [N/m]
         lift = 4.0 * np.trapezoid(per_blade, grid.r) * hover.design.rotor.radius
         assert_allclose(lift, 1.035 * hover.design.condition.weight, rtol=0.02)
 
@@ -104,7 +104,7 @@ class TestFields:
         rotor, grid, line = fast.design.rotor, grid_of(fast), terms.line
         solved = point.x[point.system.structure.given :].reshape(line.panels, line.azimuths)
         solved = solved * math.pi / rotor.blades * rotor.tip_speed * rotor.radius  # [m²/s]
-        shown = FIELDS["Circulation"].sample(Drawn(fast), grid)
+        shown = FIELDS["Circulation"].sample(DrawnSolution(fast), grid)
         around = np.array([np.interp(line.r, grid.r, column) for column in shown.T]).T.mean(axis=1)
         outer = line.r > 0.6
         assert_allclose(around[outer], solved.mean(axis=1)[outer], rtol=0.03)
@@ -114,7 +114,7 @@ class TestFields:
         """On the solver's own points, outside reverse flow, to rounding in single precision."""
         solution = solve(make_design(preset=preset, mu=0.3))
         disk = solution.disk
-        same = Refined(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
+        same = RefinedFlow(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
 
@@ -198,7 +198,7 @@ class TestCamera:
     @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("view", ["top", "side", "blade"])
     def test_a_framed_view_lies_between_the_cards(self, view: View, aspect: float):
-        cover = Cover(0.2, 0.3)
+        cover = Covered(0.2, 0.3)
         points = self.RIM if view != "blade" else 8.18 * np.array([[0.05, 0.0, 0.0], [1.0, 0.0, 0.03]])
         x, y, _ = on_canvas(fit(view, 8.18, aspect, cover=cover), aspect, points)
         assert np.abs(x).max() < 1.0

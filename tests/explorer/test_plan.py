@@ -9,9 +9,9 @@ from explorer.model.inputs import ViewState
 from explorer.parts.stage import PackedTable
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
-from explorer.picture.polar import Drawn, polar_grid
-from rotor.arrays import Array
+from explorer.picture.polar import DrawnSolution, polar_grid
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -44,14 +44,14 @@ def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
     grid = polar_grid(solution.disk, 40, 120)
     for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
         packed = shown.values[name]
-        assert np.abs(table(packed) - field.sample(Drawn(solution), grid)).max() <= 0.51 * packed.step + 1e-9
+        assert np.abs(table(packed) - field.sample(DrawnSolution(solution), grid)).max() <= 0.51 * packed.step + 1e-9
     margin = np.minimum(
         *(
             sign * (table(shown.values[end]) - table(shown.values["alpha"]))
             for end, sign in (("upper", 1), ("lower", -1))
         )
     )
-    expected = FIELDS["Stall margin"].sample(Drawn(solution), grid)
+    expected = FIELDS["Stall margin"].sample(DrawnSolution(solution), grid)
     assert np.abs(margin - expected).max() < 0.02
 
 
@@ -68,7 +68,9 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
     assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
-    assert np.abs(table(shown.alpha_a) - ALPHA.sample(Drawn(other), polar_grid(other.disk, 40, 120))).max() < 0.01
+    assert (
+        np.abs(table(shown.alpha_a) - ALPHA.sample(DrawnSolution(other), polar_grid(other.disk, 40, 120))).max() < 0.01
+    )
 
 
 @pytest.mark.parametrize(
@@ -82,6 +84,6 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
 def test_power_fields_sum_to_the_power_by_parts(solution: Solution, title: str, part: str, within: float):
     """Profile power has the friction of the flow along the blade besides, up to 4 % at high speed."""
     grid, rotor = polar_grid(solution.disk, 120, 480), solution.design.rotor
-    per_metre = FIELDS[title].sample(Drawn(solution), grid).mean(axis=1)
+    per_metre = FIELDS[title].sample(DrawnSolution(solution), grid).mean(axis=1)
     total = 1e3 * per_metre.sum() * (grid.r[1] - grid.r[0]) * rotor.radius * rotor.blades
     assert total == pytest.approx(getattr(solution.power, part), rel=within)

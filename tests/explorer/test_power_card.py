@@ -8,7 +8,7 @@ from explorer.model.inputs import OPENING, Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.results import PowerPart
-from explorer.views.now import Now
+from explorer.views.page_state import PageState
 from explorer.views.power import power_card
 from rotor.trim.solve import solve
 
@@ -16,7 +16,7 @@ from rotor.trim.solve import solve
 def card(inputs: Inputs) -> PowerPart:
     solution = solve(inputs.design()).require()
     state = SessionState(inputs, ViewState(), solution, solve(baseline_of(solution.design)), None)
-    return power_card(Now(inputs, solution.design, state))["power"]
+    return power_card(PageState(inputs, solution.design, state))["power"]
 
 
 @pytest.mark.parametrize("climb", [-8.0, -13.0])

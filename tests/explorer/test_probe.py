@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
-from explorer.picture.picture import DISK_DROP, compose, make_picture, rotate, rotor_pose, tip_path_pose
+from explorer.picture.picture import DISK_DROP, composed_rotation, make_picture, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.tabs.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe_measured import lift_chart
@@ -138,7 +138,7 @@ class TestPick:
         shaft, disk = rotor_pose(solution.controls), tip_path_pose(solution.controls, DISK_DROP)
         place = r * solution.design.rotor.radius * np.array([math.cos(psi), math.sin(psi), 0.0])
         inside = disk.position + rotate(disk.wxyz, place)
-        assert_allclose(rotate(compose(shaft.wxyz, disk.wxyz), place) + rotate(shaft.wxyz, disk.position),
+        assert_allclose(rotate(composed_rotation(shaft.wxyz, disk.wxyz), place) + rotate(shaft.wxyz, disk.position),
                         rotate(shaft.wxyz, inside), atol=1e-12)  # fmt: skip
         return rotate(shaft.wxyz, inside)
 
@@ -160,7 +160,9 @@ class TestPick:
         for r in (0.02, 1.1):
             assert pick(fast, above, self.on_disk(fast, r, 1.0) - above) is None
         assert pick(fast, above, (0.0, 0.0, 1.0)) is None
-        normal = rotate(compose(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0])
+        normal = rotate(
+            composed_rotation(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0]
+        )
         assert pick(fast, above, normal) is None
 
 

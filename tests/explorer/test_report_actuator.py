@@ -15,7 +15,7 @@ from explorer.model.units import AVIATION, SI
 from explorer.text.readout import needs
 from explorer.views.assessed import ASSESSED, assessed, effect_asked
 from explorer.views.flight import earns_state
-from rotor.actuator.verdict import Against, Verdict, kw, reference, try_actuator
+from rotor.actuator.verdict import Against, Verdict, kilowatt_text, reference, try_actuator
 from rotor.command import actuator as command
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -42,7 +42,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert one.net_band is not None
     assert sentence == [f"Compared with {reference(one)}, it {needs(one, SI)} over the flight."]
-    assert f"± {kw(one.net_band)}" in printed.splitlines()[0]
+    assert f"± {kilowatt_text(one.net_band)}" in printed.splitlines()[0]
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
     of_command = re.findall(r"^  (?:gross|stiffness|mass|drive|net)[^-\d]*(-?[\d.]+) kW", printed, re.MULTILINE)

@@ -28,10 +28,10 @@ from explorer.tabs.design_files import UploadedFiles
 from explorer.text.design_words import title_words
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
-from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.dynamics.structure import check_blade
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.assets import SHIPPED_ROTORS, asset_path
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

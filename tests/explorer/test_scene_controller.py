@@ -14,10 +14,10 @@ import viser
 
 from explorer.hosting import viser_compat
 from explorer.model.inputs import ViewState
-from explorer.picture.blade_mesh import blade_shape, ghost_segments
+from explorer.picture.blade_mesh import blade_shape, overlay_segments
 from explorer.picture.fields import FIELDS, Field, usual_range
 from explorer.picture.picture import field_values, flown_twist
-from explorer.picture.polar import Drawn, polar_grid
+from explorer.picture.polar import DrawnSolution, polar_grid
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
 from rotor.design.twist import LinearTwist
@@ -95,7 +95,7 @@ class TestFrame:
         ((root, numbers),) = page.told("paint")
         assert root == "/rotor"
         radii, azimuths, inner, _ = numbers["grid"]
-        grid, drawn = polar_grid(fast.disk, radii, azimuths), Drawn(fast)
+        grid, drawn = polar_grid(fast.disk, radii, azimuths), DrawnSolution(fast)
         assert inner == pytest.approx(fast.disk.edges[0])
         values, u_t, attached, _ = (unpacked(text).reshape(grid.shape) for text in numbers["texts"])
         field = FIELDS["Mach number"]
@@ -141,16 +141,16 @@ def rigid(solution: Solution) -> Solution:
     return solve(replace(design, models=replace(design.models, elastic_twist=False))).require()
 
 
-class TestGhost:
+class TestOverlay:
     def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, fast: Solution):
         """By its edges alone: its surface would cut the flown one at small angles."""
         page.controller.draw(fast, VIEW, None)
         page.controller.draw_at_rest()
-        assert page["/rotor/blade_0/ghost"].visible
+        assert page["/rotor/blade_0/overlay"].visible
         assert not page["/rotor/blade_0/other"].visible
         flown = flown_twist(fast, math.radians(VIEW.azimuth_deg))
-        edges = ghost_segments(ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25))
-        np.testing.assert_allclose(page["/rotor/blade_0/ghost"].points, edges, atol=1e-5)
+        edges = overlay_segments(ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25))
+        np.testing.assert_allclose(page["/rotor/blade_0/overlay"].points, edges, atol=1e-5)
 
     def test_it_turns_with_the_elastic_twist_of_the_blade(self, page: Page, changed: Solution):
         """The jig shape stands still in the blade's axes; another blade has the elastic twist of each azimuth."""
@@ -164,9 +164,9 @@ class TestGhost:
         assert not page["/rotor/blade_0/other"].visible
         page.controller.draw(changed, VIEW, None)
         assert page["/rotor/blade_0/other"].visible
-        assert not page["/rotor/blade_0/ghost"].visible  # Its edges follow at rest.
+        assert not page["/rotor/blade_0/overlay"].visible  # Its edges follow at rest.
         page.controller.draw_at_rest()
-        assert page["/rotor/blade_0/ghost"].visible
+        assert page["/rotor/blade_0/overlay"].visible
 
     def test_another_blade_can_take_its_place(self, page: Page, changed: Solution):
         other = OtherBlade(ROTOR, changed.design.twist, (255, 176, 0))

@@ -11,12 +11,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise.schedule_view import PlanProgress
+from explorer.tabs.optimise.schedule_view import ScheduleProgress
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import Cell, Plan
+from rotor.optimisation.schedule import ScheduleOptimum, SchedulePlan
 from rotor.trim.solve import solve
 from tests.curves import curves
 
@@ -25,18 +25,18 @@ UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=
 
 
 @pytest.fixture(scope="module")
-def progress() -> PlanProgress:
+def progress() -> ScheduleProgress:
     """A schedule worked off here, its news heard as from a process; its legs not in the order of speed."""
     design = make_design(twist="linear:-16", models=UNIFORM)
     legs = tuple(
         WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
         for mu, hours in ((0.3, 0.5), (0.0, 1.0), (0.15, 2.0))
     )
-    progress = PlanProgress(Plan(design, (CONCEPTS["linear"],), legs, starts=1))
+    progress = ScheduleProgress(SchedulePlan(design, (CONCEPTS["linear"],), legs, starts=1))
 
     def tell(item: object) -> None:
         match item:
-            case Cell():
+            case ScheduleOptimum():
                 progress.cells.append(item)
             case FixedPowers(powers):
                 progress.fixed_powers = powers
@@ -48,7 +48,7 @@ def progress() -> PlanProgress:
 
 
 class TestSchedule:
-    def test_no_fixed_blade_beats_the_moving_one(self, progress: PlanProgress):
+    def test_no_fixed_blade_beats_the_moving_one(self, progress: ScheduleProgress):
         for k in range(3):
             best, fixed = progress.at(k), progress.fixed_power(k)
             assert fixed is not None
@@ -57,22 +57,22 @@ class TestSchedule:
         assert worth.gain >= 0.0
         assert progress.part_done == 1.0
 
-    def test_charts_and_table(self, progress: PlanProgress):
+    def test_charts_and_table(self, progress: ScheduleProgress):
         twists, savings = schedule_view.twist_chart(progress, None), schedule_view.saving_chart(progress, None)
         assert twists is not None
         assert savings is not None
         assert [one.label for one in twists.series] == ["hover", "", "fast", "fixed"]
         assert [one.label for one in savings.series] == ["fixed", "variable"]
         assert all(np.isfinite(one.y).all() for chart in (twists, savings) for one in curves(chart))
-        empty = PlanProgress(progress.plan)
+        empty = ScheduleProgress(progress.plan)
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
         assert "Additional saving from variable twist" in table
         assert "nan" not in table.lower()
-        assert "Moving" not in schedule_view.table(PlanProgress(progress.plan))
+        assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 
-    def test_legs_to_come_are_not_drawn(self, progress: PlanProgress):
-        half = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0])
+    def test_legs_to_come_are_not_drawn(self, progress: ScheduleProgress):
+        half = ScheduleProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0])
         whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert whole is not None
         assert drawn is not None
@@ -81,7 +81,7 @@ class TestSchedule:
         assert_allclose(moving.y, curves(whole)[1].y[2:])
         assert math.isnan(fixed.y[0])  # Not known yet.
 
-    def test_csv_reads_back(self, progress: PlanProgress):
+    def test_csv_reads_back(self, progress: ScheduleProgress):
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))
         assert [row["mu"] for row in rows] == ["0.3", "0", "0.15", "mean"]
         for k, row in enumerate(rows[:3]):
@@ -90,10 +90,10 @@ class TestSchedule:
             assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
         leg = progress.plan.conditions[0]
         climbing = replace(progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),))
-        text = schedule_view.csv_of(PlanProgress(climbing)).decode()
+        text = schedule_view.csv_of(ScheduleProgress(climbing)).decode()
         assert next(csv.DictReader(io.StringIO(text)))["climb_m_s"] == "2.5"
 
-    def test_stopped_keeps_what_there_is(self, progress: PlanProgress):
+    def test_stopped_keeps_what_there_is(self, progress: ScheduleProgress):
         told: list[Any] = []
         schedule = ScheduleTask(progress.plan).run(told.append, lambda: len(told) > 0)
         assert len(schedule.cells) == 1

@@ -13,8 +13,8 @@ from explorer.sharing.share import code_of, inputs_from
 from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
-from rotor.assets import MEASURED_ROTORS
-from rotor.chart import Points
+from rotor.support.assets import MEASURED_ROTORS
+from rotor.support.chart import Points
 from rotor.trim.solve import solve
 from rotor.validation.compare import SETS, load_set
 from tests.curves import curves

@@ -21,8 +21,8 @@ from explorer.charts.strip import (
     with_speeds,
 )
 from explorer.model.units import AVIATION
-from rotor.chart import Chart, Line, Points, drawn_chart
 from rotor.files.make_design import make_design
+from rotor.support.chart import Chart, Line, Points, drawn_chart
 from rotor.trim.solution import Solution, Status
 from rotor.trim.solve import solve
 

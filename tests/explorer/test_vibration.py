@@ -30,9 +30,9 @@ from explorer.picture.picture import (
 from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel
 from explorer.tabs.vibration_panel import VibrationPanel
-from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import HubLoads, hub_loads
 from rotor.trim.solution import Solution

@@ -15,11 +15,11 @@ from explorer.model.stand import StandInputs
 from explorer.model.units import AVIATION
 from explorer.page import PANELS
 from explorer.parts import Parts
-from explorer.parts.results import Best, Sureness
+from explorer.parts.results import LeastPower, Sureness
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.inset import blade_inset
-from explorer.views.now import HeldStation, Now, Panel, Ui, Work
-from explorer.views.power import hand, power_card, sureness
+from explorer.views.page_state import HeldStation, OpenPanels, PageState, Panel, PanelWork
+from explorer.views.power import held_power, power_card, sureness
 from explorer.views.strip import remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
@@ -38,16 +38,16 @@ def solved(inputs: Inputs) -> Solution:
     return solve(inputs.design()).require()
 
 
-def now_at(inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: str = "") -> Now:
+def now_at(inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: str = "") -> PageState:
     """What a page knows of these inputs once it rests, but for the answers; `a`: is pinned."""
     solution, pin = solved(inputs), None if a is None else Pinned(a, solved(a))
     state = SessionState(inputs, ViewState(units=units), solution, solve(baseline_of(solution.design)), None, pin)
     state = state if pin is None else replace(state, pinned=pin.solution)
     curve = PowerCurves().known(solution.design, state.reference.design)
-    return Now(inputs, solution.design, state, ui=Ui(drawer=drawer), curve=curve)
+    return PageState(inputs, solution.design, state, ui=OpenPanels(drawer=drawer), curve=curve)
 
 
-def known(now: Now, *works: Work) -> Now:
+def known(now: PageState, *works: PanelWork) -> PageState:
     """With the results of works, which are remembered."""
     results = {work: work.run(lambda: False, lambda: None) for work in works}
     latest = {work.name: result for work, result in results.items()}
@@ -55,13 +55,13 @@ def known(now: Now, *works: Work) -> Now:
     return replace(now, answers=answers, memory=replace(now.memory, latest={**now.memory.latest, **latest}))
 
 
-def soon(now: Now) -> Now:
+def soon(now: PageState) -> PageState:
     """A moment after it began to rest."""
     works = {work.key: work for panel in PANELS for work in panel.works(now) if work.soon}
     return known(now, *works.values())
 
 
-def moved(before: Now, inputs: Inputs, pin: Inputs | None = None) -> Now:
+def moved(before: PageState, inputs: Inputs, pin: Inputs | None = None) -> PageState:
     """One step of a drag later."""
     now = now_at(inputs, pin)
     assert now.state is not None
@@ -69,12 +69,14 @@ def moved(before: Now, inputs: Inputs, pin: Inputs | None = None) -> Now:
 
 
 STATES: Mapping[str, Any] = {
-    "before the first": lambda: Now(OPENING, OPENING.design(), None),
-    "no first trim": lambda: Now(OPENING, None, None, problem=SENTENCE),
+    "before the first": lambda: PageState(OPENING, OPENING.design(), None),
+    "no first trim": lambda: PageState(OPENING, None, None, problem=SENTENCE),
     "opening": lambda: now_at(OPENING),
     "at rest": lambda: soon(now_at(CHANGED)),
     "dragged": lambda: moved(soon(now_at(OPENING)), CHANGED),
-    "held": lambda: replace(soon(now_at(CHANGED)), station=HeldStation("tip", Best(3.0, 9e5, held=False)), change=-2e3),
+    "held": lambda: replace(
+        soon(now_at(CHANGED)), station=HeldStation("tip", LeastPower(3.0, 9e5, held=False)), change=-2e3
+    ),
     "A": lambda: soon(now_at(CHANGED, OPENING)),
     "units": lambda: soon(now_at(CHANGED, units="Aviation")),
     "no trim": lambda: replace(soon(now_at(CHANGED)), problem=SENTENCE),
@@ -103,29 +105,29 @@ def test_a_panel_shows_the_same_of_what_is_the_same(name: str):
 
 def test_drawers_that_are_closed_are_not_viewed():
     def opened(drawer: str) -> list[Panel]:
-        return [panel for panel in (DETAILS, TRUST, WATERFALL) if panel.seen(Ui(drawer=drawer))]
+        return [panel for panel in (DETAILS, TRUST, WATERFALL) if panel.seen(OpenPanels(drawer=drawer))]
 
     assert (opened(""), opened("details"), opened("trust")) == ([], [DETAILS, WATERFALL], [TRUST])
 
 
 class TestWhileADragGoesOn:
     @pytest.fixture
-    def rest(self) -> Now:
+    def rest(self) -> PageState:
         return soon(now_at(replace(OPENING, built_outer=-4.0)))
 
-    def test_the_band_of_the_step_before_stays(self, rest: Now):
+    def test_the_band_of_the_step_before_stays(self, rest: PageState):
         before, during = sureness(rest), sureness(moved(rest, CHANGED))
         assert before.within.startswith("± ")
         assert during == before
         assert sureness(soon(moved(rest, CHANGED))).doubt != before.doubt
 
-    def test_so_do_the_rows_of_the_doubt_greyed(self, rest: Now):
+    def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
         assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
         during = TRUST.view(moved(rest, CHANGED))["trust.doubts"]
         assert during.count("rx-faded") == 1
         assert TRUST.view(rest)["trust.doubts"] in during
 
-    def test_slopes_are_stale_until_it_rests(self, rest: Now):
+    def test_slopes_are_stale_until_it_rests(self, rest: PageState):
         rows, during = worth(rest)["worth"], moved(rest, CHANGED)
         assert {row.stale for row in rows.values()} == {False}
         assert twist_slopes(rest).keys() == rows.keys()
@@ -143,7 +145,7 @@ class TestWhileADragGoesOn:
         assert {name: row.stale for name, row in rows.items()}["mass_t"]
         assert not rows["built_outer"].stale
 
-    def test_another_rotor_forgets_them(self, rest: Now):
+    def test_another_rotor_forgets_them(self, rest: PageState):
         other = moved(rest, with_rotor(OPENING, "bo105"))
         assert (sureness(other), worth(other)["worth"]) == (Sureness(), {})
         assert TRUST.view(other)["trust.doubts"] == ""
@@ -189,7 +191,7 @@ class TestWithoutATrim:
         assert blade_inset(lost) == blade_inset(good)
 
     def test_before_the_first_there_are_none(self):
-        card = power_card(Now(OPENING, None, None, problem=SENTENCE))["power"]
+        card = power_card(PageState(OPENING, None, None, problem=SENTENCE))["power"]
         assert (card.total, card.parts, card.status.kind) == ("–", (), "problem")
 
 
@@ -199,9 +201,9 @@ def test_a_free_rotor_has_neither_doubt_nor_slopes():
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
-    now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", Best(3.0, 745699.872, held=True)))
-    shown = hand(replace(now, change=-74569.9872))["hand"]
+    now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", LeastPower(3.0, 745699.872, held=True)))
+    shown = held_power(replace(now, change=-74569.9872))["hand"]
     assert shown.now == pytest.approx(AVIATION.power[0].of(now.state.solution.power.total), abs=0.01)
     assert (shown.before, shown.kind) == (pytest.approx(shown.now + 100.0, abs=0.02), "good")
-    assert (shown.best.power, shown.place, shown.rival) == (1000.0, "tip", None)
-    assert hand(replace(now, station=None)) == {"hand": None}
+    assert (shown.best.power, shown.place, shown.optimised) == (1000.0, "tip", None)
+    assert held_power(replace(now, station=None)) == {"hand": None}

@@ -9,7 +9,7 @@ import pytest
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
-from explorer.views.now import Now
+from explorer.views.page_state import PageState
 from explorer.views.waterfall import cost_words, costs, steps_asked, waterfall_chart
 from explorer.views.waterfall import waterfall as shown
 from rotor.aero.switches import SWITCHES
@@ -59,9 +59,9 @@ class TestDrawing:
         assert cost_words(steps[1], SI) == "does not trim without it"
 
 
-def now_at(mu: float) -> Now:
+def now_at(mu: float) -> PageState:
     solution = solve(coarse(mu))
-    return Now(Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None))
+    return PageState(Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None))
 
 
 def test_what_was_interrupted_goes_on_and_it_is_shown_whole_or_not_at_all():
@@ -88,12 +88,12 @@ def test_what_was_interrupted_goes_on_and_it_is_shown_whole_or_not_at_all():
     assert [one.key for one in steps_asked(turned(known))] == [work.key]
 
 
-def turned(now: Now) -> Now:
+def turned(now: PageState) -> PageState:
     assert now.state is not None
     return replace(now, state=replace(now.state, view=ViewState(azimuth_deg=90.0)))
 
 
-def in_units(now: Now) -> Now:
+def in_units(now: PageState) -> PageState:
     assert now.state is not None
     return replace(now, state=replace(now.state, view=ViewState(units="Aviation")))
 

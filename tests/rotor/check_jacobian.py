@@ -6,9 +6,9 @@ from numpy.testing import assert_allclose
 from rotor.aero.disk import Disk
 from rotor.aero.elements import STATE_NAMES, BladeElements, DiskSums, TrimState
 from rotor.aero.problem import Problem
-from rotor.arrays import Array
 from rotor.columns.flight import elements_of, flight_system
 from rotor.engine.linearise import Point, evaluate, jacobian, transposed
+from rotor.support.arrays import Array
 from rotor.trim.newton import Guess, first_point
 
 

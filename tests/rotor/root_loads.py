@@ -5,11 +5,11 @@ import numpy as np
 from rotor.aero.bending import BladeBending
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ
-from rotor.arrays import Array
 from rotor.columns.bending import coordinates_of
 from rotor.engine.linearise import Point
 from rotor.engine.waves import wave_grid
-from rotor.units import GRAVITY
+from rotor.support.arrays import Array
+from rotor.support.units import GRAVITY
 
 
 def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:

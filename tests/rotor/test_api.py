@@ -22,9 +22,9 @@ from numpy.testing import assert_allclose
 
 import explorer
 import rotor
-from rotor.assets import asset_path
 from rotor.design.twist import LinearTwist
-from rotor.units import KNOT
+from rotor.support.assets import asset_path
+from rotor.support.units import KNOT
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent.parent

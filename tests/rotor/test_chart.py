@@ -10,7 +10,7 @@ import msgspec
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.chart import (
+from rotor.support.chart import (
     AZIMUTH,
     Axis,
     Band,
@@ -24,7 +24,7 @@ from rotor.chart import (
     round_ticks,
     tick_text,
 )
-from rotor.chart_svg import small_svg, svg
+from rotor.support.chart_svg import small_svg, svg
 
 SVG = "{http://www.w3.org/2000/svg}"
 

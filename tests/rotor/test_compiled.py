@@ -12,11 +12,11 @@ import pytest
 from numba.core import caching, config
 
 import rotor
-from rotor.compiled import _watch, compiled, compiling, tell_in_a_log, why_not_kept
+from rotor.support.compiled import _watch, compiled, compiling, log_compiling, why_not_kept
 
 SOURCE = """
 import numba
-from rotor.compiled import compiled
+from rotor.support.compiled import compiled
 
 def plain(x):
     return x + 1.0
@@ -62,9 +62,9 @@ def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "called_by_a_test", raising=False)
     inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
-    inner.write_text("from rotor.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
+    inner.write_text("from rotor.support.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
     outer.write_text(
-        "import called_by_a_test\nfrom rotor.compiled import compiled\n\n"
+        "import called_by_a_test\nfrom rotor.support.compiled import compiled\n\n"
         "@compiled()\ndef kernel(x):\n    return 10.0 * called_by_a_test.by(x)\n"
     )
     return inner, outer
@@ -154,7 +154,7 @@ def test_elsewhere_one_line_tells_it_where_that_is_asked_for(source: Path, monke
     monkeypatch.setattr(sys, "stderr", said)
     assert module(source).kernel(1.0) == 2.0
     assert said.getvalue() == ""
-    tell_in_a_log()
+    log_compiling()
     kernel = module(source).plain
     assert [compiled()(kernel)(one) for one in (1.0, 2)] == [2.0, 3.0]
     assert said.getvalue().count("\n") == 1

@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotor.markup import Markup, group, tag
+from rotor.support.markup import Markup, group, tag
 
 TEXT = st.text(st.characters(exclude_categories=("Cs", "Cc")))
 

@@ -15,8 +15,8 @@ import numpy as np
 import psutil
 import pytest
 
-from rotor.blas_threads import _libraries
-from rotor.processes import (
+from rotor.support.blas_threads import _libraries
+from rotor.support.processes import (
     Job,
     JobEnded,
     JobEvent,
@@ -28,7 +28,7 @@ from rotor.processes import (
     WorkerLost,
     run_tasks,
 )
-from rotor.worker_process import WorkerProcess
+from rotor.support.worker_process import WorkerProcess
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 120.0
@@ -371,7 +371,7 @@ def test_a_page_that_cannot_hear_spoils_no_other_job(pool: Processes):
 
 
 def test_a_start_that_takes_too_long_shifts_no_answers(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("rotor.processes._START", 0.05)
+    monkeypatch.setattr("rotor.support.processes._START", 0.05)
     pool = Processes(1, settings)
     try:
         pool.warm()
@@ -385,7 +385,7 @@ def test_a_start_that_takes_too_long_shifts_no_answers(monkeypatch: pytest.Monke
 
 _PARENT = """
 import os, sys, time
-from rotor.processes import Processes
+from rotor.support.processes import Processes
 pool = Processes(2)
 print(*{pool.submit(os.getpid).result() for _ in range(20)}, flush=True)
 pool.submit(time.sleep, 3600.0)

@@ -17,8 +17,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from rotor.arrays import Array
-from rotor.blas_threads import keep_one_blas_thread
+from rotor.support.arrays import Array
+from rotor.support.blas_threads import keep_one_blas_thread
 from rotor.trim.analysis import power_gradient
 from tests.patched import empty_caches
 

@@ -11,7 +11,7 @@ import pytest
 
 from explorer.__main__ import main as explorer
 from rotor.__main__ import main
-from rotor.terminal import StopSignal, run_command
+from rotor.support.terminal import StopSignal, run_command
 
 
 def piped(monkeypatch: pytest.MonkeyPatch, encoding: str) -> tuple[io.BytesIO, io.BytesIO]:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from rotor.blas_threads import _libraries, one_blas_thread
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
+from rotor.support.blas_threads import _libraries, one_blas_thread
 from rotor.trim.solve import solve
 
 
@@ -65,7 +65,7 @@ def test_a_trim_runs_on_one_thread():
 
 
 _SCRIPT = """
-from rotor.worker_process import start_process
+from rotor.support.worker_process import start_process
 print("script", flush=True)
 process = start_process(print, ("work",), "worker")
 process.join()

@@ -12,7 +12,7 @@ from rotor.files.design_file import load_design, parse_design
 from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.objective import read_mission
 from rotor.study.study_file import read_study
-from rotor.user_input import brief, check_writable, make_folder, read_text, refusing, shorten, write_whole
+from rotor.support.user_input import brief, check_writable, make_folder, read_text, refusing, shorten, write_whole
 
 READERS = {
     "design": load_design,
@@ -147,7 +147,7 @@ def test_no_folder_is_left_where_nothing_can_be_written(tmp_path: Path, monkeypa
     def full(**_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("rotor.user_input.tempfile.TemporaryFile", full)
+    monkeypatch.setattr("rotor.support.user_input.tempfile.TemporaryFile", full)
     with pytest.raises(ValueError, match="No space left"):
         make_folder(tmp_path / "a" / "b")
     assert list(tmp_path.iterdir()) == []

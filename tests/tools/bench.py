@@ -29,7 +29,7 @@ from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
 from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import Plan, run_plan
+from rotor.optimisation.schedule import SchedulePlan, run_plan
 from rotor.optimisation.search import Search, run_search
 from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
@@ -82,7 +82,7 @@ def measure_searches(*, long: bool) -> dict[str, float]:
         ratios = [0.0, *(0.05 + 0.025 * k for k in range(1, 15))]
         conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
         begin = time.perf_counter()
-        run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=min(2, os.cpu_count() or 1))
+        run_plan(SchedulePlan(design, tuple(CONCEPTS.values()), conditions), processes=min(2, os.cpu_count() or 1))
         figures["schedule, 15 conditions, 8 concepts"] = time.perf_counter() - begin
     return figures
 

@@ -15,9 +15,9 @@ import numpy as np
 from scipy.optimize import root
 
 from rotor.airfoil.sections import load_section
-from rotor.arrays import Array
-from rotor.assets import asset_path
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.page import trust_csv

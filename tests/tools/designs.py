@@ -16,8 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.blas_threads import one_blas_thread
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
 from rotor.design.design import Design
@@ -25,6 +23,8 @@ from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.analysis import Analysis
 from rotor.trim.hover import _error
 from rotor.trim.newton import DEFAULT_OPTIONS, _errors

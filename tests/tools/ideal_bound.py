@@ -2,11 +2,11 @@
 
 import math
 
-from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.ideal_bound import find_bound
-from rotor.user_input import csv_text
+from rotor.support.assets import asset_path
+from rotor.support.user_input import csv_text
 
 SPEEDS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4)
 MASSES = (5000.0, 6500.0, 8322.4, 9600.0, 11000.0)

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.arrays import Array
-from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 from tests.tools.sections import __main__ as command
 from tests.tools.sections.recipes import NATIVE_MACHS, RECIPES, TRIP, compare_decks, make_deck
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, require_xfoil, run_polar

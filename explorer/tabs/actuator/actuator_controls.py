@@ -7,13 +7,13 @@ from typing import Any
 import viser
 
 from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
-from explorer.tabs.form import Form
+from explorer.tabs.form import WidgetForm
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import validation_words
 from rotor.actuator.verdict import Against
 from rotor.design.quantity import Slider
-from rotor.markup import tag
 from rotor.optimisation import find_concept
+from rotor.support.markup import tag
 
 
 class ActuatorControls:
@@ -29,7 +29,7 @@ class ActuatorControls:
 
         start = ActuatorInputs()
         self._against: Against = start.against
-        form = self.form = Form(gui, self._heard)
+        form = self.form = WidgetForm(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
         form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)

@@ -4,16 +4,16 @@ import threading
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.actuator_inputs import ActuatorInputs, Outcome, question_of, verdict_tasks
+from explorer.model.actuator_inputs import ActuatorInputs, Outcome, verdict_inputs_of, verdict_tasks
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.lifted_scene import LiftedScene
 from explorer.tabs.background import all_known
 from explorer.tabs.context import TabContext
-from explorer.views.flight import AT_REST, BY_HAND, landed
-from explorer.views.now import Hand, SetAddress, SetHand
-from explorer.views.pay import SUPPOSED, place_of
+from explorer.views.flight import AT_REST, BY_HAND, after_landing
+from explorer.views.page_state import HandSettings, SetAddress, SetHand
+from explorer.views.pay import SUPPOSED, read_place
 from explorer.workers import solver
 from rotor import Design, Solution
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
@@ -26,8 +26,8 @@ class ActuatorPanel:
         """`address` may hold a supposed actuator; `problems` get a title and a sentence where it cannot be read."""
         self._context, self._address = context, address
         self._blade = LiftedScene(context.client, context.bridge)
-        place = address.read(SUPPOSED, place_of, None, "Link: supposed actuator not used", problems)
-        self._hand, self._lock = Hand(on_stage=place is not None, place=place), threading.Lock()
+        place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used", problems)
+        self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
         self._opened = False
         """Whether the blade ever was out of the rotor."""
         self._radius = 1.0
@@ -44,7 +44,7 @@ class ActuatorPanel:
         """The browser has left."""
         self._blade.stop()
 
-    def hand(self) -> Hand:
+    def hand(self) -> HandSettings:
         """What the hand has set by now."""
         return replace(self._hand, actuator=self.inputs())
 
@@ -79,7 +79,7 @@ class ActuatorPanel:
         if not (self._opened and self.fits):
             return ""
         try:
-            question = question_of(self.inputs(), self._context.inputs().design())
+            question = verdict_inputs_of(self.inputs(), self._context.inputs().design())
         except ValueError as error:
             return str(error)
         task = verdict_tasks(question)[question.actuator]
@@ -98,7 +98,7 @@ class ActuatorPanel:
             self._set(lifted=True)
             return
         self._release()
-        self.perform(landed(self._hand))
+        self.perform(after_landing(self._hand))
 
     def draw(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """The lifted blade as it flies: `design` is without the actuator's twist, `solution` with it."""

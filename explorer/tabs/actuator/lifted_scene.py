@@ -10,7 +10,7 @@ from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
 from explorer.parts.stage import SceneLabel
 from explorer.picture import lifted_blade as lifted
-from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, GHOST, LEAD, LEADER, LiftedPicture, mixed
+from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, LEAD, LEADER, OVERLAY, LiftedPicture, mixed_colour
 from explorer.scene.overlays import even_colours
 
 NODE = "/lifted"
@@ -18,7 +18,7 @@ NODE = "/lifted"
 _NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
 _LINES: dict[str, tuple[Rgb, float]] = {
     "edges": (EDGE, 2.2),
-    "ghost": (GHOST, 1.6),
+    "overlay": (OVERLAY, 1.6),
     "leads": (LEAD, 3.0),
     "fibres": (FIBRE[0], 1.1),
     "arrow": (ARROW, 5.0),
@@ -57,7 +57,7 @@ class LiftedScene:
             self._leaving.cancel()
         if radius != self._radius:  # Only then: on its way the page moves it.
             self._radius, pose = radius, lifted.lifted_pose(radius)
-            viser_compat.place(self._frame, pose.wxyz, pose.position)
+            viser_compat.set_pose(self._frame, pose.wxyz, pose.position)
         if not self._held:
             self._held = True
             self._move(True, radius)
@@ -92,7 +92,7 @@ class LiftedScene:
             segments = picture.lines[name]
             handle.visible = len(segments) > 0
             if len(segments):
-                colour = mixed(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
+                colour = mixed_colour(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
                 handle.points, handle.colors = segments.astype(np.float32), even_colours(colour, len(segments))
         lit = {name: solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
         glow = {f"{NODE}/{name}": [css(colour), strength] for name, (colour, strength) in lit.items()}

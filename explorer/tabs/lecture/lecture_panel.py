@@ -16,16 +16,16 @@ from explorer.model.units import UNITS
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
-from explorer.story.facts import Facts, facts_at
-from explorer.story.steps import STEPS, LectureStep, beside, quantities, view_of
+from explorer.story.facts import StepFacts, facts_at
+from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
 from explorer.text.glossary import hint
 from explorer.workers.call import Call
-from rotor.markup import tag
-from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress
+from rotor.support.markup import tag
+from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -254,10 +254,10 @@ class LecturePanel(Tab):
         self._show()
         self._context.wake()
 
-    def _facts(self, step: int) -> Facts | None:
+    def _facts(self, step: int) -> StepFacts | None:
         """What is computed of a step; None until then."""
         facts = self._told.answer(_task(step))
-        return facts if isinstance(facts, Facts) else None
+        return facts if isinstance(facts, StepFacts) else None
 
     def _facts_came(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
@@ -285,9 +285,9 @@ class LecturePanel(Tab):
             return None
         facts, step = self._facts(self.place.step), STEPS[self.place.step]
         if facts is None:
-            return beside(step.against, step.inputs, inputs)
+            return compared_inputs(step.against, step.inputs, inputs)
         stop = facts.stops[self.place.stop]
-        return beside(stop.against, stop.inputs, inputs)
+        return compared_inputs(stop.against, stop.inputs, inputs)
 
     def _show(self) -> None:
         """The steps in the frame."""
@@ -300,11 +300,11 @@ class LecturePanel(Tab):
             bridge.set(lecture=None)
             return
         step, state, answer = STEPS[place.step], self._state, self._told.answer(_task(place.step))
-        facts = answer if isinstance(answer, Facts) else None
+        facts = answer if isinstance(answer, StepFacts) else None
         guessed = place.guess is not None
         values = dict[str, str]()
         if guessed and state is not None and facts is not None:
-            values = {**facts.words(units), **quantities(state.solution, state.reference, units)}
+            values = {**facts.words(units), **compared_quantities(state.solution, state.reference, units)}
         figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],

@@ -11,14 +11,14 @@ from explorer.parts.presses import MapPress
 from explorer.tabs.background import BackgroundWork
 from explorer.tabs.context import TabContext
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.power_map import Map, default_axes, drawing, least_words
+from explorer.tabs.optimise.power_map import PowerMap, default_axes, drawing, least_words
 from explorer.text.glossary import hint
 from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
-from rotor.markup import tag
 from rotor.optimisation import nearest
 from rotor.optimisation.descent import BAND
-from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress
+from rotor.support.markup import tag
+from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 TIME_LIMIT = 120.0
 """[s] a map may take."""
@@ -33,7 +33,7 @@ class MapPanel(BackgroundWork):
         super().__init__(context.pool, context.wake, TIME_LIMIT, _URGENCY, restarts=True)
         self._context = context
         self._search, gui = search, context.gui
-        self.map: Map | None = None
+        self.map: PowerMap | None = None
         self.line = "Power over two parameters, the others fixed. Click the map to set a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
@@ -107,7 +107,7 @@ class MapPanel(BackgroundWork):
             case JobProgress(MapLevel(powers)):
                 grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
                 if np.isfinite(grid).any():
-                    self.map = Map(task, grid)
+                    self.map = PowerMap(task, grid)
                     mu = task.objective.conditions[0].flight.advance_ratio
                     where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
                     self.line = f"{len(powers)} × {len(powers)} points, {where}"

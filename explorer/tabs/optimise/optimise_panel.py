@@ -12,7 +12,7 @@ from explorer.parts.frame import NoticePart
 from explorer.sharing.share import Address, code_of, design_from
 from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
 from explorer.tabs.context import TabContext
-from explorer.tabs.form import Form
+from explorer.tabs.form import WidgetForm
 from explorer.tabs.layout import by_hand
 from explorer.tabs.optimise import search_words as text
 from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
@@ -23,11 +23,11 @@ from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
-from rotor.markup import tag
 from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
-from rotor.processes import JobEvent
+from rotor.support.markup import tag
+from rotor.support.processes import JobEvent
 
 _STILL = 0.6
 """[s] without a change before the best linear twist is looked for."""
@@ -40,13 +40,13 @@ _LIMITS = {"limit_stall": "stalled", "limit_change": "change", "limit_index": "i
 _NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
 """Sliders that only some searches have."""
 
-RIVAL = "o"
+OPTIMISED = "o"
 """Name in the address of the optimum to be beaten by hand."""
 
 
-def is_rival(rival: Design, present: Design) -> bool:
+def same_but_twist(optimised: Design, present: Design) -> bool:
     """Whether the two differ in nothing but the jig twist."""
-    return replace(present, twist=rival.twist) == rival
+    return replace(present, twist=optimised.twist) == optimised
 
 
 class OptimisePanel(BackgroundWork):
@@ -64,7 +64,7 @@ class OptimisePanel(BackgroundWork):
         """Called with an optimum that is to be beaten by hand."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
-        form = self.form = Form(gui, lambda name, by_hand: context.wake() if by_hand else None)
+        form = self.form = WidgetForm(gui, lambda name, by_hand: context.wake() if by_hand else None)
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
@@ -225,7 +225,7 @@ class OptimisePanel(BackgroundWork):
         """Whether power on the page is what was searched for, and the twist alone was moved."""
         asked, start = run.search.objective, run.search.design
         least_power = asked is None or asked == at_condition(start, "total")
-        return least_power and run.frames[-1].design != start and is_rival(run.frames[-1].design, start)
+        return least_power and run.frames[-1].design != start and same_but_twist(run.frames[-1].design, start)
 
     def _beat(self) -> None:
         """The blade before the search again, to be twisted by hand against what was found."""
@@ -254,14 +254,14 @@ class OptimisePanel(BackgroundWork):
             self._context.wake()
 
 
-class Rival:
+class OptimisedDesign:
     """One session's. The design is kept, never its power: whoever opens the link computes it again."""
 
     def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
         """`problems` get a title and a sentence where the address cannot be read."""
         self._context, self._address = context, address
         self._solved = BaselineCache(by=context.analyses.solve)
-        self._design = address.read(RIVAL, design_from, None, "Link: optimum not used", problems)
+        self._design = address.read(OPTIMISED, design_from, None, "Link: optimum not used", problems)
         self.solution: Solution | None = None
         """The optimiser's trim in the present flight; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())
@@ -271,16 +271,16 @@ class Rival:
         """Measure what follows against this optimum; None: against none."""
         self._design, self.solution = design, None
         try:
-            self._address[RIVAL] = None if design is None else code_of(design)
+            self._address[OPTIMISED] = None if design is None else code_of(design)
         except ValueError:
-            self._address[RIVAL] = None  # No address holds a rotor of one's own.
+            self._address[OPTIMISED] = None  # No address holds a rotor of one's own.
         self._context.wake()
 
     def show(self, state: SessionState) -> None:
         """Follow a converged state: in another flight, with another model or rotor there is nothing to compare."""
-        self.solution, rival = None, self._design
-        if rival is not None and is_rival(rival, state.solution.design):
-            other = self._solved.solve(rival)
+        self.solution, optimised = None, self._design
+        if optimised is not None and same_but_twist(optimised, state.solution.design):
+            other = self._solved.solve(optimised)
             if other.converged:
                 self.solution = other
 

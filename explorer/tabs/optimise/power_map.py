@@ -13,12 +13,12 @@ from explorer.colours import NOW, colour_map, css
 from explorer.model.units import Units, number
 from explorer.picture.disk_image import encode_png
 from explorer.workers.solver import MapTask
-from rotor.arrays import Array
-from rotor.chart import bar_ticks
 from rotor.design import TwistLaw
-from rotor.markup import Markup, group, tag
 from rotor.optimisation import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND
+from rotor.support.arrays import Array
+from rotor.support.chart import bar_ticks
+from rotor.support.markup import Markup, group, tag
 
 CONTOURS = (0.005, 0.01, 0.02, 0.04, 0.08)
 """Power above the least, as parts of it, at which lines are drawn; the colours end at the last."""
@@ -35,7 +35,7 @@ _NEAR = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Map:
+class PowerMap:
     task: MapTask
     powers: Array
     """[W], (rows along y, columns along x); NaN where a design does not trim."""
@@ -64,7 +64,7 @@ def default_axes(concept: Concept) -> tuple[int, int]:
 
 
 @lru_cache(maxsize=8)
-def place_on(drawn: Map, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
+def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
     """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
     task = drawn.task
     values, on_map = nearest(task.concept, twist), list(task.values)
@@ -79,7 +79,7 @@ def place_on(drawn: Map, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
     return (x, y), exact
 
 
-def least_words(drawn: Map, units: Units) -> str:
+def least_words(drawn: PowerMap, units: Units) -> str:
     """The best grid point, and the parameters that the map holds."""
 
     def at(parameter: Parameter, value: float) -> str:
@@ -108,7 +108,7 @@ def refined(powers: Array, wide: int, high: int) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _picture(drawn: Map) -> bytes:
+def _picture(drawn: PowerMap) -> bytes:
     """PNG: colours by power above the least, lines at `CONTOURS`, the 0.1 % band within a white edge."""
     values = refined(drawn.powers, round(_SHARP * _WIDE), round(_SHARP * _HIGH))[::-1]
     excess = values / drawn.least[-1] - 1.0
@@ -131,7 +131,7 @@ def _picture(drawn: Map) -> bytes:
     return encode_png(pixels, entries)
 
 
-def drawing(drawn: Map, twist: TwistLaw | None) -> Markup:
+def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
     """SVG of a map. `twist`: on the sliders; its mark is hollow where it does not lie in the plane of the map."""
     across, up = drawn.parameters
     x, y, _ = drawn.least

@@ -13,14 +13,14 @@ from explorer.tabs.live_charts import PanelChart
 from explorer.tabs.optimise import schedule_view
 from explorer.tabs.optimise import search_run as mission
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.schedule_view import PlanProgress
+from explorer.tabs.optimise.schedule_view import ScheduleProgress
 from explorer.text.glossary import hint
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
-from rotor.markup import tag
-from rotor.optimisation import Cell, Plan, WeightedCondition
+from rotor.optimisation import ScheduleOptimum, SchedulePlan, WeightedCondition
 from rotor.optimisation.search import STARTS
-from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from rotor.support.markup import tag
+from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""
@@ -35,7 +35,7 @@ class SchedulePanel(BackgroundWork):
         self._context = context
         self._request, gui = search.request, context.gui
         search.legs = self.legs
-        self._progress: PlanProgress | None = None
+        self._progress: ScheduleProgress | None = None
         self.line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
         self._concept = gui.add_html("")
@@ -59,7 +59,7 @@ class SchedulePanel(BackgroundWork):
         """The mission, for the concept that the search is asked for."""
         design, request = self._context.inputs().design(), self._request()
         concept = request.known_concept()
-        plan = Plan(
+        plan = SchedulePlan(
             design,
             (concept,),
             self.legs(design),
@@ -67,7 +67,7 @@ class SchedulePanel(BackgroundWork):
             request.limits(design),
             STARTS,
         )
-        progress = self._progress = PlanProgress(plan)
+        progress = self._progress = ScheduleProgress(plan)
         return ScheduleTask(plan), partial(self._hear, progress), "Starting a worker …"
 
     def halt(self) -> None:
@@ -103,13 +103,13 @@ class SchedulePanel(BackgroundWork):
             return str(error)
         return f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
 
-    def _hear(self, progress: PlanProgress, news: JobEvent) -> None:
+    def _hear(self, progress: ScheduleProgress, news: JobEvent) -> None:
         match news:
             case JobQueued(ahead):
                 self.line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
             case JobStarted():
                 self.line = progress.count
-            case JobProgress(Cell() as cell):
+            case JobProgress(ScheduleOptimum() as cell):
                 progress.cells.append(cell)
                 self.line = progress.count
             case JobProgress(FixedPowers(powers)):

@@ -11,20 +11,20 @@ from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
 from rotor import Optimum
-from rotor.chart import Axis, Chart, Line
-from rotor.design.aircraft import told
-from rotor.markup import Markup, tag
-from rotor.optimisation import Cell, Plan, Schedule
+from rotor.design.aircraft import reported_names
+from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
+from rotor.support.chart import Axis, Chart, Line
+from rotor.support.markup import Markup, tag
 
 _COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
 
 @dataclass
-class PlanProgress:
+class ScheduleProgress:
     """What is known of a plan with one concept."""
 
-    plan: Plan
-    cells: list[Cell] = field(default_factory=list)
+    plan: SchedulePlan
+    cells: list[ScheduleOptimum] = field(default_factory=list)
     fixed_powers: tuple[float | None, ...] = ()
 
     @property
@@ -49,7 +49,7 @@ class PlanProgress:
         return len(self.cells) / (len(self.plan.conditions) + 1)
 
 
-def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
+def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
     r, legs = np.linspace(0.13, 1.0, 80), len(progress.plan.conditions)
     shades = colour_map("sequential", legs + 3)[2:]  # Neither end is seen on every page.
@@ -69,7 +69,7 @@ def twist_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
     )
 
 
-def saving_chart(progress: PlanProgress, previous: Range | None) -> Chart | None:
+def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
     legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
     mu, moving, fixed = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 3]).T
@@ -81,7 +81,7 @@ def saving_chart(progress: PlanProgress, previous: Range | None) -> Chart | None
     return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
 
 
-def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
+def _saving(progress: ScheduleProgress, leg: int) -> tuple[float, float]:
     """Savings of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
     optimum, fixed = progress.at(leg), progress.fixed_power(leg)
     if optimum is None or optimum.saving is None or optimum.baseline_power is None:
@@ -89,7 +89,7 @@ def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
     return 100.0 * optimum.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / optimum.baseline_power)
 
 
-def table(progress: PlanProgress, units: Units = SI) -> Markup:
+def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
     """One row a leg, then the gain of moving."""
     heads = (f"current [{units.power[0].symbol}]", "fixed [%]", "variable [%]")
     rows = [tag("tr.rx-dim.rx-small", tag("td", "µ"), [tag("td.rx-num", head) for head in heads])]
@@ -103,7 +103,7 @@ def table(progress: PlanProgress, units: Units = SI) -> Markup:
     return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
 
 
-def verdict(progress: PlanProgress, units: Units = SI) -> Markup:
+def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
     """What the best fixed blade saves, and the gain of moving beyond it."""
     gain = progress.schedule.in_flight_gain(progress.plan.concepts[0].name)
     if gain is None:
@@ -119,11 +119,11 @@ def verdict(progress: PlanProgress, units: Units = SI) -> Markup:
     )
 
 
-def csv_of(progress: PlanProgress) -> bytes:
+def csv_of(progress: ScheduleProgress) -> bytes:
     """The schedule as a CSV file; what is not known is blank."""
     text = io.StringIO()
     writer = csv.writer(text)
-    names = told(leg.flight for leg in progress.plan.conditions)
+    names = reported_names(leg.flight for leg in progress.plan.conditions)
     writer.writerow((*names, *_COLUMNS))
     for k, leg in enumerate(progress.plan.conditions):
         optimum = progress.at(k)

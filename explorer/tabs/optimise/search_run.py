@@ -23,8 +23,8 @@ from rotor.optimisation import (
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
-from rotor.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
-from rotor.user_input import shorten
+from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from rotor.support.user_input import shorten
 
 MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
 """Advance ratio and hours of each leg."""

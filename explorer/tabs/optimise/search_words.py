@@ -11,9 +11,9 @@ from explorer.model.units import SI, Units, number
 from explorer.tabs.optimise.search_run import SearchRun
 from rotor import Optimum
 from rotor.design import PiecewiseLinearTwist
-from rotor.markup import Content, Markup, tag
 from rotor.optimisation import Concept
 from rotor.optimisation.concepts import Handle
+from rotor.support.markup import Content, Markup, tag
 
 _WIDTH, _HEIGHT, _EDGE = 272, 62, 8
 _MIDDLE, _AMPLITUDE = 28, 15

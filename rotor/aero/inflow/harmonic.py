@@ -16,13 +16,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rotor.aero.disk import Disk, azimuths_of
-from rotor.aero.inflow.interface import Atoms, DiskFlow, Followed, InflowModel, InflowTerms, Losses
+from rotor.aero.inflow.interface import Atoms, DiskFlow, FlowTerms, InflowModel, InflowTerms, Losses
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import SMALLEST_TIP_FACTOR, mean_loss_factor
 from rotor.aero.section import LOSS, UP
-from rotor.arrays import Array
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import STEADY, harmonic_of, waves_at
+from rotor.support.arrays import Array
 
 LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
@@ -107,17 +107,17 @@ class HarmonicTerms(InflowTerms):
         """1, and what the model has along the blade; none that stand still over F."""
         return {} if self._over else self._along
 
-    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> FlowTerms:
         """λ0 k of each harmonic, and F; or 1/F and s/F with F ≥ 0.1, for at the very tip λ_i/F would have no bound."""
         rows = zip(self._waves, self._model.strengths(flow).tolist(), strict=True)
         atoms: Atoms = {atom: (row[0], (row[1], row[2], row[3])) for (_, _, atom), row in rows}
         factor, slopes = self.factor(flow, mu_z, sees_tilt)
         if not self._over:
-            return Followed(atoms, {(LOSS, "loss"): (factor, slopes)})
+            return FlowTerms(atoms, {(LOSS, "loss"): (factor, slopes)})
         free = factor > SMALLEST_TIP_FACTOR
         over = 1.0 / np.where(free, factor, SMALLEST_TIP_FACTOR)
         by_flow = np.where(free, -slopes * over**2, 0.0)
-        return Followed(atoms, {(UP, name): (over * along, by_flow * along) for name, along in self._along.items()})
+        return FlowTerms(atoms, {(UP, name): (over * along, by_flow * along) for name, along in self._along.items()})
 
     def factor(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
         """F, (elements,), averaged over azimuth (thesis p. 24), and its slopes by (µ_x, µ_z, λ0), (3, elements)."""

@@ -17,19 +17,19 @@ from rotor.aero.disk import Disk
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import DiskFlow
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
-from rotor.arrays import Array, Integers
 from rotor.design.design import Models
 from rotor.design.quantities import LossOn
 from rotor.engine.linearise import Nodes
-from rotor.engine.memory import Memory
+from rotor.engine.memory import LagFactors
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY
+from rotor.support.arrays import Array, Integers
 
 Atoms = dict[Hashable, tuple[float, tuple[float, float, float]]]
 """Values of derived atoms, with slopes by (µ_x, µ_z, λ0)."""
 
 
-class Followed(NamedTuple):
+class FlowTerms(NamedTuple):
     """What a model derives from a flow, with slopes by (µ_x, µ_z, λ0)."""
 
     atoms: Atoms
@@ -48,7 +48,7 @@ class SectionInterface:
     forces: int
     balanced: int | None = None
     """The force in whose place it returns the inflow that it balances by itself; None without."""
-    memory: Callable[[Array, Any], Memory] | None = None
+    memory: Callable[[Array, Any], LagFactors] | None = None
     """How its forces follow the channels at other azimuths; None where they do not."""
 
 
@@ -109,10 +109,10 @@ class InflowTerms:
         """The functions along the blade by name, (elements,)."""
         return {}
 
-    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> FlowTerms:
         """At a flow; mu_z: axial flow as the blade elements see it, with `sees_tilt` that of the disk."""
         del flow, mu_z, sees_tilt
-        return Followed({}, {})
+        return FlowTerms({}, {})
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
         """Unknowns at every point of the grid, or None; tolerance: of these, thrust: C_T, for the size of steps."""

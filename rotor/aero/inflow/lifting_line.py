@@ -26,11 +26,11 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, at_points, influence, mean_influence, shed_correction
 from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, section
-from rotor.arrays import Array, bytes_cache, read_only
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY
+from rotor.support.arrays import Array, bytes_cache, read_only
 
 MOST_PANELS = 128
 """Beyond some 200 the panels at the tip are so short that Newton's method in single precision no longer converges."""

@@ -11,8 +11,8 @@ import numpy as np
 
 from rotor.aero.inflow.harmonic import HarmonicInflow
 from rotor.aero.inflow.interface import DiskFlow
-from rotor.arrays import Array
 from rotor.engine.waves import COS, SIN
+from rotor.support.arrays import Array
 
 Gradient = tuple[float, float, float]
 """A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""

@@ -17,15 +17,15 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import DiskFlow, Followed, InflowModel, InflowTerms, Losses, SectionInterface
+from rotor.aero.inflow.interface import DiskFlow, FlowTerms, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.inflow.linear import of_mean, scaled_half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
-from rotor.arrays import Array
-from rotor.compiled import compiled
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, STEADY
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 _GRADIENT = scaled_half_skew(15.0 * math.pi / 32.0)
 """k_x: that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
@@ -151,11 +151,11 @@ class SectorTerms(InflowTerms):
         """r"""
         return {self.names[0]: self._disk.r}
 
-    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> Followed:
+    def follow(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> FlowTerms:
         """λ0 k_x and the gain 1/(4 r F V)."""
         del mu_z, sees_tilt
         gradient = of_mean(_GRADIENT(flow), flow.lambda0)
-        return Followed({_STRENGTH: gradient}, {(GAIN, "gain"): self._gain(flow)})
+        return FlowTerms({_STRENGTH: gradient}, {(GAIN, "gain"): self._gain(flow)})
 
     def _gain(self, flow: DiskFlow) -> tuple[Array, Array]:
         """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""

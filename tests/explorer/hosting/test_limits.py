@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from explorer.hosting.gate import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
 from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback
+from explorer.hosting.server_limits import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"
@@ -141,7 +141,7 @@ def test_a_thousand_equal_failures_write_three_tracebacks(kept: Kept):
 
 def test_later_the_number_left_out_is_told(kept: Kept, monkeypatch: pytest.MonkeyPatch):
     now = [0.0]
-    monkeypatch.setattr("explorer.hosting.gate.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("explorer.hosting.server_limits.time.monotonic", lambda: now[0])
     kept.addFilter(RepeatFilter(most=2, window=10.0))
     for now[0] in (0.0, 1.0, 2.0, 3.0, 20.0):
         fail(1)

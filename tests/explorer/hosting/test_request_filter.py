@@ -18,9 +18,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
 from explorer.app import App, FirstAnswers, PortBusy
-from explorer.hosting import gate, request_filter, viser_compat
-from explorer.hosting.gate import ServerLimits
+from explorer.hosting import request_filter, server_limits, viser_compat
 from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_loading_screen
+from explorer.hosting.server_limits import ServerLimits
 from explorer.model.inputs import OPENING
 from explorer.model.units import number
 from rotor import make_design, solve
@@ -216,7 +216,7 @@ class TestStrangers:
             monkeypatch.setattr(
                 request_filter,
                 "RateLimiter",
-                lambda now, *given: gate.RateLimiter(now, *(given or (gate.RateLimit(0.01, 50.0),))),
+                lambda now, *given: server_limits.RateLimiter(now, *(given or (server_limits.RateLimit(0.01, 50.0),))),
             )
             flooder = Visitor()
             await flooder.open(app.address)
@@ -228,7 +228,7 @@ class TestStrangers:
                 assert await cut(app, junk) in (None, 1002, 1007)
             await still_served(other)
             connections = app.server._websock_server._live_connections.values()
-            assert [one.protocol.max_message_size for one in connections] == [gate.LARGEST_MESSAGE]
+            assert [one.protocol.max_message_size for one in connections] == [server_limits.LARGEST_MESSAGE]
             await other.close()
 
         ran(work)
@@ -242,7 +242,7 @@ class TestUploads:
             visitor = await arrived(app.address)
             for name, size, parts, sentence in (
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
-                ("large.json", gate.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
+                ("large.json", server_limits.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
                 ("film.mp4", 10, [b"x" * 10], "choose a .json"),
                 ("liar.json", 10, [b"x" * 5, b"x" * 600], "longer than announced"),
                 ("again.json", len(design), [design], "Loaded: again.json is on the sliders"),

@@ -13,7 +13,7 @@ from viser.infra import Message
 
 from explorer.app import App
 from explorer.hosting.messages import LONGEST_TEXT, accepted_value
-from explorer.hosting.viser_compat import _Callbacks, quick
+from explorer.hosting.viser_compat import _Callbacks, on_event_loop
 from explorer.model.inputs import OPENING, ViewState
 from explorer.sharing import share
 from explorer.sharing.share import Address, view_from
@@ -127,5 +127,5 @@ def test_only_quick_callbacks_are_called_at_once():
     with ThreadPoolExecutor(1) as threads:
         callbacks = _Callbacks(threads)
         assert callbacks.submit(here).result() != threading.get_ident()
-        assert callbacks.submit(quick(lambda *_: here())).result() == threading.get_ident()
-        assert isinstance(callbacks.submit(quick(lambda *_: fail())).exception(), ZeroDivisionError)
+        assert callbacks.submit(on_event_loop(lambda *_: here())).result() == threading.get_ident()
+        assert isinstance(callbacks.submit(on_event_loop(lambda *_: fail())).exception(), ZeroDivisionError)

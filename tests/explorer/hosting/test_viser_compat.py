@@ -121,14 +121,14 @@ def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
     cast(Any, server._websock_server).queue_message = queued.append
     turn, way = np.array([0.6, 0.0, 0.8, 0.0]), np.array([1.0, -2.0, 3.0])
     one.wxyz, one.position = turn, way
-    viser_compat.place(other, turn, way)
+    viser_compat.set_pose(other, turn, way)
     theirs, ours = ([vars(message) for message in half] for half in (queued[:2], queued[2:]))
     assert [{**fields, "name": ""} for fields in theirs] == [{**fields, "name": ""} for fields in ours]
     assert list(map(type, queued[:2])) == list(map(type, queued[2:]))
     assert np.array_equal(other.wxyz, turn)
     assert np.array_equal(other.position, way)
-    viser_compat.place(other, turn.copy(), way.copy())
-    viser_compat.place(other, turn)
+    viser_compat.set_pose(other, turn.copy(), way.copy())
+    viser_compat.set_pose(other, turn)
     assert len(queued) == 4
     way[0] = 9.0  # What was sent is nobody else's.
     assert other.position[0] == 1.0

@@ -19,8 +19,8 @@ from rotor.actuator.installation import (
     install,
     without_nose_weight,
 )
-from rotor.actuator.limits import ELEMENTS, actuator_stability, bend, fibre_strain, limits
-from rotor.actuator.section import Host, Placement, default_placement
+from rotor.actuator.limits import ELEMENTS, actuator_stability, bending_moments, fibre_strain, limits
+from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.dynamics.structure import BendingStructure, uh60a_structure
 from rotor.dynamics.torsion import torsion_beam, torsion_frequency, twist_under_moment
 from rotor.files.make_design import make_design, uh60a_rotor
@@ -40,9 +40,9 @@ def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyratio
     )  # fmt: skip
 
 
-def mfc(plies: int = 2, host: Host | None = None, placement: Placement | None = None) -> InstalledActuator:
+def mfc(plies: int = 2, host: HostBlade | None = None, placement: Placement | None = None) -> InstalledActuator:
     rotor = uh60a_rotor("flight")
-    return install(find_actuator("MFC_P1"), placement or default_placement(plies), host or Host(), rotor)
+    return install(find_actuator("MFC_P1"), placement or default_placement(plies), host or HostBlade(), rotor)
 
 
 # Torsion
@@ -57,8 +57,8 @@ def test_rotating_twist_closed_form(gj: float, speed: float):
     assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], expected, rtol=1e-4)
 
 
-@pytest.mark.parametrize(("host", "taken"), [(Host(), 0.07), (Host("new", 0.5), 0.13)])
-def test_rotation_reduces_the_twist(host: Host, taken: float):
+@pytest.mark.parametrize(("host", "taken"), [(HostBlade(), 0.07), (HostBlade("new", 0.5), 0.13)])
+def test_rotation_reduces_the_twist(host: HostBlade, taken: float):
     """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
     installed = mfc(2, host)
     low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
@@ -102,7 +102,7 @@ def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: f
 
     So ours untwists more (8 % on the softest blade), and the added inertia counts about the quarter chord (6 %).
     """
-    installed = mfc(plies, Host("retrofit" if kind == "retrofit" else "new", share))
+    installed = mfc(plies, HostBlade("retrofit" if kind == "retrofit" else "new", share))
     assert_allclose(installed.masses.actuator, mass, rtol=0.01)
     masses = replace(installed.masses, wiring=0.0, balance=0.0)
     stiffness = installed.section_stiffness - share * 69760.0
@@ -116,7 +116,7 @@ def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: f
 
 
 def tube(count: int, stiffness: float = 1.0, divisions: tuple[float, ...] = ()) -> InstalledActuator:
-    host = Host("new", stiffness)
+    host = HostBlade("new", stiffness)
     return install(find_actuator("SMA_tube"), default_placement(count, divisions), host, uh60a_rotor("flight"))
 
 
@@ -166,7 +166,7 @@ def flap_moment(stiffness: float, at: float) -> float:
     """Under 100 N/m, hinged at the shaft [N m]."""
     blade = replace(uniform(), flap_stiffness=(stiffness, stiffness))
     nodes = np.linspace(0.0, 6.0, ELEMENTS + 1)
-    return float(bend(blade, SPEED, nodes, np.full((ELEMENTS + 1, 1), 100.0), np.array([at]))[0, 0])
+    return float(bending_moments(blade, SPEED, nodes, np.full((ELEMENTS + 1, 1), 100.0), np.array([at]))[0, 0])
 
 
 def test_flap_bending_of_a_string_is_small():
@@ -219,7 +219,7 @@ def test_capacitance_and_power():
 
 
 def retrofit(id: str, plies: int) -> InstalledActuator:
-    return install(find_actuator(id), default_placement(plies), Host(), uh60a_rotor("flight"))
+    return install(find_actuator(id), default_placement(plies), HostBlade(), uh60a_rotor("flight"))
 
 
 @pytest.mark.parametrize(
@@ -229,7 +229,7 @@ def retrofit(id: str, plies: int) -> InstalledActuator:
         (mfc(1), 1.2, {"voltage", "field"}, set(), ()),
         (mfc(4), 1.0, {"mass", "space"}, {"voltage"}, ()),
         (mfc(1, placement=Placement(chord=(0.15, 0.8), plies=1)), 1.0, set(), {"temperature"}, ()),
-        (mfc(2, Host("new", 0.25)), 1.0, {"torsion-least"}, {"space"}, ()),
+        (mfc(2, HostBlade("new", 0.25)), 1.0, {"torsion-least"}, {"space"}, ()),
         (retrofit("SMA_tube", 2), 1.0, {"space"}, {"torque"}, ()),
         (retrofit("MFC_P1_HT", 1), 1.0, set(), {"temperature"}, ()),
         (retrofit("PZT5A", 1), 5e4, {"voltage"}, set(), ("out of range at any voltage",)),  # It hardly shears.

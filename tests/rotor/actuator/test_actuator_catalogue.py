@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, Programme, actuators, find_actuator, programmes
 from rotor.actuator.installation import electric_field
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 
 PLIES = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
 

@@ -14,7 +14,7 @@ from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_fligh
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import twist_under_voltage
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.verdict import Verdict, judge
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
@@ -27,7 +27,7 @@ LEGS = (FlightLeg("hover", 0.0), FlightLeg("climb", 0.15, 5.0), FlightLeg("fast"
 def verdict(kind: str = "new", id: str = "MFC_P1", preset: str = "flight", concept: str = "linear") -> Verdict:
     design = make_design(preset=preset)
     coarse = replace(design, models=replace(design.models, elements=16, azimuths=36))
-    host = Host() if kind == "retrofit" else Host("new", 0.5)
+    host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
     pair = ConditionPair(coarse, (0.0, 0.3))
     return judge(find_actuator(id), pair, find_concept(concept), default_placement(2), host)
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, find_actuator
 from rotor.actuator.section import (
-    Host,
+    HostBlade,
     Placement,
     SectionSpec,
     _panels,
@@ -142,7 +142,7 @@ def test_batho_two_cells_by_hand():
 
 def test_reciprocity():
     """Maxwell: the extension due to a torque equals the twist due to a force."""
-    section = active_section(section_spec(uh60a_structure(), Host()), ply("MFC_P1"), default_placement(4))
+    section = active_section(section_spec(uh60a_structure(), HostBlade()), ply("MFC_P1"), default_placement(4))
     by_torque, by_force = respond(section, torque=1.0), respond(section, force=1.0)
     assert_allclose(by_torque.extension, by_force.twist_rate, rtol=1e-6)
     assert_allclose(by_torque.curvature_y, respond(section, moments=(1.0, 0.0)).twist_rate, rtol=1e-6)
@@ -152,7 +152,7 @@ def test_reciprocity():
 
 
 def blade(kind: str, share: float) -> SectionSpec:
-    return section_spec(uh60a_structure(), Host("retrofit" if kind == "retrofit" else "new", share))
+    return section_spec(uh60a_structure(), HostBlade("retrofit" if kind == "retrofit" else "new", share))
 
 
 def test_contour_and_calibration():

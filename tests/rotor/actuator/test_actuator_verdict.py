@@ -17,7 +17,7 @@ from rotor.actuator.catalogue import actuators, engines_of, find_actuator
 from rotor.actuator.installation import change_limit, with_actuator_mass
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, best_fixed, twisted
 from rotor.actuator.pictures import electronics_station, twist_under_voltage
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.tables import verdict_table
 from rotor.actuator.verdict import Verdict, judge, verdict_details, verdict_sentence
 from rotor.files.make_design import make_design
@@ -45,7 +45,7 @@ def pair() -> ConditionPair:
 
 @cache
 def verdict(id: str = "MFC_P1", concept: str = "linear", kind: str = "new", share: float = 0.5) -> Verdict:
-    host = Host() if kind == "retrofit" else Host("new", share)
+    host = HostBlade() if kind == "retrofit" else HostBlade("new", share)
     placement = default_placement(2)
     return judge(find_actuator(id), pair(), find_concept(concept), placement, host, against="best-fixed")
 
@@ -119,7 +119,7 @@ def test_voltages_stay_in_range_and_make_the_change(kind: str, concept: str):
 @pytest.mark.parametrize(("id", "kind"), [("MFC_P1", "new"), ("MFC_P1", "retrofit"), ("SMA_tube", "new")])
 def test_gross_less_costs_is_net_against_either_blade(id: str, kind: str):
     """Each part from trims of its own; another blade to count from moves gross, ideal and net by the same amount."""
-    host = Host() if kind == "retrofit" else Host("new", 0.5)
+    host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
     found = [
         judge(find_actuator(id), pair(), find_concept("linear"), default_placement(2), host, against=against)
         for against in ("best-fixed", "same-blade")

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from rotor.actuator.stopped import frozen
+from rotor.actuator.stopped import stopped_designs
 
 PLAIN: dict[str, Any] = {
     "inflow": "drees",
@@ -23,7 +23,7 @@ PLAIN: dict[str, Any] = {
 
 def test_stopped_where_it_works_the_same_changes_nothing():
     design = rotor.make_design(**PLAIN)
-    (point,) = frozen([design], design)
+    (point,) = stopped_designs([design], design)
     assert point.cost == 0.0
     assert point.power_left == pytest.approx((design.aircraft.installed_power or 0.0) - (point.stopped.power or 0.0))
 
@@ -31,7 +31,7 @@ def test_stopped_where_it_works_the_same_changes_nothing():
 def test_frozen_twist_is_that_design():
     design = rotor.make_design(**PLAIN)
     other = design.with_twist("linear:-16")
-    (point,) = frozen([design], other)
+    (point,) = stopped_designs([design], other)
     powers = [rotor.solve(one).require().power.total for one in (design, other)]
     assert_allclose(point.cost or 0.0, powers[1] - powers[0], rtol=1e-4)
     assert point.stopped.power == pytest.approx(powers[1], rel=1e-5)
@@ -40,8 +40,8 @@ def test_frozen_twist_is_that_design():
 def test_a_twist_frozen_takes_the_pitch_at_the_root_from_the_controls():
     """Built −10° and stopped at −16°, with 0.62 R from root to 0.75 R: 3.7° more at the root."""
     design = rotor.make_design(**PLAIN)
-    (rigged,) = frozen([design], design.with_twist("linear:-16"), design.twist)
-    (own,) = frozen([design], design.with_twist("linear:-16"))
+    (rigged,) = stopped_designs([design], design.with_twist("linear:-16"), design.twist)
+    (own,) = stopped_designs([design], design.with_twist("linear:-16"))
     low, high = rotor.make_design().aircraft.controls.collective  # pyright: ignore[reportOptionalMemberAccess]
     left = {"own": own.stopped.collective, "rigged": own.stopped.collective + math.radians(6.0 * (0.75 - 0.1304))}
     for point, pitch in ((own, left["own"]), (rigged, left["rigged"])):
@@ -54,11 +54,11 @@ def test_a_twist_frozen_takes_the_pitch_at_the_root_from_the_controls():
 
 def test_frozen_twist_at_n_per_rev_keeps_amplitude_and_phase():
     design = rotor.make_design(**PLAIN, twist_per_rev="2:1.5:200")
-    (same,) = frozen([design], design)
+    (same,) = stopped_designs([design], design)
     assert same.cost == 0.0
     elsewhere = rotor.make_design(**PLAIN).at(mu=0.15)
     other = replace(elsewhere, active_twist=rotor.make_design(**PLAIN, twist_per_rev="2:1.5:20").active_twist)
-    (point,) = frozen([design], other)
+    (point,) = stopped_designs([design], other)
     by_phase = {
         phase: rotor.solve(rotor.make_design(**PLAIN, twist_per_rev=f"2:1.5:{phase}")).require().power.total
         for phase in (20, 200)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.dynamic_stall import DECAYING, LINKS, SEPARATION, VORTEX, StallData, follow, room_for
+from rotor.aero.dynamic_stall import DECAYING, LINKS, SEPARATION, VORTEX, StallData, empty_lags, stall_states
 from rotor.airfoil.sections import load_section
 from rotor.airfoil.stall_onset import (
     LAG_PRESSURE,
@@ -19,9 +19,9 @@ from rotor.airfoil.stall_onset import (
     ZERO,
     stall_onset,
 )
-from rotor.arrays import Array
-from rotor.engine.memory import Lags, Memory
+from rotor.engine.memory import LagFactors, Lags
 from rotor.engine.waves import wave_grid
+from rotor.support.arrays import Array
 
 TABLE = load_section("naca0012")
 ONSET = stall_onset(TABLE)
@@ -38,17 +38,17 @@ def followed(x: Any, mach: Any, own: StallData) -> tuple[Array, Array]:
     """What is added and the states."""
     n = len(x)
     added, shown = np.empty((3, n)), np.empty((4, n))
-    follow(0, np.array(x), np.array(mach), own, False, added, room_for(0, n), shown)
+    stall_states(0, np.array(x), np.array(mach), own, False, added, empty_lags(0, n), shown)
     return added, shown
 
 
-def remembered(x: Array, mach: Array, own: StallData) -> Memory:
+def remembered(x: Array, mach: Array, own: StallData) -> LagFactors:
     """The derivatives: forces are what is added, channels x and M."""
     n = len(x)
-    linked, decays, factors, places = room = room_for(1, n)
-    follow(0, x, mach, own, True, np.empty((3, n)), room, np.empty((4, n)))
+    linked, decays, factors, places = room = empty_lags(1, n)
+    stall_states(0, x, mach, own, True, np.empty((3, n)), room, np.empty((4, n)))
     left, right = (np.repeat(np.eye(rows, columns)[:, :, None, None], n, axis=3) for rows, columns in ((3, 4), (2, 2)))
-    return Memory(left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right)
+    return LagFactors(left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right)
 
 
 @pytest.mark.parametrize("name", ["naca0012", "sc1095", "sc1094r8"])

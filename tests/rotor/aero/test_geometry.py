@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.lifting_line import WakeCourse
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 COURSE = WakeCourse(0.25, 0.02, 0.015, coning=0.06, flap_1c=0.02, flap_1s=-0.03, core=(1e-4, 1e-5))
 

@@ -13,9 +13,9 @@ from rotor.aero.inflow.linear import MODELS
 from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import build_problem
-from rotor.arrays import Array
 from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 1.0, 9)

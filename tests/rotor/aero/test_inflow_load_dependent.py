@@ -10,11 +10,11 @@ from rotor.aero.elements import BladeElements
 from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.problem import Problem
-from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
 from rotor.engine.linearise import Point
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.adjoint import Objective
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.low_speed import trim_problem

@@ -24,7 +24,7 @@ from rotor.aero.lifting_line import (
     shed_correction,
     theodorsen,
 )
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 LINE = LiftingLine(blades=2, root=0.2, panels=6, azimuths=8)
 COURSE = WakeCourse(0.2, 0.01, 0.02, coning=0.05, flap_1c=0.01, flap_1s=-0.02, core=(1e-4, 1e-5))

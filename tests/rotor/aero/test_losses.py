@@ -9,10 +9,10 @@ from numpy.testing import assert_allclose
 
 from rotor.aero import losses
 from rotor.aero.losses import HUB_FACTOR, end_factor, loss_factor, mean_loss_factor, prandtl
-from rotor.arrays import Array
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from rotor.aero.look_up import surface
 from rotor.aero.problem import build_problem
 from rotor.aero.section import FZ, LOSS, TH, UP, UR, UT, arctangent, of_double_angle, section
-from rotor.arrays import Array
-from rotor.compiled import compiled
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
+from rotor.support.compiled import compiled
 
 
 @compiled()

@@ -21,12 +21,12 @@ from rotor.aero.problem import LOW_MACH, build_problem
 from rotor.aero.section import LOSS
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
-from rotor.assets import asset_path
 from rotor.design.design import BEYOND_DOCUMENT, Design
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.study.series import PARTS, waterfall, waterfall_steps
+from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.newton import SolverOptions
 from rotor.trim.power import hub_moment, power_budget

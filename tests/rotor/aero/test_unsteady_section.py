@@ -12,10 +12,10 @@ from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.lifting_line import theodorsen
 from rotor.aero.problem import build_problem
 from rotor.aero.section import CHANNELS, FX, FZ, LOSS, NO_SCATTER, NOTHING_ADDED, RATE, TH, UP, UT, M, SectionData
-from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady
+from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady_interface
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, bicubic_coefficients, mach_nodes
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 from rotor.trim.solve import analyse
 
 N = 64
@@ -24,7 +24,7 @@ SPEED, BLADES = 10.0, 4
 REDUCED = np.array([0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0])
 """k of the elements: their half chords are k times the speed, in motion at one per revolution."""
 B = REDUCED * SPEED
-SECTION = unsteady(PLAIN)
+SECTION = unsteady_interface(PLAIN)
 FIRST = len(CHANNELS)
 SMALL = 1e-4
 

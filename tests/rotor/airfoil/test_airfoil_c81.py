@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 
 # Written by hand to the card layout: fields touch, `split()` would see one word where there are two.
 TOUCHING = (

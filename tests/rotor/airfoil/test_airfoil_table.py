@@ -20,7 +20,7 @@ from rotor.airfoil.section_table import (
     held_beyond_peak,
 )
 from rotor.airfoil.sections import TABLE_NAMES, load_section
-from rotor.assets import asset_path
+from rotor.support.assets import asset_path
 
 DECKS = ("sc1095", "sc1094r8")
 

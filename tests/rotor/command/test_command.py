@@ -12,8 +12,8 @@ from rotor.__main__ import main
 from rotor.command.optimise import digits_of_band
 from rotor.files.make_design import make_design
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
+from rotor.support.user_input import parse_range
 from rotor.trim.solve import solve
-from rotor.user_input import parse_range
 
 KEYS = [
     "schema", "version", "rotor",

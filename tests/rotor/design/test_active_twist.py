@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import effect, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
-from rotor.actuator.section import Host, default_placement
+from rotor.actuator.section import HostBlade, default_placement
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
@@ -36,8 +36,8 @@ def driven(
     return installed.on(turning(design, wave, stations=tuple(installed.r.tolist()), shape=shape))
 
 
-def mfc(design: Design, plies: int = 2, host: Host | None = None) -> InstalledActuator:
-    return install(find_actuator("MFC_P1"), default_placement(plies), host or Host(), design.rotor)
+def mfc(design: Design, plies: int = 2, host: HostBlade | None = None) -> InstalledActuator:
+    return install(find_actuator("MFC_P1"), default_placement(plies), host or HostBlade(), design.rotor)
 
 
 def powers(design: Design, installed: InstalledActuator) -> tuple[list[Design], np.ndarray]:
@@ -109,7 +109,7 @@ def test_amplitude_and_phase_of_a_known_wave():
 def test_resonance_is_flown_by_an_elastic_blade():
     """At 4/rev with first torsion at 4.04/rev the air holds the tip near its twist at rest; in vacuum nothing does."""
     design = make_design(mu=0.2, inflow="pitt-peters")
-    installed = mfc(design, host=Host("new", 0.8))
+    installed = mfc(design, host=HostBlade("new", 0.8))
     assert abs(installed.frequency - 4.0) < 0.05
     wave = tip_wave(solve(driven(design, installed, 4, 0.2)).require(), 4)
     assert 0.8 < abs(wave) / (0.2 * tip_amplitude(installed)) < 1.6
@@ -121,7 +121,7 @@ def test_the_saving_grows_with_speed():
     net = list[float]()
     for mu in (0.15, 0.35):
         design = make_design(mu=mu)
-        installed = install(find_actuator("MFC_P1_HT"), default_placement(1), Host(), design.rotor)
+        installed = install(find_actuator("MFC_P1_HT"), default_placement(1), HostBlade(), design.rotor)
         waves, changes = powers(design, installed)
         loaded = with_actuator_mass(waves[int(changes.argmin())], installed)
         net.append(effect(loaded, design).power[0])

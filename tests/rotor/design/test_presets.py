@@ -58,8 +58,8 @@ def test_a_hot_day_has_the_pressure_of_its_altitude():
     hot = make_design(altitude_m=1500, isa_offset_c=20).condition
     assert_allclose(hot.density, 84_556.0 / (287.05287 * 298.40), rtol=1e-5)
     assert_allclose((hot.density, hot.sound_speed, hot.viscosity), (0.987, 346.3, 1.8384e-5), rtol=2e-4)
-    assert hot.beside == ("ISA + 20 °C",)
-    assert make_design(isa_offset_c=-10, climb_m_s=-3).condition.beside == ("ISA − 10 °C", "descent 3 m/s")
+    assert hot.unusual == ("ISA + 20 °C",)
+    assert make_design(isa_offset_c=-10, climb_m_s=-3).condition.unusual == ("ISA − 10 °C", "descent 3 m/s")
     with pytest.raises(ValueError, match=r"ISA offset 80 °C is outside -60…60 °C"):
         make_design(isa_offset_c=80)
 

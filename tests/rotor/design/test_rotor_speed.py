@@ -22,7 +22,7 @@ from rotor.optimisation.objective import read_mission
 from rotor.study.series import sweep_columns
 from rotor.study.study import columns_of
 from rotor.study.study_file import parse_study
-from rotor.units import KNOT
+from rotor.support.units import KNOT
 
 SMALL: dict[str, Any] = {"elements": 12, "azimuths": 24}
 
@@ -131,7 +131,7 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
         mission.write_text(f"mu,{name}\n0.2,{value}\n", encoding="utf-8")
         assert read_mission(mission, rotor.make_design(**SMALL))[0].flight == design.condition
         if row.short:
-            assert row.said(value) in repr(design)
+            assert row.in_words(value) in repr(design)
 
 
 def test_a_sweep_over_it_and_its_record():

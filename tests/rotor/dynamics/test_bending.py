@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from rotor.arrays import Array
 from rotor.design.blade import BladeStructure
 from rotor.dynamics.bending import bending_beam, bending_modes, frequencies_by_kind
+from rotor.support.arrays import Array
 
 WRIGHT = {
     0.0: (3.5160, 22.0345, 61.6972),

@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotor.arrays import Array
 from rotor.dynamics.periodic import exponents, first_order, growth
+from rotor.support.arrays import Array
 
 PSI = 2.0 * math.pi * np.arange(64) / 64
 

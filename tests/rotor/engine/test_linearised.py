@@ -16,13 +16,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.section import M
-from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
-from rotor.engine.linearise import Measure, Point, evaluate, jacobian, part, transposed
+from rotor.engine.linearise import MeasureSlopes, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.solve import analyse
 
 STEPS = 10.0 ** -np.arange(4.0, 7.6, 0.5)
@@ -185,7 +185,7 @@ def test_transposed_is_the_transpose(name: str):
         assert_allclose(transposed(point, v)[0], expected, rtol=0, atol=1e-12 * np.abs(expected).max(initial=0.0))
 
 
-def any_measures(point: Point) -> list[Measure]:
+def any_measures(point: Point) -> list[MeasureSlopes]:
     """Random weights on all that a measure may depend on; one measure of each kind."""
     random, structure = np.random.default_rng(11), point.system.structure
     shape, found = point.forces.shape[1:], structure.weights
@@ -197,10 +197,15 @@ def any_measures(point: Point) -> list[Measure]:
         (int(random.integers(2)), int(random.integers(len(point.q))), *random.choice(known, 2).tolist(),
          float(random.standard_normal())) for _ in range(12)
     ]  # fmt: skip
-    return [Measure(fields), Measure(channels=channels), Measure(parts=parts), Measure(terms=Terms.of(terms, 2))]
+    return [
+        MeasureSlopes(fields),
+        MeasureSlopes(channels=channels),
+        MeasureSlopes(parts=parts),
+        MeasureSlopes(terms=Terms.of(terms, 2)),
+    ]
 
 
-def value(point: Point, measure: Measure) -> float:
+def value(point: Point, measure: MeasureSlopes) -> float:
     """What a measure adds up to at a point."""
     found = sum(float(np.vdot(own, point.forces[k])) for k, own in measure.forces.items())
     found += sum(float(np.vdot(own, point.channels[k])) for k, own in measure.channels.items())
@@ -226,7 +231,7 @@ def test_slopes_by_what_is_added_to_a_channel(name: str):
     structure, random = point.system.structure, np.random.default_rng(7)
     channels = sorted({channel for _, channel in structure.pairs if structure.shapes[channel]})
     v = random.standard_normal(len(point.residual))
-    for measure in (Measure(), *any_measures(point)[:2]):
+    for measure in (MeasureSlopes(), *any_measures(point)[:2]):
         slopes = transposed(point, v, measure)[1].sum(axis=2)
         least = float(np.abs(slopes[channels]).sum(axis=1).max())
         for channel in channels:

@@ -9,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
-from rotor.arrays import Array
 from rotor.engine.linearise import Grid, Shapes, System, evaluate
 from rotor.engine.newton import Factors, NewtonLimits, solve
 from rotor.engine.terms import Structure
 from rotor.engine.waves import COS, SIN, STEADY, wave_grid
+from rotor.support.arrays import Array
 
 WANTED = (1.5, 0.6, -0.4)
 STATES = tuple(zip(("mean", "cosine", "sine"), (STEADY, COS, SIN), strict=True))

@@ -10,12 +10,12 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotor.assets import asset_path
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.dynamics.torsion import blade_modes
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.study.series import between_drag_areas
+from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
 from rotor.trim.solution import Solution

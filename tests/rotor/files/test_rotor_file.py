@@ -14,9 +14,9 @@ from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.sections import load_installed
-from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft
+from rotor.support.assets import asset_path
 from rotor.trim.solve import solve
 from rotor.trim.stability import stability
 

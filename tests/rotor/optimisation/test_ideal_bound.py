@@ -10,8 +10,6 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.lifting_line import LiftingLine, WakeCourse
 from rotor.aero.problem import build_problem
-from rotor.arrays import Array
-from rotor.assets import asset_path, csv_rows
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.ideal_bound import (
@@ -25,6 +23,8 @@ from rotor.optimisation.ideal_bound import (
     least_twisted_power,
     not_bounded,
 )
+from rotor.support.arrays import Array
+from rotor.support.assets import asset_path, csv_rows
 from rotor.trim.forward import with_course
 from rotor.trim.solve import solve
 from tests.tools.ideal_bound import COLUMNS, row

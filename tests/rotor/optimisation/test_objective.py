@@ -17,8 +17,8 @@ from rotor.optimisation.objective import (
     Objective,
     WeightedCondition,
     at_condition,
+    evaluate_objective,
     hover_and_cruise,
-    measure,
     read_mission,
 )
 from rotor.trim.analysis import Analysis
@@ -45,7 +45,7 @@ def test_a_design_that_does_not_trim_has_no_power():
     """None, not zero or NaN, with the message of the condition that failed."""
     design = small(0.2)
     conditions = (WeightedCondition(design.condition), WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)))
-    made = measure(Objective("total", conditions), design)
+    made = evaluate_objective(Objective("total", conditions), design)
     assert made.power is None
     assert made.by_pitch is None
     assert "lower the mass" in made.message

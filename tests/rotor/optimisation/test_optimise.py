@@ -23,8 +23,8 @@ from rotor.optimisation.objective import (
     Quantity,
     WeightedCondition,
     at_condition,
+    evaluate_objective,
     hover_and_cruise,
-    measure,
 )
 from rotor.optimisation.results import Minimum, Optimum, Progress, SearchStatus
 from rotor.optimisation.search import STARTS, Search, run_search
@@ -165,7 +165,7 @@ def test_stalled_area_limit_is_kept():
     design = small(0.36)
 
     def stalled(twisted: Design) -> float:
-        return measure(at_condition(design), twisted, limits=Limits(stalled=1.0)).limited[0] / 100.0
+        return evaluate_objective(at_condition(design), twisted, limits=Limits(stalled=1.0)).limited[0] / 100.0
 
     free, best = searched(design, "two-segment")
     limit = 0.9 * stalled(free.design)
@@ -266,12 +266,14 @@ class TestVibration:
             WeightedCondition(self.bent(mu).condition, hours) for mu, hours in ((0.25, 2.0), (0.33, 1.0))
         )
         objective, values, step = Objective(quantity, conditions), np.radians([-8.0, -11.0]), math.radians(0.05)
-        found = measure(objective, concept.apply(design, values), limits=held, options=self.TIGHT)
+        found = evaluate_objective(objective, concept.apply(design, values), limits=held, options=self.TIGHT)
         assert found.by_pitch is not None
         slopes = concept.slopes(values, build_problem(design).disk.r)
         for k, along in enumerate(np.eye(2)):
             low, high = (
-                measure(objective, concept.apply(design, values + sign * step * along), limits=held, options=self.TIGHT)
+                evaluate_objective(
+                    objective, concept.apply(design, values + sign * step * along), limits=held, options=self.TIGHT
+                )
                 for sign in (-1.0, 1.0)
             )
             assert low.value is not None

@@ -15,7 +15,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.results import Minimum, SearchStatus
-from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
+from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from rotor.trim.solve import solve
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")
@@ -26,13 +26,15 @@ def small() -> Design:
     return replace(design, models=replace(design.models, inflow="uniform", elements=20, azimuths=48))
 
 
-def plan(*names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)) -> Plan:
+def plan(
+    *names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)
+) -> SchedulePlan:
     design = small()
     conditions = tuple(
         WeightedCondition(replace(design.condition, advance_ratio=mu), hour)
         for mu, hour in zip(ratios, hours, strict=True)
     )
-    return Plan(design, tuple(CONCEPTS[name] for name in names), conditions)
+    return SchedulePlan(design, tuple(CONCEPTS[name] for name in names), conditions)
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +86,7 @@ def same(a: Minimum | None, b: Minimum | None) -> None:
 @pytest.mark.slow
 def test_two_processes_give_the_same_result():
     twin = plan("linear", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
-    heard: list[Cell] = []
+    heard: list[ScheduleOptimum] = []
     here, there = run_plan(twin), run_plan(twin, keep=heard.append, processes=2)
     assert there.converged
     assert len(heard) == len(there.cells) == len(here.cells)
@@ -94,7 +96,7 @@ def test_two_processes_give_the_same_result():
 
 
 def test_results_are_kept_after_a_stop():
-    heard: list[Cell] = []
+    heard: list[ScheduleOptimum] = []
     part = run_plan(plan("linear", "two-segment"), heard.append, lambda: len(heard) >= 3)
     assert not part.complete
     assert len(part.cells) == len(heard) >= 3
@@ -105,7 +107,7 @@ def test_results_are_kept_after_a_stop():
 def test_a_lost_worker_is_reported_and_its_results_are_kept():
     killed: list[int] = []
 
-    def kill(cell: Cell) -> None:
+    def kill(cell: ScheduleOptimum) -> None:
         for child in multiprocessing.active_children():
             if child.pid is not None and not killed:
                 killed.append(child.pid)
@@ -124,7 +126,7 @@ def test_a_condition_that_cannot_trim_is_reported():
         WeightedCondition(design.condition),
         WeightedCondition(replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)),
     )
-    schedule = run_plan(Plan(design, (CONCEPTS["linear"],), conditions, starts=1))
+    schedule = run_plan(SchedulePlan(design, (CONCEPTS["linear"],), conditions, starts=1))
     assert schedule.complete
     assert not schedule.converged
     assert schedule.in_flight_gain("linear") is None

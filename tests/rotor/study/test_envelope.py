@@ -13,7 +13,7 @@ import rotor
 from rotor.__main__ import main
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
-from rotor.study.envelope import reach
+from rotor.study.envelope import find_limit
 from rotor.trim.validity import HOVER_LIMIT, MOST_STALLED
 
 SMALL: dict[str, Any] = {
@@ -28,7 +28,7 @@ def small(**more: Any) -> Design:
 def test_engines_limit_where_power_is_theirs():
     design = small(mu=0.1)
     for name in ("load_factor", "mu", "altitude_m"):
-        found = reach(design, name)
+        found = find_limit(design, name)
         if found.engines is None:
             assert name == "altitude_m"
             continue
@@ -40,7 +40,7 @@ def test_engines_limit_where_power_is_theirs():
 
 def test_stall_limits_where_the_solver_refuses():
     design = small(mu=0.3)
-    stall = reach(design, "load_factor", both=True).stall or 0.0
+    stall = find_limit(design, "load_factor", both=True).stall or 0.0
     assert rotor.solve(design.at(load_factor=stall)).stalled_thrust <= MOST_STALLED
     assert not rotor.solve(design.at(load_factor=stall + 0.03)).converged
 
@@ -51,7 +51,7 @@ def test_hover_by_hand():
     By engines: P = P_i n^1.5 + P_0 bounds n from above, since profile power rises too.
     """
     design = small(hover=True, off="download")
-    found = reach(design, "load_factor", both=True)
+    found = find_limit(design, "load_factor", both=True)
     largest = HOVER_LIMIT * design.rotor.solidity / design.weight_coefficient
     assert 0.75 * largest < (found.stall or 0.0) <= largest * 1.001
     one = rotor.solve(design).require().power
@@ -69,7 +69,9 @@ def test_mass_altitude_and_speed():
     assert_allclose(half.mass_kg or 0.0, here.mass_kg or 0.0, rtol=0.02)
     heaviest = rotor.solve(design.at(mass_kg=here.mass_kg)).require()
     assert_allclose(heaviest.power.total, design.aircraft.installed_power or 0.0, rtol=1e-3)
-    stalls = [reach(design.at(altitude_m=height), "load_factor", both=True).stall or 0.0 for height in (0, 2000, 4000)]
+    stalls = [
+        find_limit(design.at(altitude_m=height), "load_factor", both=True).stall or 0.0 for height in (0, 2000, 4000)
+    ]
     assert stalls[0] > stalls[1] > stalls[2]
 
 
@@ -89,7 +91,7 @@ def test_what_has_none():
         rotor.envelope(small(stand={"ct_over_sigma": 0.07}))
     with pytest.raises(ValueError, match="needs a speed"):
         rotor.envelope(small(), [])
-    heavy = reach(small(mu=0.2, mass_kg=50_000), "load_factor")
+    heavy = find_limit(small(mu=0.2, mass_kg=50_000), "load_factor")
     assert heavy.value is None
     assert heavy.limit == ""
 

@@ -7,11 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.assets import asset_path, package_version
 from rotor.files.design_file import load_design
-from rotor.study.chunks import Store, StudyProvenance, arrow_modules, evaluate_chunk
+from rotor.study.chunks import StudyFolder, StudyProvenance, arrow_modules, evaluate_chunk
 from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
 from rotor.study.study_file import StudyFile, parse_study
+from rotor.support.assets import asset_path, package_version
 from rotor.trim.solve import solve
 
 TRIMS = """
@@ -45,7 +45,7 @@ WHENCE = StudyProvenance(package_version(), None, "0")
 
 def computed(folder: Path, text: str, *chunks: int) -> Results:
     """The results of a study of which these chunks are finished; all without."""
-    store = Store(folder, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
+    store = StudyFolder(folder, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
     for chunk in chunks or range(store.study.chunks):
         store.keep(chunk, evaluate_chunk(store.study, chunk, WHENCE).content)
     store.close()

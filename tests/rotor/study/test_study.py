@@ -18,15 +18,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor import Design, hub_loads
 from rotor.__main__ import main
-from rotor.assets import asset_path
 from rotor.command.common import interruptible
 from rotor.files.make_design import make_design
 from rotor.study import point as study_point
-from rotor.study.chunks import FinishedChunk, Store, StudyProvenance, evaluate_chunk, evaluate_points
+from rotor.study.chunks import FinishedChunk, StudyFolder, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.point import WarmStarts
-from rotor.study.results import Results, best_row, effects, read_results, robust_best
-from rotor.study.study import QUANTITIES, Sample, StudyAxis, StudyPoints, columns_of
+from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
+from rotor.study.study import QUANTITIES, StudyAxis, StudyPoints, StudySample, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
+from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
@@ -42,7 +42,7 @@ def test_neighbours_differ_by_one_step_and_every_point_occurs_once():
         StudyAxis("mass_kg", (1.0, 2.0)),
         StudyAxis("inflow", ("a", "b", "c")),
     )
-    places = StudyPoints(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
+    places = StudyPoints(axes, StudySample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
     points = places.at(0, places.count)
     assert len(points) == 4 * 2 * 3 * 5 == len({tuple(sorted(point.items())) for point in points})
     for before, after in pairwise(points):
@@ -65,7 +65,7 @@ def test_a_study_of_a_billion_points_needs_no_memory():
 
 @pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
 def test_samples_fill_their_ranges_and_are_ordered_in_small_steps(method: Any):
-    places = StudyPoints((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    places = StudyPoints((), StudySample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
     points = np.array([[point["mu"], point["mass_kg"]] for point in places.at(0, 500)])
     unit = (points - [0.1, 6000.0]) / [0.2, 3000.0]
     assert ((unit >= 0.0) & (unit <= 1.0)).all()
@@ -268,17 +268,17 @@ def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out()
     assert abs(guess(40.0, 900.0) - collective(0.0, 0.0)) < 1.0  # The quadratic itself gives −600.
 
 
-def stored(folder: Path, text: str = SMALL, whence: StudyProvenance = WHENCE) -> Store:
-    return Store(folder, StudyFile(parse_study(text), text, "study.toml"), whence)
+def stored(folder: Path, text: str = SMALL, whence: StudyProvenance = WHENCE) -> StudyFolder:
+    return StudyFolder(folder, StudyFile(parse_study(text), text, "study.toml"), whence)
 
 
 @pytest.fixture
-def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[Store, int], FinishedChunk]:
+def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[StudyFolder, int], FinishedChunk]:
     monkeypatch.setattr("rotor.study.chunks.package_version", lambda: WHENCE.version)
     return lambda store, chunk: evaluate_chunk(store.study, chunk, WHENCE)
 
 
-def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
+def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]):
     store = stored(tmp_path / "out")
     with pytest.raises(ValueError, match="another run writes"):
         stored(tmp_path / "out")
@@ -303,7 +303,7 @@ def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Store
 
 
 def test_a_damaged_chunk_is_named_with_the_remedy(
-    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
 ):
     store = stored(tmp_path / "out")
     for chunk in (0, 1):
@@ -327,7 +327,7 @@ def test_first_chunks_are_spread_over_the_study(tmp_path: Path):
     assert left == store.missing()
 
 
-def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
+def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]):
     parquet: Any = importlib.import_module("pyarrow.parquet")
     store = stored(tmp_path / "out")
     for chunk in range(2):
@@ -351,7 +351,7 @@ def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[Store, 
 
 
 def test_show_is_text_and_json(
-    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
 ):
     store = stored(tmp_path / "out")
     store.keep(0, done(store, 0).content)
@@ -400,11 +400,11 @@ def test_effects_share_the_variance_by_the_formula():
     """f = 3x + y on a full grid: Var x-part : Var y-part = 9 : 1, no free parameter left for z."""
     grid = np.array(np.meshgrid([0.0, 1.0], [0.0, 1.0], [0.0, 1.0], indexing="ij")).reshape(3, -1)
     results = results_of(x=grid[0], y=grid[1], z=grid[2], power_total_w=3.0 * grid[0] + grid[1])
-    found = {one.axis: one for one in effects(results, "power_total_w")}
+    found = {one.axis: one for one in main_effects(results, "power_total_w")}
     assert_allclose([found[name].share for name in "xyz"], [0.9, 0.1, 0.0], atol=1e-12)
     assert (found["x"].least_at, found["x"].most_at, found["x"].most) == (0.0, 1.0, 3.5)
     many = np.linspace(0.0, 1.0, 1000)
-    fine = effects(results_of(x=many, power_total_w=many), "power_total_w")[0]
+    fine = main_effects(results_of(x=many, power_total_w=many), "power_total_w")[0]
     assert_allclose(fine.share, 0.99, atol=1e-3)  # Tenths see all but 1/100 of a straight line's variance.
 
 
@@ -413,7 +413,7 @@ def test_a_small_sample_is_not_reported_as_an_effect():
     x, y = np.random.default_rng(0).random((2, 16))
     results = results_of(x=x, y=y, power_total_w=x)
     results.about["axes"] = {name: {"low": 0.0, "high": 1.0} for name in "xy"}
-    found = {one.axis: one.share for one in effects(results, "power_total_w")}
+    found = {one.axis: one.share for one in main_effects(results, "power_total_w")}
     assert found["x"] > 0.5
     assert found["y"] < 0.2
 

@@ -14,7 +14,7 @@ import pytest
 from rotor import make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.lifting_line import MOST_AZIMUTHS, MOST_PANELS
-from rotor.user_input import shorten
+from rotor.support.user_input import shorten
 
 MOST_SECONDS = 10.0
 """Of processor time, for one solve."""

@@ -13,9 +13,9 @@ import rotor
 from rotor.__main__ import main
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import Problem, build_problem
-from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
+from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, DoubtRow, doubt, other_models, sureness
 from rotor.trim.power_changes import hover_part, power_changes

@@ -13,8 +13,8 @@ from rotor.design.design import Design
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, measure
-from rotor.trim.adjoint import Adjoint, Weights
+from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, evaluate_objective
+from rotor.trim.adjoint import Adjoint, ElementSlopes
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
@@ -48,14 +48,14 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
     concept = CONCEPTS[name]
     values = np.array(VALUES[name])
     span = np.array([parameter.high - parameter.low for parameter in concept.parameters])
-    centre = measure(objective, concept.apply(design, values), options=TIGHT)
+    centre = evaluate_objective(objective, concept.apply(design, values), options=TIGHT)
     assert centre.by_pitch is not None
     exact = concept.slopes(values, centre.solutions[0].disk.r) @ centre.by_pitch * span
     step = 4e-6  # Halving it from 8e-6 quarters the difference's own error, which was 7e-7.
 
     def power(direction: np.ndarray) -> float:
         changed = concept.apply(design, values + direction)
-        made = measure(objective, changed, centre.solutions, gradient=False, options=TIGHT)
+        made = evaluate_objective(objective, changed, centre.solutions, gradient=False, options=TIGHT)
         assert made.power is not None
         return made.power
 
@@ -142,5 +142,5 @@ def test_any_measure_of_the_blade_elements(made: Design):
         fields = [getattr(one.elements, "induced" if name == "inflow" else name) for one in ends]
         change = (fields[0] - fields[1]) / (2.0 * step)
         slope = float((weights * (change[:, None] if name == "swirl" else change)).sum())
-        found = adjoint.by_pitch(replace(Weights(), **{name: weights}))
+        found = adjoint.by_pitch(replace(ElementSlopes(), **{name: weights}))
         assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-10)

@@ -12,14 +12,14 @@ from scipy.optimize import brentq
 
 from rotor.aero.inflow.interface import PLAIN, SectionInterface
 from rotor.aero.section import M
-from rotor.aero.unsteady_section import unsteady
+from rotor.aero.unsteady_section import unsteady_interface
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81
 from rotor.airfoil.sections import OwnSection
-from rotor.arrays import Array
 from rotor.design.blade import BladeStructure, Span
 from rotor.design.design import Design
 from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.trim.blade_system import BladeSystem, blade_system
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -272,7 +272,7 @@ def test_a_rigid_blade_does_not_read_slopes_of_the_moment(shed: bool, monkeypatc
     linear = linearised(make_design(rotor="r22", mu=0.2))
     wanted = blade_system(linear, shed=shed).at()
     monkeypatch.setattr("rotor.trim.blade_system.PLAIN", undefined(PLAIN))
-    monkeypatch.setattr("rotor.trim.blade_system.unsteady", lambda plain: undefined(unsteady(plain)))
+    monkeypatch.setattr("rotor.trim.blade_system.unsteady", lambda plain: undefined(unsteady_interface(plain)))
     assert_allclose(blade_system(linear, shed=shed).at(), wanted, rtol=1e-12, atol=1e-12)
 
 

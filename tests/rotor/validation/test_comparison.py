@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rotor.validation.uh60a import beside_hover_points, beside_model_curve
+from rotor.validation.uh60a import hover_comparison, model_curve_comparison
 
 
 def test_hover_points():
@@ -13,7 +13,7 @@ def test_hover_points():
     that 11 % of an induced share of three quarters, but for the 3.2 % scatter of the points either way. The first
     point, 10 % off its own curve, is not counted.
     """
-    _, measured, ours = map(np.array, beside_hover_points())
+    _, measured, ours = map(np.array, hover_comparison())
     counted = (ours / measured)[1:]
     assert (counted < 1.0 + 0.033).all()
     assert (counted > 1.0 - 0.75 * (1.20 - 1.07) / 1.20 - 0.032).all()
@@ -21,8 +21,8 @@ def test_hover_points():
 
 def test_forward_curve_is_indicative():
     """Against a *model* curve (indicative): main-rotor power over speed, with its minimum at the same speed."""
-    _, theirs, flight = map(np.array, beside_model_curve("flight"))
-    thesis = np.array(beside_model_curve("thesis")[2])
+    _, theirs, flight = map(np.array, model_curve_comparison("flight"))
+    thesis = np.array(model_curve_comparison("thesis")[2])
     assert abs(int(flight.argmin()) - int(theirs.argmin())) <= 1
     # Their hover lies 12 % below the measured points, and their model is said to be low below 30 kt: up to 60 kt, where
     # induced power is the largest part, ours lies above it by 8 to 12 %; by 5 % only at 20 kt, where the wake of the

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotor.validation.doubt import HeldPoint, counted, doubt_set
+from rotor.validation.doubt import PointAndBand, count_by_kind, doubt_set
 from tests.shipped_rows import still_true
 
 
@@ -15,11 +15,11 @@ def test_the_shares_are_those_shipped():
 
 
 def test_a_point_is_inside_up_to_its_band():
-    assert HeldPoint("", "hover", -0.05, 0.05).inside
-    assert not HeldPoint("", "hover", 0.051, 0.05).inside
+    assert PointAndBand("", "hover", -0.05, 0.05).inside
+    assert not PointAndBand("", "hover", 0.051, 0.05).inside
 
 
 def test_points_inside_and_outside_are_counted_by_kind_of_flight():
     """Forty of one kind say nothing of another."""
-    hover = [HeldPoint("", "hover", error, 0.05) for error in (0.2, -0.01)]
-    assert counted([*[HeldPoint("", "XV-15", 0.0, 0.05)] * 40, *hover]) == "in/out: XV-15 40/0; hover 1/1"
+    hover = [PointAndBand("", "hover", error, 0.05) for error in (0.2, -0.01)]
+    assert count_by_kind([*[PointAndBand("", "XV-15", 0.0, 0.05)] * 40, *hover]) == "in/out: XV-15 40/0; hover 1/1"

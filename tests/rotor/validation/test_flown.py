@@ -18,7 +18,7 @@ from rotor.validation.airloads import (
     airload_agreement,
     harmonics,
     measured_curves,
-    wave,
+    wave_amplitude,
 )
 from rotor.validation.flown import LEAST, flown_angles, flown_powers, shape_errors, tail_pitch
 from rotor.validation.trust import rms
@@ -78,8 +78,8 @@ def test_a_blade_whose_root_moves_at_3_per_rev():
     mine = found("hart2-airloads")
     for quantity, r, size, angle in (("cn_m2", 0.87, 0.15, 30.0), ("tip_twist_deg", 1.0, 0.15, 10.0)):
         moved, base = mine["MN", quantity, r], mine["BL", quantity, r]
-        theirs = wave(moved.measured_waves, 3) - wave(base.measured_waves, 3)
-        ours = wave(moved.waves, 3) - wave(base.waves, 3)
+        theirs = wave_amplitude(moved.measured_waves, 3) - wave_amplitude(base.measured_waves, 3)
+        ours = wave_amplitude(moved.waves, 3) - wave_amplitude(base.waves, 3)
         assert abs(abs(ours) / abs(theirs) - 1.0) < size, quantity
         assert abs(math.degrees(cmath.phase(ours / theirs))) < angle, quantity
 

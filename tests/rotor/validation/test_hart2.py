@@ -11,7 +11,7 @@ from rotor.aero.lifting_line import WakeCourse
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation import hart2
-from rotor.validation.airloads import agreement, harmonics, our_curve
+from rotor.validation.airloads import agreement, computed_curve, harmonics
 from rotor.validation.hart2 import height, measured_vortices
 
 CURVES = hart2.curves()
@@ -68,7 +68,7 @@ def test_moment_of_the_pitch_rate(solutions: dict[str, Solution]):
     mach = 2.0 * 109.01 / 342.2
     by_hand = -0.25 * math.pi * 0.0605 * rate * speed * mach**2
     curve = replace(CURVES["MN", "cm_m2"], r=float(disk.r[i]))
-    whole = harmonics(*our_curve(curve, solution), 3)
+    whole = harmonics(*computed_curve(curve, solution), 3)
     expected = harmonics(psi, by_hand, 3)
     assert math.hypot(expected[3], expected[6]) > 0.001
     rest = whole - expected  # The section's own moment, a fifth of it, and that of d²θ/dt².

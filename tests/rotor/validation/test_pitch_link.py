@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
 from rotor.trim.solve import solve
-from rotor.validation.airloads import PITCH_LINK, PITCH_LINK_SPEEDS, measured_curves, our_curve
+from rotor.validation.airloads import PITCH_LINK, PITCH_LINK_SPEEDS, computed_curve, measured_curves
 
 
 def test_measured_loads_are_those_of_the_figure():
@@ -37,7 +37,7 @@ def test_load_is_that_of_the_moment_nose_up_on_the_blade():
     measured = next(one for one in measured_curves() if one.case.test == PITCH_LINK)
     solution = solve(make_design(mu=0.3)).require()
     elastic, structure = solution.elastic, solution.design.rotor.blade.structure
-    psi, ours = our_curve(measured, solution)
+    psi, ours = computed_curve(measured, solution)
     torsion = Analysis(solution).linear.problem.torsion
     root = torsion.modes.shape[:, 0] @ elastic.coordinates
     order = (np.arange(len(root)) + 1) // 2

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.assets import csv_rows
-from rotor.chart_svg import small_svg, svg
+from rotor.support.assets import csv_rows
+from rotor.support.chart_svg import small_svg, svg
 from rotor.validation.compare import SETS as MEASURED
 from rotor.validation.compare import load_set
 from rotor.validation.page import SETS

@@ -10,9 +10,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.assets import MEASURED_ROTORS
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
+from rotor.support.assets import MEASURED_ROTORS
 from rotor.trim.solve import solve
 from rotor.validation.compare import FIELDS, SETS, ComparedPoint, Comparison, compare, design_at, load_set
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed

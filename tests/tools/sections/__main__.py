@@ -8,8 +8,8 @@ from pathlib import Path
 
 from rotor.airfoil.c81 import format_c81, read_c81
 from rotor.airfoil.polars import PolarSet, read_polars, write_polars
-from rotor.assets import asset_path
-from rotor.terminal import run_command
+from rotor.support.assets import asset_path
+from rotor.support.terminal import run_command
 from tests.tools.sections.recipes import RECIPES, compare_decks, make_deck, recipe_of, run_thesis_polar, run_trip_polars
 from tests.tools.sections.xfoil import XfoilError
 

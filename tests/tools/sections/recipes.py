@@ -13,8 +13,8 @@ from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.decks import BLEND_END_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import PolarSet
-from rotor.arrays import Array
-from rotor.user_input import did_you_mean
+from rotor.support.arrays import Array
+from rotor.support.user_input import did_you_mean
 from tests.tools.sections.tunnel import MeasuredSlope, TunnelTraits
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, run_polar
 

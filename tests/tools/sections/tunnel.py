@@ -28,7 +28,7 @@ from rotor.airfoil.decks import (
     smooth_cap,
     with_lost_suction,
 )
-from rotor.arrays import Array
+from rotor.support.arrays import Array
 
 MACH_PER_DEGREE = 0.046
 """Mach number that one degree is worth. This, the next four and the onset of SC1095: least squares of ln C_d on the

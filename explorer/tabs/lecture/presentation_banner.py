@@ -1,0 +1,212 @@
+"""One session's part in a presentation: its presenter, a follower, or neither."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from explorer.hosting import browser
+from explorer.model.session_state import SessionState
+from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import Address
+from explorer.tabs.context import Tab, TabContext
+from explorer.tabs.lecture.lecture_panel import LecturePanel
+from explorer.text.glossary import hint
+from rotor.support.markup import Content, tag
+
+_CAMERA_EVERY = 0.1
+"""[s] between two poses of the presenter's camera."""
+_LONGEST = 40
+"""Characters of a name in the address that are looked at."""
+_WORDS = "Copies a link. Anyone with the link follows your settings live and can leave at any time."
+_FOLLOWING = "Following a presentation: the presenter controls this page."
+_DUPLICATE = (
+    "Another tab of this browser is already presenting; this one follows it. To present here, close that tab and "
+    "reload."
+)
+
+
+class PresentationBanner(Tab):
+    """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
+
+    _lecture: LecturePanel
+    _hold: Callable[[bool], None]
+
+    def __init__(
+        self, context: TabContext, presentations: Presentations, address: Address, secret: str = "", page: str = ""
+    ) -> None:
+        """The page's address says whom it follows; `secret` is what the page kept where it presents.
+
+        `page`: of which there is one for each time that a tab is loaded.
+        """
+        self._context, self._presentations, self._address, self._page = context, presentations, address, page
+        self._secret, self._duplicate = secret[:_LONGEST], False
+        address[PRESENT] = None  # Earlier versions kept the secret there, so it came with every link.
+        self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
+        if self._secret and not presentations.claim(self._secret, page, self):
+            self._name, self._secret, self._duplicate = follow_name(self._secret), "", True
+        self._lock, self._publishing = threading.Lock(), threading.Lock()
+        self._unfollow: Callable[[], None] | None = None
+        self._shown: PresentedView | None = None
+        """What the presenter shows."""
+        self._looked = 0.0
+        self._pending: threading.Timer | None = None
+        self._camera: tuple[Point, Point] | None = None
+        self._banner = context.gui.add_html("", visible=False)
+        self._leave = context.gui.add_button(
+            "Leave and continue alone", color="gray", visible=False, hint=hint("leave")
+        )
+        self._leave.on_click(lambda _: self.leave())
+
+    def begin(self, lecture: LecturePanel, hold: Callable[[bool], None]) -> None:
+        """The page stands: follow, or present, if the address says so.
+
+        `hold` takes the controls from the user, or gives them back.
+        """
+        self._lecture, self._hold = lecture, hold
+        gui = self._context.gui
+        with gui.add_folder("Present to others"):
+            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
+            gui.add_html(tag("div.rx.rx-dim.rx-small", _WORDS))
+        self._present.on_click(lambda _: self.end() if self._secret else self.present())
+        self._context.client.camera.on_update(self._looked_round)
+        if self._name:
+            hold(True)
+            self._say(_DUPLICATE if self._duplicate else _FOLLOWING, leave=True)
+            self._unfollow = self._presentations.follow(self._name, self._on_presented)
+        elif self._secret:
+            self._presentations.watch(self._secret, self._announce)
+        self._name_present()  # A presenter who loads the page again presents on.
+
+    def _name_present(self) -> None:
+        self._present.label = "Stop presenting" if self._secret else "Present"
+
+    def present(self) -> None:
+        """Begin to present; the link of followers goes into the clipboard. The page keeps the secret over a reload."""
+        if self._name:
+            self.leave()
+        self._secret = new_secret()
+        self._presentations.claim(self._secret, self._page, self)
+        browser.store_text(self._context.client, PRESENT, self._secret)
+        self._presentations.watch(self._secret, self._announce)
+        self._publish()
+        browser.copy_link(self._context.client, self._link)
+        self._name_present()
+        self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
+
+    def end(self) -> None:
+        """Stop presenting."""
+        self._presentations.end(self._secret)
+        self._presentations.release(self)
+        self._secret = ""
+        browser.store_text(self._context.client, PRESENT, "")
+        self._say("")
+        self._name_present()
+
+    def leave(self) -> None:
+        """Stop following: the page stays as it is, and is the user's."""
+        unfollow, self._unfollow, self._name = self._unfollow, None, ""
+        if unfollow is not None:
+            unfollow()
+        if self._duplicate:
+            self._duplicate = False
+            browser.store_text(self._context.client, PRESENT, "")
+        self._hold(False)
+        self._address[FOLLOW] = None
+        self._say("")
+
+    def show(self, state: SessionState) -> None:
+        """Publish what the page shows, if it presents."""
+        del state
+        self._publish()
+        self._hold_still()
+
+    def show_failure(self) -> None:
+        self._publish()
+        self._hold_still()
+
+    def stop(self) -> None:
+        """The browser has left. A presenter may come back by the same address, so followers wait."""
+        self._presentations.release(self)
+        if self._unfollow is not None:
+            self._unfollow()
+
+    def _publish(self) -> None:
+        self._pending = None
+        context = self._context
+        if not self._secret:
+            return
+        with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
+            state = context.state()
+            against = state.pin.inputs if state is not None and state.pin is not None else None
+            shown = PresentedView(context.inputs(), context.view(), against, self._lecture.place, self._camera)
+            self._presentations.present(self._secret, shown)
+
+    def _announce(self, count: int) -> None:
+        followers = "1 follower" if count == 1 else f"{count} followers"
+        link = tag("a", "copy link", href=self._link, data_copy=True, target="_blank", rel="noopener")
+        self._say((f"Presenting: {followers} · ", link))
+
+    @property
+    def _link(self) -> str:
+        """What followers open, relative to the page."""
+        return f"?{FOLLOW}={follow_name(self._secret)}"
+
+    def _hold_still(self) -> None:
+        """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
+        shown, context = self._shown, self._context
+        if self._name and shown is not None and context.inputs() != shown.inputs:
+            context.set_inputs(shown.inputs)
+
+    def _on_presented(self, shown: PresentedView | None) -> None:
+        """What the presenter shows; on the presenter's thread."""
+        context = self._context
+        if not self._name:
+            return
+        if shown is None:
+            self.leave()
+            context.notify("The presentation is over", "The page is yours.")
+            return
+        with self._lock:
+            self._shown = shown
+            view = context.view()
+            wanted = replace(shown.view, dark=view.dark, units=view.units)
+            if wanted != view:
+                context.display.set_view(wanted)
+            state = context.state()
+            have = state.pin.inputs if state is not None and state.pin is not None else None
+            if shown.against != have:
+                context.pin(shown.against)
+            if shown.inputs != context.inputs():
+                context.set_inputs(shown.inputs)
+            self._lecture.follow(shown.place)
+            if shown.camera is not None and shown.camera != self._camera:
+                self._camera = shown.camera
+                with context.client.atomic():
+                    context.client.camera.position, context.client.camera.look_at = shown.camera
+
+    def _looked_round(self, camera: viser.CameraHandle) -> None:
+        if not self._secret:
+            return
+        self._camera = (_point(camera.position), _point(camera.look_at))
+        now = time.monotonic()
+        if now - self._looked > _CAMERA_EVERY:
+            self._looked = now
+            self._publish()
+        elif self._pending is None:  # The last pose of a movement is shown too.
+            self._pending = threading.Timer(_CAMERA_EVERY, self._publish)
+            self._pending.daemon = True
+            self._pending.start()
+
+    def _say(self, words: Content, leave: bool = False) -> None:
+        self._banner.content = tag("div.rx.rx-presentation", words, data_explorer="presentation") if words else ""
+        self._banner.visible, self._leave.visible = bool(words), leave
+
+
+def _point(at: NDArray[np.float64]) -> Point:
+    x, y, z = (round(float(value), 3) for value in at)
+    return x, y, z

@@ -1,0 +1,216 @@
+"""What the panels are functions of, and what a panel is."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeVar
+
+from explorer.charts.measured import FlownPowers, MeasuredChart
+from explorer.charts.plots import PowerCurve, Range
+from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import Analyses, SessionState
+from explorer.model.units import SI, Units, units_of
+from explorer.parts.frame import NoticePart
+from explorer.parts.results import LeastPower
+from explorer.workers.call import Call
+from rotor import Design, Solution
+from rotor.support.chart import Chart
+
+Mode = Literal["explore", "optimise", "actuate"]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class OpenPanels:
+    """What of the page is open, and whether a presenter moves it (`held`)."""
+
+    mode: Mode = "explore"
+    drawer: str = ""
+    held: bool = False
+
+
+@dataclass(frozen=True)
+class HandSettings:
+    """What the hand has set beside the inputs of the design.
+
+    `lifted`: the blade with its actuator is out of the rotor. `flown`: where on the flight bar the voltages follow the
+    flight; None where a hand set them. `stopped`: the actuator has; voltages stay as they are, wherever it flies.
+    `pulled`: drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds.
+    `on_stage`: what would pay is shown in place of the balance of power. `here`: that is of this flight, else of the
+    mission. `place`: range of twist [°] and mass of all
+    blades [kg] of the supposed actuator; None until it is dragged.
+    """
+
+    actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
+    lifted: bool = False
+    flown: float | None = None
+    stopped: bool = False
+    pulled: tuple[tuple[float, ...], float] = (), 0.0
+    on_stage: bool = False
+    here: bool = False
+    place: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class HeldStation:
+    """The station of the blade that is in the hand, and its twist of least power with that power in W, once known."""
+
+    place: str
+    best: LeastPower | None
+
+
+@dataclass(frozen=True, eq=False)
+class PanelMemory:
+    """What is remembered from one update to the next."""
+
+    ranges: Mapping[str, Range] = field(default_factory=dict[str, Range])
+    """Axes of charts, which hold as long as they serve."""
+    latest: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    """The last result of the page's own work, by its name: it stands until that of the present design is known."""
+
+    def then(self, state: SessionState, last: SessionState | None) -> "PanelMemory":
+        """After a converged state and the `last` before it: what is known of one rotor says nothing of another."""
+        same = last is not None and last.inputs.aircraft == state.inputs.aircraft
+        return self if same else replace(self, latest={})
+
+
+@dataclass(frozen=True, eq=False)
+class PageState:
+    """All that a panel may show at one instant."""
+
+    inputs: Inputs
+    sliders: Design | None
+    """The design that the inputs mean, without the actuator's twist; None where they mean none."""
+    state: SessionState | None
+    """The last converged one; None before the first."""
+    problem: str = ""
+    """Why the present inputs have no solution, in one sentence; empty where they have one."""
+    ui: OpenPanels = OpenPanels()
+    hand: HandSettings = field(default_factory=HandSettings)
+    station: HeldStation | None = None
+    change: float | None = None
+    """Power less that before the grab [W]; None while nothing was moved."""
+    optimised: Solution | None = None
+    """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    searching: NoticePart | None = None
+    """What is said while a search is shown in place of the sliders."""
+    curve: PowerCurve | None = None
+    """Power over µ; None before the first."""
+    index: Chart | None = None
+    """Vibration index over µ, of blades that bend."""
+    measured: MeasuredChart = field(default_factory=MeasuredChart)
+    flown: FlownPowers = field(default_factory=FlownPowers)
+    analyses: Analyses = field(default_factory=Analyses)
+    memory: PanelMemory = field(default_factory=PanelMemory)
+    answers: Mapping[Hashable, Any] = field(default_factory=dict[Hashable, Any])
+    """What is known: of worker processes by `Call`, of the page's own work by the key of `PanelWork`. For a question
+    that failed, the sentence that says why."""
+    _derived: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False)
+
+    def of(self, derive: Callable[["PageState"], T]) -> T:
+        """What `derive` makes of this, worked out once for all panels."""
+        if derive not in self._derived:
+            self._derived[derive] = derive(self)
+        return self._derived[derive]
+
+    @property
+    def units(self) -> Units:
+        return SI if self.state is None else units_of(self.state.view.units, self.state.solution.design.aircraft)
+
+    def latest(self, work: "PanelWork") -> tuple[Any, bool]:
+        """The result of work, and True; until it is known the last of its name, or None, and False."""
+        known = self.answers.get(work.key)
+        return (self.memory.latest.get(work.name), False) if known is None else (known, True)
+
+
+@dataclass(frozen=True)
+class Questions:
+    """Questions of a panel to the worker processes, the first one first."""
+
+    urgency: int
+    """As in `Processes.begin`."""
+    calls: tuple[Call, ...]
+    delay: float
+    """How long nothing must have moved before they are worked on [s]."""
+
+
+Tell = Callable[[], None]
+"""Says, before work is done, that there is more to show."""
+
+
+@dataclass(frozen=True, eq=False)
+class PanelWork:
+    """What a panel wants computed by the page's own thread, once the page rests."""
+
+    name: str
+    about: tuple[Hashable, ...]
+    """All that the result depends on."""
+    run: Callable[[Callable[[], bool], Tell], Any]
+    """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+    soon: bool = False
+    """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
+
+    @property
+    def key(self) -> Hashable:
+        """By which `PageState.answers` has the result."""
+        return self.name, *self.about
+
+
+@dataclass(frozen=True)
+class MoveSliders:
+    """Move the sliders, as a hand does or to a design that comes by none."""
+
+    inputs: Inputs
+    by_hand: bool = True
+
+
+@dataclass(frozen=True)
+class SetGrabbed:
+    """Something was taken by the hand, or let go: what moves in between is one step of undo."""
+
+    held: bool
+
+
+@dataclass(frozen=True)
+class SetHand:
+    """Of what the hand has set beside the inputs, these fields of `HandSettings`, and as widgets these of
+    `ActuatorInputs`.
+
+    Others may move meanwhile.
+    """
+
+    changes: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    actuator: Mapping[str, Any] = field(default_factory=dict[str, Any])
+
+
+@dataclass(frozen=True)
+class SetAddress:
+    """Write a value into the address of the page; None removes it."""
+
+    name: str
+    value: str | None
+
+
+Effect = MoveSliders | SetGrabbed | SetHand | SetAddress
+Press = Callable[[PageState, Any], tuple[Effect, ...]]
+"""What a press does, from what is known now and the value that came with it."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A panel of the page, or what belongs together of it."""
+
+    view: Callable[[PageState], Mapping[str, Any]]
+    """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
+    seen: Callable[[OpenPanels], bool] = lambda ui: True
+    """Where it is not, nothing is asked, worked out, viewed or pressed."""
+    asks: Callable[[PageState], tuple[Questions, ...]] = lambda now: ()
+    works: Callable[[PageState], Sequence[PanelWork]] = lambda now: ()
+    turns: bool = False
+    """Whether it follows the azimuth of the reference blade."""
+    remember: Callable[[PageState, Mapping[str, Any]], PanelMemory] = lambda now, shown: now.memory
+    """What is remembered of what it showed."""
+    reacts: Callable[[PageState], tuple[Effect, ...]] = lambda now: ()
+    """What a new answer moves, without a press."""
+    presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
+    """By name in `presses.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""

@@ -1,0 +1,206 @@
+"""Compilation of numerical kernels by numba, kept on disk where that is possible.
+
+numba itself ends the program where it has no folder to write to (a read-only installation without a home), where the
+disk is full, and where a kept file was cut short; LLVM ends it where a bit of one is another. The kernels then compile
+anew, in some seconds.
+
+The first run compiles for about half a minute. On a terminal and in a notebook a line on stderr counts the kernels.
+"""
+
+import hashlib
+import logging
+import pickle
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numba  # pyright: ignore[reportMissingTypeStubs]
+from numba.core import event  # pyright: ignore[reportMissingTypeStubs]
+from numba.core.caching import FunctionCache, IndexDataCacheFile  # pyright: ignore[reportMissingTypeStubs]
+
+_log = logging.getLogger(__name__)
+
+
+class _CheckedFiles(IndexDataCacheFile):
+    """numba's index and data files with a checksum before their content; ValueError for one that is damaged."""
+
+    def _dump(self, obj: Any) -> bytes:
+        content: bytes = super()._dump(obj)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return hashlib.sha256(content).digest() + content
+
+    def _load_index(self) -> Any:
+        version = pickle.dumps(self._version, protocol=-1)
+        try:
+            whole = Path(self._index_path).read_bytes()
+        except FileNotFoundError:
+            return {}
+        if not whole.startswith(version):
+            return {}
+        stamp, overloads = _undamaged(whole.removeprefix(version))
+        return overloads if stamp == self._source_stamp else {}
+
+    def _load_data(self, name: str) -> Any:
+        return _undamaged(Path(self._data_path(name)).read_bytes())  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
+
+
+def _undamaged(content: bytes) -> Any:
+    if hashlib.sha256(content[32:]).digest() != content[:32]:
+        raise ValueError("a kept file is damaged")
+    return pickle.loads(content[32:])
+
+
+class _RepairingCache(FunctionCache):
+    """numba's cache, for which every failure means that there is nothing to read, or that nothing is kept.
+
+    Kept code holds that of the functions it calls, so it serves as long as their files are the same as well.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)  # pyright: ignore[reportUnknownMemberType]
+        cache: Any = self
+        place, stamp = cache._impl, cache._impl.locator.get_source_stamp()
+        cache._cache_file = _CheckedFiles(cache._cache_path, place.filename_base, stamp)
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """What numba finds kept code by, with the times and sizes of those files."""
+        files = sorted({function.__code__.co_filename for function in _called(self._py_func, set())})
+        key: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return *key, tuple(_stamps.get(file) or _stamp(file) for file in files)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The kept code; None where there is none that can be read."""
+        try:
+            return super().load_overload(sig, target_context)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        except Exception as error:
+            _log.debug("%r cannot be read (%s)", self, error)
+            with suppress(Exception):
+                self.flush()  # So that the code of this run can be kept.
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            super().save_overload(sig, data)  # pyright: ignore[reportUnknownMemberType]
+        except Exception as error:
+            _log.debug("%r cannot be kept (%s)", self, error)
+            _watch.unkept = True
+
+
+_stamps: dict[str, tuple[float, int]] = {}
+"""Time and size of each file when it was read: a program that goes on while another version takes the place of its
+files compiles what it has read, and must not keep that as the code of the other version."""
+
+
+def _stamp(file: str) -> tuple[float, int]:
+    stat = Path(file).stat()
+    return stat.st_mtime, stat.st_size
+
+
+def _called(function: Any, known: set[Any]) -> set[Any]:
+    """All compiled functions that one calls, directly or through others: by the names in it."""
+    names, space = function.__code__.co_names, function.__globals__
+    for value in [space.get(name) for name in names]:
+        for item in [value, *(vars(value).get(name) for name in names)] if isinstance(value, ModuleType) else [value]:
+            callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # The latter of an intrinsic.
+            if callee is not None and callee not in known:
+                known.add(callee)
+                _called(callee, known)
+    return known
+
+
+class _Watch(event.Listener):
+    """Counts the kernels that numba compiles, and says so to whoever waits; numba calls it within its lock."""
+
+    def __init__(self) -> None:
+        self.kernels: list[Any] = []
+        self.open: list[Any] = []
+        """Under way: each was begun by the one before it."""
+        self.told = True
+        """Whether a stderr that is no terminal has its line, or is to have none."""
+        self.unkept = False
+        """Whether something that was compiled could not be kept."""
+        self._kept: dict[int, bool] = {}
+        self._width = 0
+
+    @property
+    def words(self) -> str:
+        """The words on what is being compiled; empty where nothing is."""
+        if not self.open:
+            return ""
+        ready, all_of_them = sum(bool(one.overloads) or self._is_kept(one) for one in self.kernels), len(self.kernels)
+        often = "in each run" if self.unkept else "once"
+        return f"Compiling, {often}: {min(ready + 1, all_of_them)} of {all_of_them}"
+
+    def _is_kept(self, kernel: Any) -> bool:
+        """Whether a run before has compiled it: the count goes on where that one ended. Looked up once."""
+        if id(kernel) not in self._kept:
+            self._kept[id(kernel)] = False
+            with suppress(Exception):  # Without a file, or with a damaged one.
+                self._kept[id(kernel)] = bool(kernel._cache._cache_file._load_index())
+        return self._kept[id(kernel)]
+
+    def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        kernel = event.data["dispatcher"]
+        if any(kernel is known for known in self.kernels):  # Others are numba's own.
+            self.open.append(kernel)
+            self._show()
+
+    def on_end(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        if self.open and self.open[-1] is event.data["dispatcher"]:
+            self.open.pop()
+            self._show()
+
+    def _show(self) -> None:
+        stream, words = sys.stderr, self.words
+        with suppress(Exception):  # Closed, or none: nobody looks.
+            if stream.isatty() or "ipykernel" in sys.modules:
+                print(f"\r{words:<{self._width}}\r{words}", end="", file=stream, flush=True)
+                self._width = len(words)
+            elif not self.told:
+                self.told = True
+                print("Compiling kernels, once: about half a minute of processor time", file=stream, flush=True)
+
+
+_watch = _Watch()
+event.register("numba:compile", _watch)  # pyright: ignore[reportUnknownMemberType]
+
+
+def compiling() -> str:
+    """What is being compiled now, as in "Compiling, once: 7 of 40"; empty where nothing is."""
+    return _watch.words
+
+
+def why_not_kept() -> str:
+    """One sentence on why compiled kernels could not be kept on disk; empty where they were."""
+    sentence = "Compiled kernels cannot be kept, so each run compiles anew: set NUMBA_CACHE_DIR to another folder"
+    return sentence if _watch.unkept else ""
+
+
+def log_compiling() -> None:
+    """Say once that kernels are compiled also where stderr is no terminal: for a server and a set-up."""
+    _watch.told = False
+
+
+def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """A decorator: the function compiled with these options of `numba.njit`, without the interpreter lock.
+
+    Not with `fastmath={"contract"}`: what fuses then depends on which copy of a called function is linked first, and
+    the run that compiles has other last bits than those that read kept code. It brings 0 to 7 % of a trim's time.
+    """
+
+    def compile_function(function: Callable[..., Any]) -> Any:
+        with suppress(OSError):
+            _stamps[function.__code__.co_filename] = _stamp(function.__code__.co_filename)
+        compiled: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
+        try:
+            compiled._cache = _RepairingCache(function)  # What `cache=True` does, with numba's own class.
+        except Exception as error:  # No folder to write to, or a source without a file.
+            _log.debug("no place to keep %s (%s)", function.__name__, error)
+            _watch.unkept = True
+        if options.get("inline") != "always":  # Such a one is part of those that call it.
+            _watch.kernels.append(compiled)
+        return compiled
+
+    return compile_function

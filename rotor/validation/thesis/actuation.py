@@ -1,0 +1,153 @@
+"""Chapter 5: free strain of piezoelectric sheets, how far plies twist the blade, and whether it pays.
+
+Only the captions of the thesis are known; what is here is ours.
+"""
+
+import math
+
+import numpy as np
+
+from rotor.actuator import tables as actuator_tables
+from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from rotor.actuator.installation import InstalledActuator, electric_field, free_strain, install
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pictures import twist_under_voltage
+from rotor.actuator.section import HostBlade, default_placement
+from rotor.files.make_design import uh60a_rotor
+from rotor.support.chart import Series
+from rotor.validation.thesis.report import Report, curve, panel, report, table
+from rotor.validation.thesis.runs import CachedFunction, Call, variant
+
+SPEEDS = (0.0, 0.3)
+"""The two flight conditions of Table 5.2."""
+BLADES: dict[str, tuple[int, HostBlade]] = {
+    "flown blade, 1 ply": (1, HostBlade()),
+    "flown blade, 2 plies": (2, HostBlade()),
+    "flown blade, 4 plies": (4, HostBlade()),
+    "new blade, GJ/2, 2 plies": (2, HostBlade("new", 0.5)),
+}
+PPM, KV_MM = 1e6, 1e-6
+"""From strains and volts per metre."""
+
+
+def catalogue_ply(id: str) -> PiezoPly:
+    """A ply of the catalogue."""
+    actuator = find_actuator(id)
+    assert isinstance(actuator, PiezoPly)
+    return actuator
+
+
+def fitted_blade(plies: int, host: HostBlade) -> InstalledActuator:
+    """MFC P1 as the worked example places it."""
+    return install(catalogue_ply("MFC_P1"), default_placement(plies), host, uh60a_rotor("flight"))
+
+
+def figure_5_5() -> Report:
+    """Free strain."""
+    curves: list[Series] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    known = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
+    # Variants for heat or cut into strips strain as their own kind does.
+    for shown in (shown for shown in known if shown.id not in ("MFC_P1_HT", "PZT5H_strips")):
+        field, (along, across) = electric_field(shown, shown.voltage_range), free_strain(shown, shown.voltage_range)
+        label = f"{shown.name} ({'d33' if shown.electrodes == 'interdigitated' else 'd31'})"
+        curves.append(curve(label, KV_MM * field, PPM * along))
+        rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
+        numbers[shown.id] = float(np.ptp(along))
+    ends = (f"{way}_{end}_ppm" for way in ("along", "across") for end in ("low", "high"))
+    return report(
+        "5.5",
+        tables=[table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows)],
+        panels=[panel("", "field [kV/mm]", "free strain along [µε]", tuple(curves))],
+        numbers=numbers,
+        each=", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()),
+        ratio=numbers["MFC_P1"] / numbers["MFC_P2"],
+    )
+
+
+def figure_5_7() -> Report:
+    """Field over voltage: a line each, whose slope is 1 over the gap between electrodes."""
+    known = [catalogue_ply("MFC_P1"), catalogue_ply("MFC_P2")]
+    ends = {ply.id: np.array(ply.voltage_range) for ply in known}
+    fields = {ply.id: KV_MM * electric_field(ply, ends[ply.id]) for ply in known}
+    lines = tuple(curve(ply.name, ends[ply.id], fields[ply.id], "both") for ply in known)
+    return report(
+        "5.7",
+        tables=[
+            table(
+                "field",
+                ("actuator", "lowest_v", "highest_v", "low_kv_mm", "high_kv_mm"),
+                [(id, *ends[id], *fields[id]) for id in ends],
+            )
+        ],
+        panels=[panel("", "voltage [V]", "field [kV/mm]", lines)],
+        numbers={id: float(np.ptp(row)) for id, row in fields.items()},
+        each="; ".join(
+            f"{id.replace('_', ' ')}: {row[0]:.2f} to {row[1]:.2f} kV/mm for {ends[id][0]:.0f} to {ends[id][1]:.0f} V"
+            for id, row in fields.items()
+        ),
+    )
+
+
+def figure_5_10() -> Report:
+    """Torsion angle along the blade."""
+    curves: list[Series] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    low, high = catalogue_ply("MFC_P1").voltage_range
+    for k, (name, (plies, host)) in enumerate(BLADES.items()):
+        installed = fitted_blade(plies, host)
+        up, down = (twist_under_voltage(installed, [volts]) for volts in (high, low))
+        curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
+        curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
+        rows.append((name, math.degrees(up.twist[-1]), math.degrees(down.twist[-1])))
+        numbers[name] = math.degrees(installed.attainable)
+    return report(
+        "5.10",
+        tables=[table("tip_twist", ("blade", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows)],
+        panels=[panel("", "r/R", "twist [°]", tuple(curves))],
+        numbers=numbers,
+        each="; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items()),
+    )
+
+
+def table_5_1() -> Report:
+    """Properties of actuators."""
+    rows = actuator_tables.table_5_1()
+    properties = table("properties", rows.columns, rows.rows)
+    return report("table 5.1", tables=[properties], count=len(rows.rows), notes=" ".join(rows.notes))
+
+
+@CachedFunction
+def compared(preset: str) -> actuator_tables.ActuatorTable:
+    """Table 5.2 of one preset: four optima a concept, and the reach of six actuators."""
+    return actuator_tables.table_5_2(ConditionPair(variant(preset, mu=SPEEDS[0]), SPEEDS))
+
+
+COMPARED: Call = (compared, ("flight",))
+
+
+def table_5_2() -> Report:
+    """Actuators and concepts compared."""
+    rows = compared("flight")
+    place = {column: k for k, column in enumerate(rows.columns)}
+    best, gains = rows.rows[0], [float(row[place["net kW"]]) for row in rows.rows]
+    fitted = next(row for row in rows.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
+    columns = {"needed": "needed °", "reach": "nominal °", "net_kw": "net kW", "ideal_kw": "ideal kW"}
+    return report(
+        "table 5.2",
+        tables=[table("verdicts", rows.columns, rows.rows)],
+        numbers={
+            "rows": float(len(gains)),
+            "best_kw": gains[0],
+            "actuators": float(len({row[0].partition(",")[0] for row in rows.rows})),
+            **{key: float(fitted[place[column]]) for key, column in columns.items()},
+        },
+        positive=sum(gain > 0.0 for gain in gains),
+        actuator=best[0],
+        concept=best[1],
+        net=best[place["net kW"]],
+        angles=rows.notes[0],
+        savings=rows.notes[1],
+    )

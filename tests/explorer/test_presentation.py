@@ -1,0 +1,150 @@
+"""Presentations: who hears what, one presenter, whose secret never stands in what its page shares."""
+
+import asyncio
+import re
+from unittest.mock import Mock
+
+import pytest
+
+from explorer.app import App
+from explorer.hosting import browser
+from explorer.model.inputs import Inputs, ViewState
+from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import Address
+from explorer.tabs.lecture.presentation_banner import PresentationBanner
+from tests.tools.visitor import Visitor, ran
+
+
+@pytest.fixture
+def scripts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What the server has the page run."""
+    found: list[str] = []
+    monkeypatch.setattr(browser, "run_in_page", lambda client, script: found.append(script))
+    return found
+
+
+def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str]):
+    async def visit() -> None:
+        visitor = Visitor()
+        await visitor.open(app.address)
+        await visitor.until(lambda: len(app.sessions) == 1)
+        page = app.sessions[0].page
+        await asyncio.to_thread(page._presentation.present)
+        page.file.copy_link()
+        assert page._presentation._secret
+        await asyncio.sleep(1.0)
+        await visitor.close()
+
+    ran(visit)
+    (kept,) = (script for script in scripts if script.startswith(f'RX.keep("{PRESENT}",'))
+    secret = re.fullmatch(rf'RX\.keep\("{PRESENT}","([\w-]+)"\)', kept)
+    shared = [script for script in scripts if script is not kept]
+    assert any(f"?{FOLLOW}={follow_name(secret[1])}" in script for script in shared)
+    assert not [script for script in shared if secret[1] in script]
+
+
+def test_a_secret_in_a_link_of_an_earlier_version_gives_no_control():
+    context, address = Mock(), Address(f"?{PRESENT}=a-secret", lambda _: None)
+    assert not PresentationBanner(context, Presentations(), address)._secret
+    assert address[PRESENT] is None
+    assert PresentationBanner(context, Presentations(), Address("", lambda _: None), "a-secret")._secret
+
+
+def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
+    """A browser that duplicates a tab copies what it was given to keep, with the secret."""
+
+    async def arrive(page: str) -> Visitor:
+        visitor = Visitor(kept={PRESENT: "a-secret"}, page=page)
+        await visitor.open(app.address)
+        await visitor.until(lambda: "resent" in visitor.text("presentation"))
+        return visitor
+
+    async def visit() -> list[str]:
+        first = await arrive("one")
+        second = await arrive("two")
+        said = [first.text("presentation"), second.text("presentation")]
+        again = await arrive("one")  # Connected again, before the server knows that it was gone.
+        said.append(again.text("presentation"))
+        for visitor in (first, again):
+            await visitor.close()
+        while len(app.sessions) > 1:
+            await asyncio.sleep(0.05)
+        third = await arrive("three")  # Loaded again after the first was closed.
+        said.append(third.text("presentation"))
+        for visitor in (second, third):
+            await visitor.close()
+        return said
+
+    first, second, again, third = ran(visit)
+    assert first.startswith("Presenting: 1 follower")  # The second.
+    assert second.startswith("Another tab of this browser is already presenting; this one follows it.")
+    assert again.startswith("Presenting: 1 follower")
+    assert third.startswith("Presenting: 1 follower")
+
+
+class TestPresentations:
+    def test_followers_hear_until_they_leave(self):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        leave = presentations.follow(follow_name(secret), heard.append)
+        counted: list[int] = []
+        presentations.watch(secret, counted.append)
+        first = PresentedView(Inputs(), ViewState())
+        presentations.present(secret, first)
+        presentations.present(secret, first)
+        late: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), late.append)
+        assert heard == late == [first]
+        leave()
+        presentations.present(secret, PresentedView(Inputs(mass_t=9.0), ViewState()))
+        presentations.end(secret)
+        assert heard == [first]
+        assert late[-1] is None
+        assert counted == [1, 2, 1]
+
+    def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+
+        def fails(_: PresentedView | None) -> None:
+            raise RuntimeError("its browser has just left")
+
+        presentations.follow(follow_name(secret), fails)
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(secret, PresentedView(Inputs(), ViewState()))
+        assert len(heard) == 1
+        assert "could not be updated" in caplog.text
+
+    def test_the_name_does_not_tell_the_secret(self):
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(follow_name(secret), PresentedView(Inputs(), ViewState()))
+        presentations.end(follow_name(secret))
+        assert heard == []
+
+    def test_a_presentation_has_one_presenter(self):
+        presentations, one, two = Presentations(), object(), object()
+        assert presentations.claim("s", "page", one)
+        assert not presentations.claim("s", "other", two)
+        assert not presentations.claim("s", "", two)
+        assert presentations.claim("other", "other", two)
+        presentations.release(one)
+        assert presentations.claim("s", "other", two)
+
+    def test_a_presenter_that_has_gone_is_not_kept(self):
+        """Its watcher belongs to its page, and so would keep the whole session alive."""
+        presentations, one = Presentations(), object()
+        presentations.claim("s", "page", one)
+        presentations.watch("s", (counts := list[int]()).append)
+        leave = presentations.follow(follow_name("s"), lambda _: None)
+        presentations.present("s", PresentedView(Inputs(), ViewState()))
+        presentations.release(one)
+        heard: list[PresentedView | None] = []
+        others = presentations.follow(follow_name("s"), heard.append)
+        assert counts == [0, 1]
+        assert len(heard) == 1
+        leave()
+        others()
+        presentations.follow(follow_name("s"), heard.append)
+        assert len(heard) == 1
