@@ -5,7 +5,9 @@ The site itself is built by `make docs`; here a page with a chart is, and its pi
 
 import argparse
 import ast
+import importlib
 import inspect
+import pkgutil
 import re
 import shlex
 import types
@@ -71,6 +73,20 @@ def test_each_public_type_has_an_entry():
     needed = {*described}.union(*map(types_of, described))
     missing = {f"{one.__module__}.{one.__name__}" for one in needed if one.__name__ not in entries}
     assert not missing, "add to docs/reference/api.md: " + ", ".join(sorted(missing))
+
+
+def test_each_entry_and_each_import_of_a_notebook_exists():
+    here = "rotor"
+    for line in API.splitlines():
+        here = line.rpartition(" ")[2] if line.startswith(".. currentmodule::") else here
+        if entry := re.fullmatch(r"   ~([\w.]+)", line):
+            assert pkgutil.resolve_name(f"{here}.{entry[1]}") is not None
+    for path in (DOCS / "notebooks").glob("*.py"):
+        for node in ast.walk(ast.parse(text(path))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] in ("rotor", "explorer"):
+                module = importlib.import_module(node.module or "")
+                for name in node.names:
+                    assert hasattr(module, name.name) or importlib.import_module(f"{node.module}.{name.name}")
 
 
 def names_of_the_page() -> set[str]:

@@ -11,7 +11,6 @@ import pytest
 import rotor
 from explorer.__main__ import main as explorer_main
 from rotor.__main__ import main as rotor_main
-from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.validation.thesis.actuation import table_5_2
 from rotor.validation.thesis.optimum_twist import table_4_1
 from tests.tools import readme
@@ -68,9 +67,7 @@ def test_the_commands_run_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_the_rotor_file_of_the_tutorial_is_as_short_as_stated():
     lines = [line for line in (ROOT / "docs/tutorials/mine.toml").read_text(encoding="utf-8").splitlines() if line]
-    said(f"One TOML file of {len(lines)} lines")
-    assert len({*SHIPPED_ROTORS, *MEASURED_ROTORS}) == 14
-    said("Fourteen rotors are included")
+    said(f"A {len(lines)}-line TOML file")
 
 
 def said(words: str) -> None:

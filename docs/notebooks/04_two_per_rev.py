@@ -12,7 +12,15 @@ import matplotlib.pyplot as plt
 
 import explorer
 import rotor
-from rotor.actuator import Host, default_placement, effect, find_actuator, install, tip_amplitude, with_actuator_mass
+from rotor.actuator import (
+    HostBlade,
+    default_placement,
+    effect,
+    find_actuator,
+    install,
+    tip_amplitude,
+    with_actuator_mass,
+)
 
 design = rotor.make_design(mu=0.35)
 phases = range(0, 360, 30)
@@ -22,7 +30,7 @@ phases = range(0, 360, 30)
 # stiffness. Each is driven with half of its voltage range at twelve phases. Power is compared with that of the same
 # blade with the actuator at rest, and finally with that of the blade without an actuator.
 
-hosts = {"retrofit": Host(), "new blade, half the stiffness": Host("new", 0.5)}
+hosts = {"retrofit": HostBlade(), "new blade, half the stiffness": HostBlade("new", 0.5)}
 changes, best = {}, {}
 for title, host in hosts.items():
     installed = install(find_actuator("MFC_P1"), default_placement(), host, design.rotor)

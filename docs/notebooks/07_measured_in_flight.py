@@ -12,7 +12,7 @@ import numpy as np
 
 import explorer
 import rotor
-from rotor.validation import CASES, agreement, measured_curves, our_curve
+from rotor.validation import CASES, agreement, computed_curve, measured_curves
 
 curves = {(one.case.name, one.quantity, one.r): one for one in measured_curves()}
 solutions = {case.name: rotor.solve(case.design()) for case in CASES}
@@ -21,7 +21,7 @@ solutions = {case.name: rotor.solve(case.design()) for case in CASES}
 def show(axes, name, quantity, r, mean=True):
     """Measured points and our line, with or without their means; the correlation of their harmonics."""
     measured = curves[name, quantity, r]
-    psi, ours = our_curve(measured, solutions[name])
+    psi, ours = computed_curve(measured, solutions[name])
     theirs = measured.values if mean else measured.values - measured.values.mean()
     axes.plot(np.degrees(measured.psi), theirs, "k.", markersize=3)
     axes.plot(np.degrees(psi), ours if mean else ours - ours.mean())

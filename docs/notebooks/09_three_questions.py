@@ -42,7 +42,7 @@ from rotor.validation.thesis import ladder, readings
 names = tuple(ladder.RUNGS)
 speeds = (0.0, 0.2, 0.35)
 rungs = {"preset thesis": (), **{words: names[: k + 1] for k, words in enumerate(ladder.RUNGS.values())}}
-best = {words: [ladder.least(on, mu, None) for mu in speeds] for words, on in rungs.items()}
+best = {words: [ladder.linear_optimum(on, mu, None) for mu in speeds] for words, on in rungs.items()}
 print("best linear twist [°/R]                           hover   µ 0.2  µ 0.35")
 for words, row in best.items():
     print(f"{words:46s}" + "".join(f"{least.rate_deg:8.1f}" for least in row))
@@ -70,7 +70,10 @@ for mu in speeds[1:]:
         (ladder.TRIM, ()),
         (names, without),
     )
-    ways = [ladder.least(on, mu, None).rate_deg - ladder.least(off, mu, None).rate_deg for on, off in pairs]
+    ways = [
+        ladder.linear_optimum(on, mu, None).rate_deg - ladder.linear_optimum(off, mu, None).rate_deg
+        for on, off in pairs
+    ]
     print(f"trim at µ {mu:g}: " + ", ".join(f"{way:+.1f}°" for way in ways))
 
 # %%
@@ -78,7 +81,7 @@ for mu in speeds[1:]:
 # each speed.
 
 for model in ("uniform", "local-momentum", "lifting-line"):
-    print(f"{model:16s}{ladder.least(names, 0.35, model).rate_deg:8.1f}°")
+    print(f"{model:16s}{ladder.linear_optimum(names, 0.35, model).rate_deg:8.1f}°")
 moving = ladder.moving_twist(names, speeds, None)
 print(f"best fixed {moving.fixed_deg:.1f}°; moving saves {100 * moving.gain:.2f} %")
 

@@ -33,6 +33,8 @@ from rotor.support.units import power_text
 
 _SENTENCES = 3
 """Largest number of different failure messages printed."""
+_ENOUGH = 100
+"""Points from which shares of a sample hold: of 20 points an axis that has two thirds once got half a per cent."""
 
 
 def record(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> dict[str, Any]:
@@ -91,6 +93,8 @@ def report(results: Results, shown: dict[str, Any]) -> str:
                 f"{value(row['least'])} at {_text(row['least_at'])} … {value(row['most'])} at {_text(row['most_at'])}"
             )
             lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
+        if results.sampled and results.good.sum() < _ENOUGH:
+            lines.append(f"  rough: shares of a sample need {_ENOUGH} points or more")
     if shown["failed"]:
         lines += ["", f"{shown['failed']:,} failed, for example:"]
         lines += [f"  {count:,} × {sentence}" for sentence, count in shown["sentences"].items()]

@@ -29,7 +29,7 @@ _MODELS = tuple(BY_KEY[key] for key in ("inflow", "hover_inflow", *SWITCHES, *OP
 _ARGUMENTS = tuple(row for row in BY_KEY.values() if row.name in ARGUMENTS and row not in _MODELS)
 """Keys that are arguments of `make_design`."""
 _BESIDE = ("format", "version", "solution")
-"""Keys that are no quantities; `solution` holds the results that `Solution.save` adds, which are not read back."""
+"""Keys that are no quantities; `solution` holds the results that `save_solution` adds, which are not read back."""
 _READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand", "active_twist", *_BESIDE)
 """Keys whose values are checked where they are read."""
 
@@ -100,7 +100,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file, as `Design.save`, `Solution.save` and the page write it.
+    """Read a design file, as `Design.save`, `rotor.save_solution` and the page write it.
 
     Raises ValueError when it cannot be used; the sentence names the file, the key and the remedy.
     """

@@ -67,6 +67,7 @@ _ASKS = {
 }
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 NOT_MODELLED = (
+    "a tiltrotor's second rotor, download on its wing and axial cruise",
     "blade bending, unless switched on; torsion, if the rotor file has no blade structure",
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "change of lift slope due to the swept tip",

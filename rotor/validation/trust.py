@@ -28,7 +28,7 @@ KINDS: dict[Kind, str] = {
 """Titles of the kinds of rows."""
 Verdict = Literal["met", "missed", "no target"]
 VERDICTS: dict[Verdict, str] = {
-    "met": "within the target at every point that has one",
+    "met": "the error is within the target: at every point, or the rms where the page of the set judges that",
     "missed": "outside it; the page of the set states the reason if it is known",
     "no target": "shown, not judged",
 }

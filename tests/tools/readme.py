@@ -18,7 +18,7 @@ ROTORS = (
     {"caradonna-tung-lift": "Caradonna–Tung section C_l"},
     {"hart2-airloads": "HART II airloads, correlation"},
     {"gazelle-airloads": "Gazelle airloads, correlation"},
-    {"flown-power": "Gazelle power over speed"},
+    {"flown-power": "Gazelle power over speed, shape"},
 )
 """The sets of measured rotors by line, and what each is called there."""
 OTHERS = {"glasgow-loops": "pitching aerofoil C_m", "sc1095": "SC1095 drag", "theory": "identities", "grid": "grid"}
