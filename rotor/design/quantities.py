@@ -327,11 +327,13 @@ _STAND = (
         hint="Given cyclic θ1s, sine part; the blades flap freely.",
     ),
     Quantity(
-        "hub_roll_nm", "number", "prescribed rolling moment at the hub, towards the retreating side; needs --flapping hub-moments", unit="N m",
+        "hub_roll_nm", "number",
+        "prescribed rolling moment at the hub, towards the retreating side; needs --flapping hub-moments", unit="N m",
         place="condition.stand.hub_roll", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
-        "hub_pitch_nm", "number", "prescribed nose-up pitching moment at the hub; needs --flapping hub-moments", unit="N m",
+        "hub_pitch_nm", "number",
+        "prescribed nose-up pitching moment at the hub; needs --flapping hub-moments", unit="N m",
         place="condition.stand.hub_pitch", low=-1e6, high=1e6, default=0.0,
     ),
     Quantity(
