@@ -185,8 +185,10 @@ class TestRefused:
             rotor.solve(design or self.design, freedoms=freedoms)
 
     def test_where_there_are_none(self) -> None:
-        self.refused(ValueError, "hover", RigidLag(), design=rotor.make_design(hover=True))
-        self.refused(ValueError, "bend", RigidLag(), design=rotor.make_design(mu=0.2, bending=True))
+        self.refused(ValueError, "Hover is solved at one azimuth", RigidLag(), design=rotor.make_design(hover=True))
+        self.refused(
+            ValueError, "Bending blades already flap", RigidLag(), design=rotor.make_design(mu=0.2, bending=True)
+        )
 
     def test_equations_that_do_not_belong_to_the_columns(self) -> None:
         class NoDamper(RigidLag):

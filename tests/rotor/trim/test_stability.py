@@ -272,7 +272,9 @@ def test_a_rigid_blade_does_not_read_slopes_of_the_moment(shed: bool, monkeypatc
     linear = linearised(make_design(rotor="r22", mu=0.2))
     wanted = blade_system(linear, shed=shed).at()
     monkeypatch.setattr("rotor.trim.blade_system.PLAIN", undefined(PLAIN))
-    monkeypatch.setattr("rotor.trim.blade_system.unsteady", lambda plain: undefined(unsteady_interface(plain)))
+    monkeypatch.setattr(
+        "rotor.trim.blade_system.unsteady_interface", lambda plain: undefined(unsteady_interface(plain))
+    )
     assert_allclose(blade_system(linear, shed=shed).at(), wanted, rtol=1e-12, atol=1e-12)
 
 
