@@ -68,7 +68,7 @@ def test_two_airfoils_are_also_compared_on_their_own_sections(capsys: pytest.Cap
     code, out, _ = run(capsys, "optimise", "--concept", "two-segment-two-airfoils", *flags)
     found = json.loads(out)
     assert code == 0
-    assert any("not as airfoils" in one for one in found["caveats"])
+    assert any("not by their airfoils" in one for one in found["caveats"])
     _, out, _ = run(capsys, "optimise", *flags)
     same = json.loads(out)
     assert found["baseline_power_w"] == same["baseline_power_w"]  # That of all other concepts.
