@@ -122,7 +122,7 @@ $(TYPESCRIPT)/.ready: $(DEV)
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
 # A line counts them; about half a minute of processor time.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
-	@$(BIN)/python -c "from rotor.support.compiled import tell_in_a_log; tell_in_a_log(); \
+	@$(BIN)/python -c "from rotor.support.compiled import log_compiling; log_compiling(); \
 	  from explorer.picture import picture; from rotor.command.warm import compile_all; \
 	  compile_all(); picture.warm()" && touch $@ \
 	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
