@@ -2,8 +2,9 @@
 
 It builds sdist and wheel twice and compares the bytes, lets twine and check-wheel-contents look at them, installs the
 wheel alone into a clean environment for every Python from 3.11 to 3.14 on this machine and uses it there (trim, page,
-study, the documentation's first example), and reads version and changelog. Each item is printed with what was found;
-the exit code is 1 if one is not met. `tests/test_wheel.py` does the same for one Python without the network.
+study, the documentation's first example), and reads version, changelog and the licences of pinned packages. Each item
+is printed with what was found; the exit code is 1 if one is not met. `tests/test_wheel.py` does the same for one Python
+without the network.
 """
 
 import argparse
@@ -19,7 +20,8 @@ import sysconfig
 import tempfile
 import tomllib
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from importlib.metadata import metadata
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
@@ -33,6 +35,8 @@ _PURELIB = "import sysconfig; print(sysconfig.get_path('purelib'))"
 
 
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+PERMISSIVE = ("MIT", "BSD", "Apache", "MPL", "PSF", "Python Software Foundation")
+"""A licence of a pinned package names one of these: the project's own is MIT."""
 CHECKS = (("twine", "check", "--strict"), ("check_wheel_contents", "--toplevel", "rotor,explorer"))
 
 
@@ -163,6 +167,19 @@ def version_faults(pyproject: str, changelog: str, others: dict[str, str]) -> li
     return faults
 
 
+def licence_faults(names: Iterable[str]) -> list[str]:
+    """Packages of this environment whose metadata states no permissive licence, in sentences."""
+    faults: list[str] = []
+    for name in names:
+        stated = metadata(name)
+        entries = [*(stated.get_all("License-Expression") or ()), *(stated.get_all("License") or ())]
+        entries += [entry for entry in stated.get_all("Classifier") or () if entry.startswith("License ::")]
+        licence = "; ".join(entry.splitlines()[0] for entry in entries)  # Some give the whole text.
+        if "GPL" in licence or not any(word in licence for word in PERMISSIVE):
+            faults.append(f"{name} is under {licence or 'no stated licence'}")
+    return faults
+
+
 def items(folder: Path) -> Iterator[tuple[str, str]]:
     """Each item of the checklist with what is wrong; empty when it is met."""
     texts = {
@@ -171,6 +188,8 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
     }
     faults = version_faults(texts.pop("pyproject.toml"), texts.pop("CHANGELOG.md"), texts)
     yield "version in one place, changelog", "; ".join(faults)
+    pins = re.findall(r"^([\w.-]+)==", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    yield f"licences of {len(pins)} pinned packages", "; ".join(licence_faults(pins))
     wheel = build(folder)
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)

@@ -1,9 +1,12 @@
 """What the release checklist says of version and changelog."""
 
+from email.message import Message
+
 import pytest
 
+from tests.tools import release
 from tests.tools.lowest import lowest
-from tests.tools.release import version_faults
+from tests.tools.release import licence_faults, version_faults
 
 PROJECT = '[project]\nversion = "1.2.0"\n'
 
@@ -24,6 +27,25 @@ def test_a_finished_changelog_has_no_faults():
 def test_each_fault_is_one_sentence(changelog: str, others: dict[str, str], words: str):
     (fault,) = version_faults(PROJECT, changelog, others)
     assert words in fault
+
+
+@pytest.mark.parametrize(
+    ("entries", "faults"),
+    [
+        ({"License-Expression": "BSD-3-Clause AND 0BSD"}, []),
+        ({"Classifier": "License :: OSI Approved :: MIT License"}, []),
+        ({"License-Expression": "LGPL-3.0-only"}, ["some is under LGPL-3.0-only"]),
+        ({"Classifier": "Topic :: Utilities"}, ["some is under no stated licence"]),
+    ],
+)
+def test_a_licence_that_is_not_permissive_is_named(
+    entries: dict[str, str], faults: list[str], monkeypatch: pytest.MonkeyPatch
+):
+    stated = Message()
+    for name, value in entries.items():
+        stated[name] = value
+    monkeypatch.setattr(release, "metadata", lambda _: stated)
+    assert licence_faults(["some"]) == faults
 
 
 def test_the_lowest_versions_are_those_that_are_stated():
