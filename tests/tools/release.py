@@ -210,7 +210,7 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
                 used = f"{power / 1e3:.1f} kW; page of {len(page)} characters; {found}; first example: {example}"
                 print(f"    {used}", flush=True)
                 yield f"wheel alone on Python {version}: trim, page, study, first example", ""
-            except (RuntimeError, subprocess.CalledProcessError, OSError, ValueError) as error:
+            except (RuntimeError, subprocess.SubprocessError, OSError, ValueError) as error:
                 yield f"wheel alone on Python {version}", str(error)
                 continue
             shutil.rmtree(place / version)
