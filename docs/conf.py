@@ -1,18 +1,22 @@
 """The documentation site: `make docs` builds it with Sphinx, warnings as errors, into `dist/docs`.
 
 Markdown is read by MyST, the notebooks are run by sphinx-gallery, formulas become MathML. No page holds a typed result:
-`command-output` shows what a command prints, `picture` draws one of `pictures.py`, `commands` prints the help of every
-command. The built pages ask no other host for anything; the last step of the build checks that.
+`command-output` shows what a command of `rotor` prints, `picture` draws one of `pictures.py`, `commands` prints the
+help of every command. The built pages ask no other host for anything; the last step of the build checks that.
 """
 
 import argparse
+import io
 import os
 import re
+import shlex
 import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import matplotlib
 from docutils import nodes
+from docutils.parsers.rst import directives
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 from sphinx.ext.napoleon import Config, GoogleDocstring
@@ -24,8 +28,6 @@ HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path[:0] = [str(ROOT), str(HERE)]
 os.environ["COLUMNS"] = "96"  # Width of what commands print.
-os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"  # Its own `python`.
-os.environ["PYTHONPATH"] = str(ROOT)
 
 import pictures  # noqa: E402
 import theory_figures  # noqa: E402
@@ -35,6 +37,10 @@ from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import report  # noqa: E402
 from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import build_parser  # noqa: E402
+from rotor.__main__ import main as rotor_main  # noqa: E402
+from rotor.support.processes import Processes  # noqa: E402
+
+Processes.warm = lambda pool: None  # Nobody opens the pages that notebooks start: their workers are not needed.
 
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
@@ -46,7 +52,6 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
-    "sphinxcontrib.programoutput",
 ]
 exclude_patterns = ["developers", "templates", "notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
 suppress_warnings = ["config.cache"]
@@ -106,6 +111,26 @@ class Picture(SphinxDirective):
         self.env.note_dependency(module.__file__)
         drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
         return [drawn, *self.parse_content_to_nodes()]
+
+
+class CommandOutput(SphinxDirective):
+    """`command-output`: a command and what it prints, in `docs` or another folder; to start a process for each takes
+    longer than most commands."""
+
+    required_arguments = 1
+    final_argument_whitespace = True
+    option_spec = {"cwd": directives.unchanged}  # noqa: RUF012 - as docutils has it
+
+    def run(self) -> list[nodes.Node]:
+        command, said = self.arguments[0], io.StringIO()
+        _, folder = self.env.relfn2path(self.options.get("cwd", "/"))
+        words = shlex.split(command.removeprefix("python -m rotor "))
+        with chdir(folder), redirect_stdout(said), redirect_stderr(said):
+            code = rotor_main(words)
+        text = f"$ {command}\n{said.getvalue().rstrip()}"
+        if code != 0:
+            raise self.error(f"exit code {code}: {text}")
+        return [nodes.literal_block(text, text, language="text")]
 
 
 class Commands(SphinxDirective):
@@ -204,6 +229,7 @@ def check_hosts(app: Sphinx, error: Exception | None):
 
 def setup(app: Sphinx):
     app.add_directive("picture", Picture)
+    app.add_directive("command-output", CommandOutput)
     app.add_directive("commands", Commands)
     app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))

@@ -29,20 +29,23 @@ hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatabl
 providers._get_local_constants = providers.Constants  # pyright: ignore[reportPrivateImportUsage]
 
 
-ONE_PROCESS = {"test_wheel", "test_chapter_4", "test_lecture"}
-"""Files whose slow tests share what takes long to make: with `--dist loadgroup` one process makes it, once."""
+ONE_PROCESS = {
+    "test_wheel": "wheel", "test_chapter_4": "searches", "test_lecture": "lecture",
+    "test_chapter_3": "reports", "test_trust_sets": "reports", "test_reproduce_command": "reports",
+}  # fmt: skip
+"""Files whose slow tests share what takes long to make, and its name: with `--dist loadgroup` one process makes it,
+once."""
 
 
-class _ByFile(LoadGroupScheduling):
-    """Tests one by one, but those of `ONE_PROCESS` by file: pytest 9 ignores the groups of xdist 3.8."""
+class _BySharing(LoadGroupScheduling):
+    """Tests one by one, but those of `ONE_PROCESS` by what they share: pytest 9 ignores the groups of xdist 3.8."""
 
     def _split_scope(self, nodeid: str) -> str:
-        file = nodeid.partition("::")[0]
-        return file if Path(file).stem in ONE_PROCESS else nodeid
+        return ONE_PROCESS.get(Path(nodeid.partition("::")[0]).stem, nodeid)
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadGroupScheduling | None:
-    return _ByFile(config, log) if config.getvalue("dist") == "loadgroup" else None
+    return _BySharing(config, log) if config.getvalue("dist") == "loadgroup" else None
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:

@@ -94,6 +94,12 @@
     fly(1);
   });
   RX.paint(['twist', 'hand'], () => { if (held && !running) redraw(); });
+  // A window that is drawn out or turned meanwhile has other room.
+  new ResizeObserver(() => {
+    if (!held) return;
+    held.layout = arrange();
+    if (!running) redraw();
+  }).observe(place);
 
   // The trailing edge of the held station goes as far up or down as the pointer.
   function turn() {

@@ -6,14 +6,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from watched import WAIT, Visit, Watched
+from playwright.sync_api import Browser
+from watched import WAIT, Watched, opened
+
+from explorer.app import App
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 COLLIDE, FRAME = (
     (Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("collisions.js", "framing.js")
 )
-SIZES = [(1500, 940), (1280, 720), (812, 734), (390, 844), (844, 390)]
+WINDOWS = {"desk": [(1500, 940), (1280, 720)], "sheet": [(812, 734), (390, 844), (844, 390)]}
+"""Sizes of one page: in each state it is drawn out, or turned as a telephone is. One with a sheet opens with it."""
 CAMERA = "() => window.__viserMutable.camera.position.toArray().map(x => Math.round(10 * x))"
 FAR = 3
 """[dm] between a camera that has followed its room and one that is aimed anew; it stands 300 dm away."""
@@ -152,13 +156,29 @@ def lecture(watched: Watched) -> States:
     yield "ended", "3d"
 
 
-@pytest.mark.parametrize("states", [explore, optimise, actuate, lecture], ids=lambda states: states.__name__)
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
-def test_nothing_collides(visit: Visit, size: tuple[int, int], states: Callable[[Watched], States]):
-    watched = visit(size=size)
+@pytest.fixture(scope="module", params=WINDOWS)
+def sized(
+    request: pytest.FixtureRequest, browser: Browser, app: App
+) -> Iterator[tuple[Watched, list[tuple[int, int]]]]:
+    """A page for all modes, and its sizes: to bring about a state takes far longer than to look at it."""
+    sizes = WINDOWS[request.param]
+    watched = opened(browser, app.address, size=sizes[0])
     watched.quiet()
+    yield watched, sizes
+    watched.close()
+
+
+@pytest.mark.parametrize("states", [explore, optimise, actuate, lecture], ids=lambda states: states.__name__)
+def test_nothing_collides(sized: tuple[Watched, list[tuple[int, int]]], states: Callable[[Watched], States]):
+    watched, sizes = sized
+    watched.reset()
+    send(watched, "view", "3d")
     wrong = {}
     for state, view in states(watched):
-        if faults := found(watched, view):
-            wrong[state] = faults
+        for wide, high in sizes:
+            watched.page.set_viewport_size({"width": wide, "height": high})
+            if faults := found(watched, view):
+                wrong[f"{state}, {wide} × {high}"] = faults
+        sizes = sizes[::-1]  # The next state begins at the size at which this one ends.
     assert wrong == {}
+    assert watched.complaints == []

@@ -73,6 +73,7 @@ def test_read_pin_and_go_round_the_disk(browser: Browser, app: App):
     watched.close()
 
 
+@pytest.mark.slow
 def test_the_plan_has_the_colours_that_files_have(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page

@@ -81,7 +81,8 @@ def has_room(watched: Watched, subject: str, height: int) -> None:
     assert free["top"] - 2 <= top < bottom <= free["bottom"] + 2
 
 
-@pytest.mark.parametrize("size", [SMALL[0], *(pytest.param(size, marks=pytest.mark.slow) for size in SMALL[1:])])
+@pytest.mark.slow
+@pytest.mark.parametrize("size", SMALL)
 def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit, size: tuple[int, int]):
     watched = visit(size=size)
     page, (width, height) = watched.page, size

@@ -168,11 +168,14 @@ def report(answer: dict[str, Any]) -> str:
 def started(checkout: Path, *, long: bool) -> subprocess.Popen[str]:
     """The own bench of another checkout, by this Python, at the same time: what slows one slows both.
 
-    Its kernels are compiled before.
+    The kernels of both are compiled before, side by side.
     """
     own = (checkout / "tests/tools/bench.py").exists()
     words = ["tests.tools.bench"] if own else ["rotor", "bench"]  # A command of rotor until version 0.3.
-    subprocess.run([sys.executable, "-m", "rotor", "warm"], cwd=checkout, capture_output=True, check=False)
+    warm, quiet = [sys.executable, "-m", "rotor", "warm"], subprocess.DEVNULL
+    begun = [subprocess.Popen(warm, cwd=place, stdout=quiet, stderr=quiet) for place in (_ROOT, checkout)]
+    for compiling in begun:
+        compiling.wait()
     call = [sys.executable, "-m", *words, "--json", *(["--long"] if long else [])]
     return subprocess.Popen(call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
