@@ -12,9 +12,9 @@ from rotor import make_design
 from rotor.__main__ import main
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
-from rotor.optimisation.ideal_bound import find_bound
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
 from rotor.trim.solve import solve
+from tests.tools.ideal_bound import find_bound
 
 OTHERS = SHIPPED_ROTORS[1:]
 

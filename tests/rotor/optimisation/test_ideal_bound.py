@@ -12,22 +12,22 @@ from rotor.aero.lifting_line import LiftingLine, WakeCourse
 from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.optimisation.ideal_bound import (
-    AZIMUTHS,
-    PANELS,
-    InducedPower,
-    LinesInWake,
-    find_bound,
-    ideal_factor,
-    least_induced_power,
-    least_twisted_power,
-    not_bounded,
-)
+from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.arrays import Array
 from rotor.support.assets import asset_path, csv_rows
 from rotor.trim.forward import with_course
 from rotor.trim.solve import solve
-from tests.tools.ideal_bound import COLUMNS, row
+from tests.tools.ideal_bound import (
+    AZIMUTHS,
+    COLUMNS,
+    PANELS,
+    InducedPower,
+    LinesInWake,
+    find_bound,
+    least_induced_power,
+    least_twisted_power,
+    row,
+)
 
 COARSE = LiftingLine(4, 0.13, 16, 36)
 CHORD = 0.5273 / 8.1778
