@@ -48,8 +48,7 @@ LIFT_DIVERGENCE_MACH = 0.75  # The lift slope is constant above: Prandtl-Glauert
 KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
 LINEAR_RISE_FROM = 0.2  # M - M_cr beyond which the wave drag rises linearly; the quartic is far too steep at M 0.9.
 FRICTION_REYNOLDS_POWER = -0.16  # Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
-CAP_SHARPNESS = 8.0  # Exponent of the smooth cap above Mach 0.4; takes 1 % off at 75 % of the cap.
-NATIVE_CAP_SHARPNESS = 16.0  # The same up to Mach 0.4, where lift well below the cap must not change.
+CAP_SHARPNESS = 8.0  # Exponent of the smooth cap beyond the polars; takes 1 % off at 75 % of the cap.
 
 # Largest lift coefficient of SC1095 against Mach: own tripped XFOIL to 0.4, then as read off RANS and deck.
 _CAP_MACH = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
@@ -182,24 +181,18 @@ def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]
 class SectionTraits:
     """Section parameters of the corrections.
 
-    `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `cap_native` says whether XFOIL's own
-    lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive;
-    `korn` is the technology factor of Korn's relation; `fixed_reynolds`: the polars are all of one Reynolds number
-    of several, which is that of any Mach number.
+    `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `korn` is the technology factor of Korn's relation;
+    `fixed_reynolds`: the polars are all of one Reynolds number of several, which is that of any Mach number.
     """
 
     thickness: float
     cap_ratio: float = 1.0
-    cap_native: bool = False
-    negative_ratio: float = 1.0
     korn: float = KORN_KAPPA
     fixed_reynolds: bool = False
 
     def correct(self, mach: float, alpha: Array, polar: Columns, polar_mach: float) -> Columns:
         """(cl, cd, cm) at `mach` from the polar at `polar_mach`: as it is where both are one, else extended."""
-        if polar_mach == mach:
-            return capped_polar(mach, alpha, *polar, self)
-        return corrected_polar(mach, alpha, *polar, self, polar_mach)
+        return polar if polar_mach == mach else corrected_polar(mach, alpha, *polar, self, polar_mach)
 
 
 def lift_cap(mach: float, traits: SectionTraits) -> float:
@@ -245,12 +238,12 @@ def with_lost_suction(alpha: Array, potential_cl: Array, cl: Array, cd: Array) -
 
 
 def corrected_polar(
-    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits, base: float = BASE_MACH
+    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits, base: float
 ) -> Columns:
     """(cl, cd, cm) at a `mach` beyond the polars, from the polar at `base`; `alpha` [rad] within +-0.5."""
     growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)
-    lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
+    lifted = smooth_cap(cl * growth, cap, cap)
     # A polar at Mach 0 is incompressible, not of a rotor at rest: its Reynolds number is the one meant.
     reynolds_ratio = 1.0 if traits.fixed_reynolds or base <= INCOMPRESSIBLE_MACH else mach / base
     friction = float(np.min(cd)) * (1.0 - reynolds_ratio**FRICTION_REYNOLDS_POWER)
@@ -260,14 +253,6 @@ def corrected_polar(
         + wave_drag(mach, lifted, traits.thickness, traits.korn)
     )
     return lifted, drag, cm * growth
-
-
-def capped_polar(mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits) -> Columns:
-    """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is too high."""
-    if not traits.cap_native:
-        return cl, cd, cm
-    held = np.where(cl > 0.0, smooth_cap(cl, lift_cap(mach, traits), 1.0, NATIVE_CAP_SHARPNESS), cl)
-    return held, with_lost_suction(alpha, cl, held, cd), cm
 
 
 USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are constant there and blended out.

@@ -48,15 +48,6 @@ class PolarSet:
     assumed: tuple[str, ...] = ()
 
 
-def write_polars(path: Path, polar_set: PolarSet) -> None:
-    """Write a polar set; four to five decimals, as XFOIL prints them, so no digit is lost."""
-    lines = [f"# {line}" for line in polar_set.header] + [COLUMNS]
-    for p in polar_set.polars:
-        for a, cl, cd, cm in zip(p.alpha_deg, p.cl, p.cd, p.cm, strict=True):
-            lines.append(f"{p.mach:g},{p.reynolds or 0.0:.0f},{a:g},{cl:.4f},{cd:.5f},{cm:.4f}")
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
 def read_polars(path: Path) -> PolarSet:
     """The polars in the file `path`, see `parse_polars`."""
     return parse_polars(path.read_text(encoding="utf-8"), path.name)

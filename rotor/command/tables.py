@@ -284,11 +284,7 @@ def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[C
 
 def add_airfoil(commands: Any) -> None:
     parser = common.add_command(commands, "airfoil", run_airfoil)
-    parser.add_argument(
-        "action",
-        choices=("show", "build", "verify"),
-        help="show the data; build and verify need a checkout of the source",
-    )
+    parser.add_argument("action", choices=("show",), help="show the data")
     parser.add_argument("name", metavar="NAME", help=f"section: {', '.join(TABLE_NAMES)}")
     parser.add_argument("--mach", type=float, metavar="M", help="Mach number of one point, with --alpha")
     parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point")
@@ -297,11 +293,6 @@ def add_airfoil(commands: Any) -> None:
 
 def run_airfoil(args: argparse.Namespace) -> int:
     """0; ValueError on bad input."""
-    if args.action != "show":
-        raise ValueError(
-            f"airfoil {args.action} belongs to a checkout of the source: run `python -m tests.tools.sections "
-            f"{args.action} {args.name}` there"
-        )
     if args.mach is None and args.alpha is None:
         _show_section(load_installed(args.name), args.json)
     elif args.mach is None or args.alpha is None:

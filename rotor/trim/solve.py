@@ -10,8 +10,7 @@ from rotor.design.design import Design, require_design
 from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.analysis import Analysis
 from rotor.trim.assemble import assemble
-from rotor.trim.branches import least_of_branches
-from rotor.trim.forward import first_guess, trim_on_course
+from rotor.trim.forward import first_guess, trim_along, trim_on_course
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
@@ -86,7 +85,19 @@ def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms:
     found = assemble(result, begin)
     if design.condition.stand is not None or not (result.converged and is_suspect_branch(found)):
         return found
-    return least_of_branches(found, stall_limit(problem), options)
+    return _least_of_branches(found, stall_limit(problem), options)
+
+
+def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOptions) -> Analysis:
+    """Of a trim and one led from easier conditions that of less power; a rotor deep in stall has several."""
+    ahead = None if options.asked_to_stop else trim_along(found.linear.problem, options, most_stalled)
+    if ahead is None:
+        return found
+    first = found.solution
+    other = assemble(replace(ahead, passes=first.passes + ahead.passes), time.perf_counter() - first.elapsed)
+    if not first.converged or not other.solution.converged:
+        return other if other.solution.converged else found
+    return other if other.solution.power.total < first.power.total else found
 
 
 def is_suspect_branch(found: Analysis) -> bool:

@@ -97,12 +97,8 @@ class MovingTwist:
 @CachedFunction
 def linear_optimum(on: tuple[str, ...], mu: float, inflow: str | None) -> LinearOptimum:
     """The best linear twist; ValueError where the blade does not trim."""
-    return _linear_optimum(rung_design(on, mu, inflow=inflow))
-
-
-def _linear_optimum(design: Design) -> LinearOptimum:
+    design = rung_design(on, mu, inflow=inflow)
     optimum = run_search(Search(design, _LINEAR, starts=2))
-    mu = design.condition.advance_ratio
     if optimum.best is None:
         raise ValueError(f"no linear twist trims at advance ratio {mu:g} with {design.models.inflow}: leave it out")
     band = (optimum.band[0].low, optimum.band[0].high) if optimum.band else (math.nan, math.nan)
@@ -132,48 +128,3 @@ def strong_over_weak(on: tuple[str, ...], kmh: float) -> float:
     mu = kmh / 3.6 / make_design().rotor.tip_speed
     strong, weak = (solve(rung_design(on, mu, f"linear:{rate}")).require().power.main_rotor for rate in (STRONG, WEAK))
     return strong / weak - 1.0
-
-
-@CachedFunction
-def without_drag(mu: float) -> LinearOptimum:
-    """The best twist of the preset `flight` without fuselage drag, which is what tilts the disk."""
-    design = rung_design(tuple(RUNGS), mu)
-    return _linear_optimum(replace(design, models=replace(design.models, fuselage=False)))
-
-
-@CachedFunction
-def twice_the_blades(mu: float) -> LinearOptimum:
-    """The best twist of a rigid blade, as one of eight of half the chord and mass."""
-    design = rung_design([name for name in RUNGS if name != "elastic"], mu)
-    return _linear_optimum(_with_blades(design, 2 * design.rotor.blades))
-
-
-def _with_blades(design: Design, count: int) -> Design:
-    """The solidity kept on another number of blades; flap inertia and mass go with the chord."""
-    rotor, share, structure = design.rotor, design.rotor.blades / count, design.rotor.blade.structure
-    if structure is not None:
-        stiffness, inertia, mass = (
-            tuple(factor * value for value in values)
-            for factor, values in (
-                (share**2, structure.torsional_stiffness),
-                (share**2, structure.torsional_inertia),
-                (share, structure.mass_per_length),
-            )
-        )
-        structure = replace(
-            structure,
-            torsional_stiffness=stiffness,
-            torsional_inertia=inertia,
-            mass_per_length=mass,
-            control_stiffness=share**2 * structure.control_stiffness,
-        )
-    blade = replace(
-        rotor.blade,
-        chords=tuple(share * chord for chord in rotor.blade.chords),
-        flap_inertia=share * rotor.blade.flap_inertia,
-        flap_static_moment=share * rotor.blade.flap_static_moment,
-        mass=share * rotor.blade.mass,
-        structure=structure,
-    )
-    chord = share * rotor.reference_chord
-    return replace(design, rotor=replace(rotor, blades=count, blade=blade, reference_chord=chord))

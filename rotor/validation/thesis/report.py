@@ -95,9 +95,10 @@ def curve(
 
     upper: with `band`, of which y is the lower edge. colour: place among the colours after the ink; None: the next one.
     """
-    across, up, place = floats(x), floats(y), None if colour is None else colour + 1
+    across, up = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    place = None if colour is None else colour + 1
     if style == "band":
-        return Band(label, across, up, floats([] if upper is None else upper), place)
+        return Band(label, across, up, np.asarray(() if upper is None else upper, dtype=float), place)
     if style == "points":
         return Points(label, across, up, place)
     return Line(label, across, up, place, dashes=style == "dashed", dots=style == "both")
@@ -124,11 +125,6 @@ def with_gap(
         top = [upper[k] for k in keep] if upper else None
         parts.append(curve(words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour))
     return parts
-
-
-def floats(values: ArrayLike) -> tuple[float, ...]:
-    """Plain floats of any array-like, flattened."""
-    return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
 
 
 def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> ReportTable:

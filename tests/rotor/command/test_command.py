@@ -149,7 +149,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["solve", "--ct-over-sigma", "0.07"], "add --trim wind-tunnel"),
         (["solve", "--preset", "thesis", "--climb-m-s", "4"], "leave the rate of climb out"),
         (["airfoil", "show", "sc1095", "--mach", "0.7"], "needs both --mach and --alpha"),
-        (["airfoil", "build", "sc1095"], "run `python -m tests.tools.sections build sc1095`"),
+        (["airfoil", "build", "sc1095"], "'build' is not a known value: use show"),
         (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
         (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
         (["optimise", "--bound", "angle=1,2"], "does not name a parameter"),

@@ -166,7 +166,7 @@ def test_attached_flow_is_solved_without_a_further_pass(monkeypatch: pytest.Monk
     def never(*_: object) -> None:
         raise AssertionError("continuation was not needed")
 
-    monkeypatch.setattr("rotor.trim.branches.trim_along", never)
+    monkeypatch.setattr("rotor.trim.solve.trim_along", never)
     for mu in (0.1, 0.2, 0.3):
         assert solve(make_design(mu=mu)).converged
 

@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from rotor.airfoil.c81 import format_c81, read_c81
-from rotor.airfoil.polars import PolarSet, read_polars, write_polars
+from rotor.airfoil.polars import COLUMNS, PolarSet, read_polars
 from rotor.support.assets import asset_path
 from rotor.support.terminal import run_command
 from tests.tools.sections.recipes import RECIPES, compare_decks, make_deck, recipe_of, run_thesis_polar, run_trip_polars
@@ -43,6 +43,15 @@ def _progress(message: str) -> None:
 
 def _polar_file(name: str) -> str:
     return f"{name}_{recipe_of(name).polars}.polars.csv"
+
+
+def write_polars(path: Path, polar_set: PolarSet) -> None:
+    """Write a polar set; four to five decimals, as XFOIL prints them, so no digit is lost."""
+    lines = [f"# {line}" for line in polar_set.header] + [COLUMNS]
+    for p in polar_set.polars:
+        for a, cl, cd, cm in zip(p.alpha_deg, p.cl, p.cd, p.cm, strict=True):
+            lines.append(f"{p.mach:g},{p.reynolds or 0.0:.0f},{a:g},{cl:.4f},{cd:.5f},{cm:.4f}")
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def _polars(name: str, from_polars: bool) -> PolarSet:

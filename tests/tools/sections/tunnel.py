@@ -21,7 +21,6 @@ from rotor.airfoil.decks import (
     BASE_MACH,
     FRICTION_REYNOLDS_POWER,
     LIFT_DIVERGENCE_MACH,
-    NATIVE_CAP_SHARPNESS,
     Columns,
     SectionTraits,
     prandtl_glauert,
@@ -30,6 +29,8 @@ from rotor.airfoil.decks import (
 )
 from rotor.support.arrays import Array
 
+CAP_SHARPNESS = 16.0
+"""Of the smooth cap on lift: up to Mach 0.4 lift well below the cap must not change."""
 MACH_PER_DEGREE = 0.046
 """Mach number that one degree is worth. This, the next four and the onset of SC1095: least squares of ln C_d on the
 CR-166309 SC1095 deck, −8 to 10 deg, Mach 0.5 to 0.9; what is left is 8 % rms."""
@@ -189,7 +190,7 @@ def _lift(
     side = np.tanh(from_centre / ROUNDING_DEG)
     after_shock = potential - side * shocks * LIFT_LOSS_SLOPE * ramp(x, traits.onset + LIFT_LOSS_AFTER)
     cap = float(np.interp(mach, _CAP_MACH, _CAP_CL)) * traits.cap_ratio
-    lift = smooth_cap(after_shock, cap, traits.negative_cap, NATIVE_CAP_SHARPNESS)
+    lift = smooth_cap(after_shock, cap, traits.negative_cap, CAP_SHARPNESS)
     return lift, after_shock - lift
 
 
