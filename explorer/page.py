@@ -137,7 +137,7 @@ class Page:
         texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context, self._follow_strip)
+        self.vibration = VibrationPanel(context)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -246,7 +246,6 @@ class Page:
             change=self.context.tracker.change,
             optimised=self.optimised.solution,
             searching=self.optimise.notice(self._now.sliders),
-            index=self.vibration.chart,
             memory=self.follower.memory,
             answers=self.follower.answers(),
         )
@@ -299,9 +298,6 @@ class Page:
     def show_power(self, curve: PowerCurve) -> None:
         """Draw power over advance ratio anew."""
         self._now = replace(self._now, curve=curve)
-        self._follow_strip()
-
-    def _follow_strip(self) -> None:
         self.follower.follow(self.now(), lambda panel: panel is STRIP)
 
     def _learn(self) -> None:

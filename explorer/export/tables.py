@@ -5,13 +5,12 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from explorer.charts.doubt import MOST_ROWS
-from explorer.charts.vibration import index_unit
 from explorer.colours import PARTS
 from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.model.stand import stand_of
 from explorer.model.units import TONNE, Units, degrees, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_name
-from explorer.text.readout import ideal_induced, part_titles
+from explorer.text.readout import ideal_induced, index_unit, part_titles
 from explorer.text.status import section_title
 from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of

@@ -1,25 +1,23 @@
-"""Vibration of blades that bend: the row of the power card, and index over speed.
+"""Vibration of blades that bend: the row of the power card.
 
 The index of a solution is a few milliseconds of work and follows every step of a drag, after its frame. Its band over
-wakes and curves over speed are computed while the page rests.
+wakes is computed while the page rests.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 
-from explorer.charts.strip import Role
-from explorer.charts.vibration import IndexCurves, index_chart, index_unit, stopping
 from explorer.model.session_state import SessionState
 from explorer.model.units import UNITS, number
 from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
 from explorer.tabs.context import TabContext
+from explorer.text.readout import index_unit
 from rotor import Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.support.chart import Chart
-from rotor.trim import HubLoads, why_no_hub_loads
+from rotor.trim import DEFAULT_OPTIONS, HubLoads, analyse, why_no_hub_loads
 from rotor.trim.hub_loads import band_inflows
 
 _NOTICEABLE = 0.5
@@ -27,13 +25,9 @@ _NOTICEABLE = 0.5
 
 
 class VibrationPanel:
-    def __init__(self, context: TabContext, drawn: Callable[[], None]) -> None:
-        """`drawn`: called when there is another chart."""
-        self._context, self._drawn = context, drawn
-        self.chart: Chart | None = None
-        """The index over µ; None where there is none."""
+    def __init__(self, context: TabContext) -> None:
+        self._context = context
         self._state: SessionState | None = None
-        self._curves = IndexCurves()
         self._loads: dict[Solution, HubLoads | None] = {}
         """Hub loads of the present solution and of its reference."""
         self._rigid: tuple[Solution, Solution] | None = None
@@ -43,7 +37,7 @@ class VibrationPanel:
         self._state = state
         self._say_at_switch(state)
         if not state.solution.design.models.bending:
-            self._loads, self.chart = {}, None
+            self._loads = {}
             self._context.bridge.set(vibration=None, hub_labels=[])
             return
         known = self._loads
@@ -63,8 +57,6 @@ class VibrationPanel:
             lambda: self._solve_loads(reference, False, superseded),
             lambda: self._solve_loads(solution, True, superseded),
             lambda: self._solve_cost(state),
-            lambda: self._curves.sweep(solution.design, superseded, self._draw_chart),
-            lambda: self._curves.sweep(reference.design, superseded, self._draw_chart),
         )
         for step in steps:
             if superseded():
@@ -75,17 +67,13 @@ class VibrationPanel:
         """The inputs have no answer: what stands here is of the last one."""
         self._context.bridge.set(hub_labels=[])
 
-    @property
-    def index(self) -> float | None:
-        """Vibration index of the state that is shown [%]; None without hub loads."""
-        loads = None if self._state is None else self._loads.get(self._state.solution)
-        return None if loads is None else loads.index
-
     def _solve_loads(self, solution: Solution, band: bool, superseded: Callable[[], bool]) -> None:
         known = self._loads.get(solution)
         if not solution.converged or (known is not None and (known.band is not None or not band)):
             return
-        loads = hub_loads(self._context.analyses.of(solution), solve=stopping(superseded), band=band)
+        options = replace(DEFAULT_OPTIONS, stop=superseded)
+        analysis = self._context.analyses.of(solution)
+        loads = hub_loads(analysis, solve=lambda design, start: analyse(design, start, options), band=band)
         if not superseded():
             self._loads[solution] = loads
             self._draw()
@@ -115,15 +103,6 @@ class VibrationPanel:
         if self._state is not None:
             labels = _how_bent(self._state.solution)
             self._context.bridge.set(vibration=self._card(self._state), hub_labels=labels)
-            self._draw_chart()
-
-    def _draw_chart(self) -> None:
-        state = self._state
-        if state is not None:
-            held = None if self.chart is None else self.chart.y.range
-            compared: Role = "reference" if state.pinned is None else "pinned"
-            self.chart = index_chart(self._curves, state.solution, state.reference, self.index, held, compared)
-            self._drawn()
 
     def _card(self, state: SessionState) -> VibrationPart | None:
         """The row of the power card; None without bending."""

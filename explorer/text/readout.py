@@ -134,6 +134,11 @@ def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | Non
     )
 
 
+def index_unit(design: Design) -> str:
+    """What the vibration index is a part of: a rotor on a test stand carries no weight."""
+    return "% of weight" if design.condition.stand is None else "% of thrust"
+
+
 def patch(colour: str) -> Markup:
     """A square of the colour, before the name of what is drawn in it."""
     return tag("span.rx-patch", style=f"background:{colour}")

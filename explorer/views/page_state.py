@@ -14,7 +14,6 @@ from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
 from explorer.workers.call import Call
 from rotor import Design, Solution
-from rotor.support.chart import Chart
 
 Mode = Literal["explore", "optimise", "actuate"]
 T = TypeVar("T")
@@ -96,8 +95,6 @@ class PageState:
     """What is said while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None
     """Power over µ; None before the first."""
-    index: Chart | None = None
-    """Vibration index over µ, of blades that bend."""
     measured: MeasuredChart = field(default_factory=MeasuredChart)
     flown: FlownPowers = field(default_factory=FlownPowers)
     analyses: Analyses = field(default_factory=Analyses)

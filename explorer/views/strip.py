@@ -1,4 +1,4 @@
-"""The charts below the scene: power over µ or what was measured, α, and lift or vibration.
+"""The charts below the scene: power over µ or what was measured, α, and lift.
 
 Axes are held while the data fit them, so that they do not jump during a drag.
 """
@@ -24,7 +24,7 @@ _NOTICEABLE = 500.0
 
 
 def strip(now: PageState) -> dict[str, Any]:
-    """A test that was measured has its chart in place of power over µ; vibration takes the place of the lift."""
+    """A test that was measured has its chart in place of power over µ."""
     state = now.state
     if state is None:
         return {}
@@ -40,11 +40,8 @@ def strip(now: PageState) -> dict[str, Any]:
         add("measured", measured)
     elif now.curve is not None:
         add(*_power(now, state, now.curve))
-    if now.index is not None:
-        add("vibration", now.index)
     add("alpha", alpha_chart(solution, reference, psi, held("alpha"), compared))
-    if now.index is None:
-        add("lift", lift_chart(solution, reference, held("lift"), compared))
+    add("lift", lift_chart(solution, reference, held("lift"), compared))
     return {"strip": drawn}
 
 

@@ -3,7 +3,7 @@
 (() => {
   const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
-  const SHORT = {power: 'Power', vibration: 'Vibration', alpha: 'α'};
+  const SHORT = {power: 'Power', alpha: 'α'};
   function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
     const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
     const chart = {...drawn, kind, speeds}, {title, y} = chart, height = Math.max(element.clientHeight - 38, 40);

@@ -1,4 +1,4 @@
-"""Blades that bend on the page: drawn shape, loads over the hub, index over speed, and their words."""
+"""Blades that bend on the page: drawn shape, loads over the hub, and their words."""
 
 import math
 import re
@@ -12,8 +12,6 @@ import viser
 from fake_bridge import Bridge
 from numpy.testing import assert_allclose
 
-from explorer.charts import vibration
-from explorer.charts.vibration import SPEEDS, IndexCurves, index_chart
 from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.session_state import Analyses, SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
@@ -31,7 +29,6 @@ from explorer.sharing.share import inputs_from
 from explorer.tabs import vibration_panel
 from explorer.tabs.vibration_panel import VibrationPanel
 from rotor.columns.bending import coordinates_of
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
 from rotor.trim.hub_loads import HubLoads, hub_loads
@@ -108,28 +105,6 @@ class TestDrawnBlade:
         assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
 
 
-class TestIndexOverSpeed:
-    def test_it_is_the_index_of_each_trim_and_none_below_two_tenths(self, bent: Solution, straight: Solution):
-        curves = IndexCurves()
-        told: list[int] = []
-        curves.sweep(bent.design, lambda: curves.left(bent.design) == len(SPEEDS) - 3, lambda: None)
-        assert curves.left(bent.design) == len(SPEEDS) - 3  # Newer input; it goes on from there.
-        curves.sweep(bent.design, lambda: False, lambda: told.append(curves.left(bent.design)))
-        known = curves.known(bent.design)
-        assert SPEEDS[0] == 0.2
-        assert told[0] == len(SPEEDS) - 4
-        assert told[-1] == 0
-        at = make_design(case=bent.design, mu=SPEEDS[6])
-        alone = hub_loads(solve(at).require(), band=False)
-        assert known[6] == pytest.approx(alone.index, rel=1e-3)
-        chart = index_chart(curves, bent, bent, known[4])
-        (gap,) = chart.rules
-        assert (gap.at, gap.to, gap.label) == (0.0, 0.2, "none below µ 0.2")
-        assert min(one.x[0] for one in chart.series) == 0.2
-        # A without bending is compared as if it had it.
-        assert_allclose(curves.known(straight.design), known)
-
-
 class Page:
     """A panel without a browser, and what it told the page."""
 
@@ -142,11 +117,7 @@ class Page:
             bridge=bridge,
             controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
         )
-        self.panel = VibrationPanel(context, lambda: None)
-
-    @property
-    def chart(self) -> Any:
-        return self.panel.chart
+        self.panel = VibrationPanel(context)
 
     def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:
         self.panel.show(SessionState(FAST, ViewState(), solution, reference or solution, pinned))
@@ -172,7 +143,6 @@ class TestPanel:
         assert low <= float(row.index) <= high
         assert low < high
         assert re.fullmatch(r"[+−]\d+\.\d kW here", page.switch)
-        assert page.chart.value == f"{loads.index:.1f} %"
         assert page.shown["hub_labels"][0].text == "bending × 10"
 
     def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: Page, bent: Solution, straight: Solution):
@@ -196,7 +166,6 @@ class TestPanel:
         page.show(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require())
         assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"].sentence
         assert page.shown["hub_labels"] == []
-        assert page.chart is None
         assert page.switch.startswith("The stiffness of the Robinson R22 blade")
 
     def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: Page):
@@ -208,9 +177,8 @@ class TestPanel:
         def never(*_: Any, **__: Any) -> None:
             raise AssertionError("computed without bending")
 
-        for module, names in ((vibration_panel, ("hub_loads", "solve")), (vibration, ("analyse",))):
-            for name in names:
-                monkeypatch.setattr(module, name, never)
+        for name in ("hub_loads", "solve", "analyse"):
+            monkeypatch.setattr(vibration_panel, name, never)
         page.show(straight)
         page.panel.solve_deferred(lambda: False)
         assert page.shown["vibration"] is None
