@@ -1,8 +1,8 @@
 // @ts-check
-// The disk as a plan: field, crisp outlines, labels outside the rim, values under the pointer, pinned cards, and the
-// angle of attack around the circle under the pointer. The values lie in the page: reading them asks no server.
+// The disk as a plan: field, crisp outlines, labels outside the rim, values under the pointer, and the angle of attack
+// around the circle under it. The values lie in the page: reading them asks no server.
 (() => {
-  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, closest, soon} = Common;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, soon} = Common;
   const {part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
   const RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
@@ -14,11 +14,11 @@
   /** @type {[string, string, number, string][]} */
   const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 2, ''], ['margin', 'To stall', 1, '°']];
   const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
-  // `pointer` and each of `pins` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
+  // `pointer` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
   // In a tree of its own: the first canvas of the page is the scene.
   const shown = place.querySelector('[data-colours]');
   shown.attachShadow({mode: 'open'}).innerHTML = '<canvas style="width: 100%; height: 100%"></canvas>';
-  let layout = null, tables = {}, pointer = null, circle = 0.75, pins = [], pressed = null;
+  let layout = null, tables = {}, pointer = null, circle = 0.75, pressed = null;
 
   const unpack = ({low, step, data}) => {
     const bytes = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
@@ -167,7 +167,6 @@
     if (!plan) {
       delete page.dataset.plan;
       pointer = null;
-      pins = [];
       around.innerHTML = '';
       return;
     }
@@ -193,12 +192,11 @@
     svg.innerHTML = `${drawRim()}${plan.held && !layout.alone ? drawKey(regions) : ''}
       <g data-blades></g>${before.join('')}
       <g fill="none" stroke-linejoin="round">${outlines.join('')}${labels.map(drawTie).join('')}</g>
-      <g data-tied></g><g data-cursor></g>`;
+      <g data-cursor></g>`;
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     write(place.querySelector('[data-labels]'), labels.map(labelOf).join(''));
     drawBlades();
     drawCursor();
-    drawPins();
     drawAround();
   });
 
@@ -227,77 +225,35 @@
       return `<dt>${title}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
     }).join('') + own;
   }
-  const card = (spot, buttons = '') => `<div class="rxf-head">
-      <b class="rxf-num">${spot.r.toFixed(2)} R · ψ ${Math.round(spot.psi)}°</b>${buttons}</div>
+  const card = spot => `<div class="rxf-head">
+      <b class="rxf-num">${spot.r.toFixed(2)} R · ψ ${Math.round(spot.psi)}°</b></div>
     <dl class="rxf-num">${rows(spot)}</dl>`;
   // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
   function sizeOf(element) {
-    const {length} = element.querySelectorAll('dt'), pinned = element.matches('[data-pin]');
-    const kind = `${length} ${pinned} ${RX.state.plan.field}`;
+    const kind = `${element.querySelectorAll('dt').length} ${RX.state.plan.field}`;
     return sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
   }
-  const within = (left, top, [w, h]) => [clamp(left, 8, layout.width - w - 8), clamp(top, 8, layout.height - h - 8)];
-  const move = (element, left, top) => {
-    element.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
-  };
   // Beside its point, away from the hub where there is room.
   function placeReading(element, spot) {
-    const [x, y] = where(spot), size = sizeOf(element);
-    move(element, ...within(x >= layout.x ? x + 16 : x - 16 - size[0], y - size[1] / 2, size));
-  }
-  // A pinned one where it hides least: no outline, no other card, and then as little of the disk as can be.
-  function placePins(elements) {
-    if (!elements.length) return;
-    const taken = ['.rxf-power', '.rxf-field', '.rxf-views'].map(seen).filter(Boolean);
-    for (const label of place.querySelectorAll('[data-labels] > *')) {
-      const {offsetLeft: left, offsetTop: top, offsetWidth, offsetHeight} = label;
-      taken.push({left, top, right: left + offsetWidth, bottom: top + offsetHeight});
-    }
-    const points = RX.state.plan.regions.flatMap(({lines}) => lines.flat()).map(pixel).concat(pins.map(where));
-    const ties = elements.map((element, k) => {
-      const [x, y] = where(pins[k]), size = sizeOf(element), [w, h] = size;
-      let best = null;
-      for (let angle = 0; angle < 360; angle += 15) for (const far of [14, 60, 120, 200, 300]) {
-        const ux = Math.cos(angle * DEGREE), uy = Math.sin(angle * DEGREE);
-        const [left, top] = within(x + ux * (far + w / 2) - w / 2, y + uy * (far + h / 2) - h / 2, size);
-        const right = left + w, bottom = top + h;
-        const over = taken.filter(box => left < box.right && box.left < right && top < box.bottom && box.top < bottom);
-        const hidden = points.filter(([px, py]) => px > left - 6 && px < right + 6 && py > top - 6 && py < bottom + 6);
-        const cost = 1000 * over.length + 12 * hidden.length + far;
-        if (!best || cost < best.cost) best = {cost, left, top, right, bottom};
-      }
-      taken.push(best);
-      move(element, best.left, best.top);
-      const edge = [clamp(x, best.left, best.right), clamp(y, best.top, best.bottom)];
-      return `<path d="${trace([[x, y], edge])}" stroke="var(--rx-accent)" stroke-width="1.5"/>`;
-    });
-    place.querySelector('[data-tied]').innerHTML = ties.join('');
+    const [x, y] = where(spot), [w, h] = sizeOf(element);
+    const left = clamp(x >= layout.x ? x + 16 : x - 16 - w, 8, layout.width - w - 8);
+    const top = clamp(y - h / 2, 8, layout.height - h - 8);
+    element.style.transform = `translate(${left.toFixed(0)}px, ${top.toFixed(0)}px)`;
   }
   function drawCursor() {
     const cursor = place.querySelector('[data-cursor]'), reading = place.querySelector('[data-reading]');
     if (!cursor) return;
-    const spot = pointer && where(pointer), dot = 'fill="var(--rx-accent)" stroke="#fff" stroke-width="2"';
+    const spot = pointer && where(pointer);
     const ring = 'fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"';
     cursor.innerHTML = (RX.state.plan.held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
-      + pins.map(one => circleAt(where(one), 4.5, dot)).join('')
       + (spot ? circleAt(spot, 5, 'fill="none" stroke="#fff" stroke-width="2"')
         + circleAt(spot, 6.5, 'fill="none" stroke="#000" stroke-opacity=".5"') : '');
-    // Where a pin is, its card says the same.
-    reading.hidden = !spot || !tables.alpha || pins.some(one => distance(where(one), spot) < 8);
+    reading.hidden = !spot || !tables.alpha;
     if (reading.hidden) return;
     reading.innerHTML = card(pointer);
     placeReading(reading, pointer);
   }
-  function drawPins() {
-    const all = place.querySelector('[data-pins]');
-    const buttons = k => `<button data-ride-at="${k}" title="One slow turn with this section">Ride</button>
-      <button data-unpin="${k}" aria-label="Unpin this reading" title="Unpin">×</button>`;
-    write(all, tables.alpha ? pins.map((spot, k) =>
-      `<div class="rxf-card rxf-reading" data-pin>${card(spot, buttons(k))}</div>`).join('') : '');
-    placePins([...all.children]);
-  }
-
   // α around the circle, with the stall angles there.
   function drawAround() {
     if (!tables.alpha || !layout.chart) return;
@@ -341,22 +297,11 @@
   place.addEventListener('pointerleave', () => { pointer = null; redraw(); });
   place.addEventListener('pointerdown', event => { pressed = [event.clientX, event.clientY]; });
   place.addEventListener('click', event => {
-    const {unpin, rideAt} = closest(event, '[data-unpin], [data-ride-at]')?.dataset ?? {};
-    if (rideAt) RX.send('ride', [pins[rideAt].r, pins[rideAt].psi]);
-    else if (unpin) pins.splice(Number(unpin), 1);
-    else {
-      const spot = layout && RX.state.plan && find(event);
-      if (!spot || !pressed || distance([event.clientX, event.clientY], pressed) > 5) return;
-      pin(spot);
-    }
-    drawCursor();
-    drawPins();
+    const spot = layout && RX.state.plan && find(event);
+    if (spot && pressed && distance([event.clientX, event.clientY], pressed) <= 5) open(spot);
   });
-  function pin(spot) {
-    pins = [...pins, spot].slice(-4);
-    RX.send('section', [spot.r, spot.psi]);
-  }
-  // By key: along the blade and around the disk, Enter pins.
+  const open = spot => RX.send('section', [spot.r, spot.psi]);
+  // By key: along the blade and around the disk; Enter opens the section.
   const STEPS = {ArrowUp: [.01, 0], ArrowDown: [-.01, 0], ArrowRight: [0, 5], ArrowLeft: [0, -5]};
   place.addEventListener('keydown', event => {
     const step = STEPS[event.key], {plan} = RX.state;
@@ -365,10 +310,9 @@
     event.stopPropagation();
     pointer ??= {r: circle, psi: 90};
     if (step) pointer = {r: clamp(pointer.r + step[0], plan.root, 1), psi: turned(pointer.psi + step[1])};
-    else pin(pointer);
+    else open(pointer);
     circle = pointer.r;
     drawCursor();
-    drawPins();
     drawAround();
     RX.say(card(pointer).replace(/<dt>/g, ', ').replace(/<\/dt>/g, ' ').replace(/<[^>]+>/g, ''));
   });

@@ -14,7 +14,7 @@
   const disk = rim ? rim.getBoundingClientRect() : null;
   if (disk) {
     const [x, y, r] = [(disk.left + disk.right) / 2, (disk.top + disk.bottom) / 2, disk.width / 2];
-    for (const {element, box} of surfaces) if (!element.matches('[data-pin]') && Math.hypot(Math.max(box.left - x, x - box.right, 0), Math.max(box.top - y, y - box.bottom, 0)) < r - 2) hit.push(`disk × ${name(element)}`);
+    for (const {element, box} of surfaces) if (Math.hypot(Math.max(box.left - x, x - box.right, 0), Math.max(box.top - y, y - box.bottom, 0)) < r - 2) hit.push(`disk × ${name(element)}`);
   }
   const outside = surfaces.filter(({box}) => box.left < -1 || box.right > innerWidth + 1 || box.top < -1 || box.bottom > innerHeight + 1).map(({element}) => name(element));
   const controls = all('#rx :is(button, select, input, [role=button]), [data-dock-region] :is(button, input:not([type=hidden]), [role=slider])');

@@ -1,4 +1,4 @@
-"""The plan of the disk: read under the pointer, pinned, around the circle, and by key."""
+"""The plan of the disk: read under the pointer, around the circle, and by key."""
 
 import math
 from io import BytesIO
@@ -27,7 +27,7 @@ def _point(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
     return box["x"] + x + r * radius * math.sin(psi), box["y"] + y + r * radius * math.cos(psi)
 
 
-def test_read_pin_and_go_round_the_disk(browser: Browser, app: App):
+def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     watched = opened(browser, app.address, size=MEDIUM)
     page = watched.page
     page.get_by_role("button", name="Disk").click()
@@ -46,23 +46,19 @@ def test_read_pin_and_go_round_the_disk(browser: Browser, app: App):
     assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
     assert float(shown["C_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
     watched.reads("around", f"{r:.2f} R")
-    # A click opens its section; the pinned card stays when the drawer moves the stage, and goes by its own button.
+    # A click opens its section.
+    place = reading.locator("b").inner_text()
     page.mouse.down()
     page.mouse.up()
-    page.locator("[data-pin]").wait_for(state="visible")
-    place = page.locator("[data-pin] b").inner_text()
     page.wait_for_function(f"() => RX.state.bar.drawer === 'probe' && ({_READY})()")
     fields = [watched.row(label).get_by_role("textbox") for label in ("Radius r/R", "Azimuth ψ [°]")]
     watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) == place)
-    assert page.locator("[data-pin] b").inner_text() == place
-    page.get_by_role("button", name="Unpin this reading").click()
-    page.locator("[data-pin]").wait_for(state="detached")
     # By key, and spoken.
     page.locator(".rxf-plan").focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Enter")
-    page.locator("[data-pin]").wait_for(state="visible")
     watched.until(lambda: "R · ψ" in page.locator(".rxf-said").inner_text())
+    watched.until(lambda: "{} R · ψ {}°".format(*(field.input_value() for field in fields)) != place)
     # Another design's values follow; and the scene comes back.
     before = page.evaluate("() => RX.state.plan.values.alpha.data")
     watched.press("Mass [t]", "ArrowRight", 5)
