@@ -15,6 +15,7 @@ from scipy.interpolate import PchipInterpolator
 from explorer.model.units import KILOWATT, Unit
 from explorer.picture.picture import at_azimuth
 from explorer.picture.polar import stall_angles
+from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
 from rotor import Design, Solution, solve
 from rotor.study.series import between_drag_areas
@@ -83,6 +84,8 @@ class PowerCurve:
     design: Array
     reference: Array
     """A when one is pinned, else the baseline."""
+    ideal: Array
+    """This design's power with the least induced power that any circulation could have."""
     current: bool = True
     """Whether `design` has been swept; else it is the curve of the design before it."""
     main_rotor: Array | None = None
@@ -93,18 +96,18 @@ class PowerCurve:
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
         """The curve in a unit other than kW."""
-        powers = {name: getattr(self, name) for name in ("design", "reference", "main_rotor", "band")}
+        powers = {name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor", "band")}
         factor = KILOWATT.size / unit.size
         return replace(self, **{name: factor * power for name, power in powers.items() if power is not None})
 
 
 class PowerCurves:
-    """The curves of power of one session; a curve belongs to a design at any speed."""
+    """The curves of one session, total and ideal power; a curve belongs to a design at any speed."""
 
     def __init__(self, haste: float = HASTE) -> None:
         self._haste = haste
         self._curves: dict[Design, Array] = {}
-        """(2, points): total and main-rotor power [kW]."""
+        """(3, points): total, ideal and main-rotor power [kW]."""
         self._bands: dict[Design, Array] = {}
         """(2, points): change of total power with the lowest and the highest drag area [kW]."""
         self._band: Design | None = None
@@ -126,12 +129,12 @@ class PowerCurves:
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
         """The curves of a design and of its reference; until the design is swept, the curve before it."""
-        blank = np.full((2, len(SWEEP)), math.nan)
+        blank = np.full((3, len(SWEEP)), math.nan)
         last = self._last
         alike = last is not None and last.aircraft == design.aircraft
         before = self._curves.get(last, blank) if last is not None and alike else blank
         family = _family(design)
-        total, main_rotor = self._curves.get(family, before)
+        total, ideal, main_rotor = self._curves.get(family, before)
         if family in self._bands:
             self._band = family
         # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
@@ -139,7 +142,7 @@ class PowerCurves:
         level = near is not None and near.condition.unusual == design.condition.unusual
         band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
         reference_total = self._curves.get(_family(reference), blank)[0]
-        return PowerCurve(total, reference_total, family in self._curves, main_rotor, band)
+        return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)
 
     def widen(self, design: Design, superseded: Callable[[], bool]) -> bool:
         """Find the band of a design's curve between the drag areas of its sources; whether there is more to draw.
@@ -200,9 +203,9 @@ class PowerCurves:
         return True
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
-        """Total and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
+        """Total, ideal and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
         begun, slow = time.monotonic(), 0 if passes_over(family) else 1
-        values = np.full((2, len(SWEEP)), math.nan)
+        values = np.full((3, len(SWEEP)), math.nan)
         points: dict[int, Guess] = {}
         before = self._starts if self._last is not None and _alike(self._last, family) else {}
         base = self._fine[1] if self._fine is not None and _alike(self._fine[0], family) else None
@@ -227,8 +230,7 @@ class PowerCurves:
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
                 # Without its derivatives, which would take 10 MB a page.
-                points[k] = replace(point.start, factors=None)
-                values[:, k] = point.power.total / 1e3, point.power.main_rotor / 1e3
+                points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
                 continue
             lost += 1
             if lost == 2 or (points and k in few):
@@ -246,6 +248,14 @@ def _family(design: Design) -> Design:
 def _alike(design: Design, other: Design) -> bool:
     """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
     return (design.rotor, design.models, design.condition.stand) == (other.rotor, other.models, other.condition.stand)
+
+
+def _powers(point: Solution) -> tuple[float, float, float]:
+    """Total power, that with the least induced power at this lift, NaN at low speed, and main-rotor power [kW]."""
+    total, slow = point.power.total / 1e3, 0.0 < point.design.condition.advance_ratio < LOW_SPEED
+    ideal = None if slow else ideal_induced(point)
+    least = math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+    return total, least, point.power.main_rotor / 1e3
 
 
 def _over_speed(changes: dict[int, tuple[float, float]]) -> Array:

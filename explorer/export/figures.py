@@ -11,7 +11,7 @@ from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
 from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
-from explorer.colours import BASELINE
+from explorer.colours import BASELINE, IDEAL
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units
 from explorer.picture.fields import Field
@@ -87,11 +87,13 @@ def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerC
     is_reference = entry is report.reference
     unit = report.units.power[0]
     here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
-    total = 1e3 * curve.design / unit.size
+    total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
     series: list[Line | Points] = [
         Line(entry.title, *_smooth(total), colour, dashes=is_reference),
         Points("", mu[:1], total[:1], colour),
     ]
+    if entry is report.entries[0]:
+        series.insert(0, Line("ideal for its lift", *_smooth(ideal), IDEAL, dashes=True))
     return series if is_reference else [*series, Points("", *here, colour)]
 
 

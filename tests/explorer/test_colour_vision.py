@@ -9,7 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-from explorer.colours import BASELINE, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
+from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
 from explorer.tabs.probe_drawing import ALPHA, DRAG, LIFT
 from rotor.support.arrays import Array
 
@@ -84,7 +84,13 @@ def test_power_parts_are_told_apart(eye: str):
 @eyes
 @pytest.mark.parametrize(
     "together",
-    [(THIS, BASELINE, NOW), (THIS, PINNED, NOW), (THIS, PINNED, LIMIT), (NOW, LIMIT), (LIFT, DRAG, ALPHA)],
+    [
+        (THIS, BASELINE, IDEAL, NOW),
+        (THIS, PINNED, IDEAL, NOW),
+        (THIS, PINNED, LIMIT),
+        (NOW, LIMIT),
+        (LIFT, DRAG, ALPHA),
+    ],
     ids=["power", "power A B", "alpha A B", "alpha", "probe"],
 )
 def test_lines_of_one_chart_are_told_apart(eye: str, together: tuple[str, ...]):

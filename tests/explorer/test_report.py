@@ -53,7 +53,7 @@ class Swept(PowerCurves):
         curve = 900.0 + 4000.0 * (np.array(SWEEP) - 0.2) ** 2
         holes = curve.copy()
         holes[-3:] = math.nan
-        return PowerCurve(holes, curve)
+        return PowerCurve(holes, curve, 0.9 * curve)
 
 
 class TestDrawing:

@@ -56,7 +56,7 @@ class TestPowerChange:
     def curve(self, slope: float) -> PowerCurve:
         mu = np.array(SWEEP)
         reference = 900.0 + 2000.0 * mu
-        return PowerCurve(reference + slope * mu, reference)
+        return PowerCurve(reference + slope * mu, reference, np.full(len(mu), math.nan))
 
     def test_the_line_is_the_difference_and_hover_is_marked(self):
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "UH-60A as built")
