@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.columns.flight import LEAST_AZIMUTHS, flight_system
-from rotor.design.design import Design
+from rotor.columns.flight import LEAST_AZIMUTHS
 from rotor.design.twist import LinearTwist
-from rotor.engine.linearise import System, evaluate, jacobian
+from rotor.engine.linearise import evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.low_speed import trim_problem
 from rotor.trim.solve import solve
 
 
@@ -103,20 +101,3 @@ def test_few_azimuths_stand_for_all(inflow: str, mu: float):
     matrices = [jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)]
     left = np.eye(len(matrices[0])) - np.linalg.solve(matrices[1], matrices[0])
     assert np.abs(np.linalg.eigvals(left)).max() < 2e-2
-
-
-def test_azimuths_that_cannot_be_thinned():
-    """No fewer than 40 are left, and all of a lifting line."""
-
-    def system(of: Design) -> System:
-        return flight_system(trim_problem(of))
-
-    few = make_design(mu=0.2, inflow="drees")
-    few = replace(few, models=replace(few.models, azimuths=72))
-    whole = system(few)
-    assert whole.thin is whole.grid
-    assert solve(few).converged
-    more = replace(few, models=replace(few.models, azimuths=150))
-    assert system(more).thin.waves.azimuths == 50
-    line = system(make_design(mu=0.2))
-    assert line.thin is line.grid
