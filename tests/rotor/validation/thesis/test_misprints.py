@@ -5,7 +5,7 @@ import math
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.validation.thesis.misprints import MISPRINTS, Misprint, misprint_table, shown_values
+from rotor.validation.thesis.misprints import MISPRINTS, Misprint, shown_values
 
 BY_EQUATION = {one.equation: one for one in MISPRINTS}
 
@@ -34,7 +34,3 @@ def test_values_by_hand():
 def test_linear_inflow_does_not_respond_to_twist_and_the_wake_does():
     printed, ours = shown_values(BY_EQUATION["3.4 and abstract"])
     assert printed < 3.0 < 10.0 < ours  # The loss on the inflow responds, at the ends of the blade.
-
-
-def test_all_stand_in_the_table():
-    assert [str(row[3]).splitlines()[1] for row in misprint_table().rows] == [one.showing for one in MISPRINTS]
