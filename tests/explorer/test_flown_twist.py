@@ -28,8 +28,7 @@ VIEW = ViewState()
 
 @pytest.fixture(scope="module")
 def rigid() -> Solution:
-    design = make_design(mu=0.3)
-    return solve(replace(design, models=replace(design.models, elastic_twist=False))).require()
+    return solve(make_design(mu=0.3, off="elastic-twist")).require()
 
 
 def ring_angles(vertices: Array) -> Array:

@@ -21,8 +21,7 @@ from rotor.trim.solve import solve
 
 
 def coarse(mu: float) -> Design:
-    design = make_design(mu=mu)
-    return replace(design, models=replace(design.models, elements=12, azimuths=24, inflow="pitt-peters"))
+    return make_design(mu=mu, elements=12, azimuths=24, inflow="pitt-peters")
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,6 @@ import re
 import subprocess
 import sys
 import urllib.request
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -104,7 +103,7 @@ def test_the_example_of_a_docstring_runs(name: str, tmp_path: Path, monkeypatch:
 
 
 def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(design: rotor.Design):
-    made = replace(design, models=replace(design.models, inflow="uniform"))
+    made = rotor.make_design(case=design, inflow="uniform")
     found = rotor.schedule(made, mu=[0.3, 0.1], hours=[2.0, 1.0])
     gain = found.in_flight_gain("linear")
     alone, at_three = rotor.optimise(made.at(mu=0.3), "linear").best, found.at(1, "linear")
@@ -120,7 +119,7 @@ def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(d
 
 def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
     """Its power is the weighted mean of the trims, and no other twist inside the limits takes less."""
-    made = replace(design, models=replace(design.models, inflow="pitt-peters"))
+    made = rotor.make_design(case=design, inflow="pitt-peters")
     weights = {0.1: 1.0, 0.3: 3.0}
     limits = rotor.Limits(rate_deg=(-9, 0), stalled_percent=50)
     found = rotor.optimise(made, "linear", conditions=list(weights.items()), limits=limits, starts=2)

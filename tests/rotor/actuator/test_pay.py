@@ -21,8 +21,7 @@ from rotor.trim.solve import solve
 
 
 def pair(rotor: str = "uh60a") -> ConditionPair:
-    design = make_design(rotor=rotor, inflow="drees")
-    return ConditionPair(replace(design, models=replace(design.models, elements=16, azimuths=36)), (0.0, 0.3))
+    return ConditionPair(make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36), (0.0, 0.3))
 
 
 @cache

@@ -27,14 +27,12 @@ TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12)
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:
-    design = make_design(preset=preset, twist=twist, mu=mu)
-    return replace(design, models=replace(design.models, inflow=inflow))
+    return make_design(preset=preset, twist=twist, mu=mu, inflow=inflow)
 
 
 def coarse(inflow: str, mu: float) -> Design:
     """For identities and gradients, which hold on any grid."""
-    design = design_of(inflow, mu)
-    return replace(design, models=replace(design.models, elements=20, azimuths=48))
+    return make_design(twist="linear:-10", mu=mu, inflow=inflow, elements=20, azimuths=48)
 
 
 def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:

@@ -35,8 +35,7 @@ DEGREE = math.radians(1.0)
 
 
 def small(mu: float, twist: str | None = None) -> Design:
-    design = make_design(mu=mu, twist=twist)
-    return replace(design, models=replace(design.models, elements=20, azimuths=48))
+    return make_design(mu=mu, twist=twist, elements=20, azimuths=48)
 
 
 def searched(

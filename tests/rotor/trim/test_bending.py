@@ -34,8 +34,7 @@ Span = tuple[float, float]
 
 
 def _design(mu: float, inflow: str, *, twist: str | None = None, twist_per_rev: str = "") -> Design:
-    design = rotor.make_design(mu=mu, inflow=inflow, twist=twist, twist_per_rev=twist_per_rev)
-    return replace(design, models=replace(design.models, bending=True))
+    return rotor.make_design(mu=mu, inflow=inflow, twist=twist, twist_per_rev=twist_per_rev, bending=True)
 
 
 @cache

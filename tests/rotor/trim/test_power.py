@@ -25,8 +25,7 @@ TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8
 @pytest.mark.parametrize("twist", TWISTS)
 def test_energy_identity(inflow: str, mu: float, twist: str):
     """P_shaft = Σ(λ_i dF_z + U dD) + D·V: torque, dissipation and trim are computed apart and must meet."""
-    design = make_design(twist=twist, mu=mu)
-    solution = solve(replace(design, models=replace(design.models, inflow=inflow))).require()
+    solution = solve(make_design(twist=twist, mu=mu, inflow=inflow)).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
@@ -54,9 +53,7 @@ def test_induced_power_of_linear_inflow_does_not_depend_on_twist(name: str):
     for mu in (0.15, 0.3):
         induced = []
         for twist in ("linear:0", "linear:-8", "linear:-16"):
-            design = make_design(twist=twist, mu=mu)
-            design = replace(design, models=replace(design.models, inflow=name))
-            induced.append(solve(design).require().power.induced)
+            induced.append(solve(make_design(twist=twist, mu=mu, inflow=name)).require().power.induced)
         assert np.ptp(induced) < 0.01 * np.mean(induced)
 
 
