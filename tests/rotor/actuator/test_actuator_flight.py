@@ -25,7 +25,8 @@ LEGS = (FlightLeg("hover", 0.0), FlightLeg("climb", 0.15, 5.0), FlightLeg("fast"
 
 @cache
 def verdict(kind: str = "new", id: str = "MFC_P1", preset: str = "flight", concept: str = "linear") -> Verdict:
-    coarse = make_design(preset=preset, elements=16, azimuths=36)
+    design = make_design(preset=preset)
+    coarse = replace(design, models=replace(design.models, elements=16, azimuths=36))
     host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
     pair = ConditionPair(coarse, (0.0, 0.3))
     return judge(find_actuator(id), pair, find_concept(concept), default_placement(2), host)

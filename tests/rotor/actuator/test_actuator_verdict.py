@@ -39,7 +39,9 @@ CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
 @cache
 def pair() -> ConditionPair:
-    return ConditionPair(make_design(elements=16, azimuths=36), (0.0, 0.3))
+    design = make_design()
+    coarse = replace(design.models, elements=16, azimuths=36)
+    return ConditionPair(replace(design, models=coarse), (0.0, 0.3))
 
 
 @cache

@@ -32,7 +32,8 @@ def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "
 
 def coarse(inflow: str, mu: float) -> Design:
     """For identities and gradients, which hold on any grid."""
-    return make_design(twist="linear:-10", mu=mu, inflow=inflow, elements=20, azimuths=48)
+    design = design_of(inflow, mu)
+    return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
 def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:

@@ -50,9 +50,9 @@ EVERY = [
 
 def small(mu: float, preset: str = "flight", inflow: str | None = None, **models: object) -> Design:
     """A coarse grid: identities and exactness do not depend on it."""
-    twist = "segments:-14,-6@0.6"
-    design = make_design(preset=preset, mu=mu, twist=twist, inflow=inflow, elements=16, azimuths=36)
-    return replace(design, models=replace(design.models, **models))
+    design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
+    inflow = inflow or design.models.inflow
+    return replace(design, models=replace(design.models, elements=16, azimuths=36, inflow=inflow, **models))
 
 
 def name(off: tuple[str, ...]) -> str:

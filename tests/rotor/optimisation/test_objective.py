@@ -1,6 +1,7 @@
 """Objectives, missions and the smooth stalled area."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,8 @@ from rotor.trim.solve import solve
 
 
 def small(mu: float, **choices: float) -> Design:
-    return make_design(mu=mu, elements=20, azimuths=48, **choices)  # pyright: ignore[reportArgumentType]
+    design = make_design(mu=mu, **choices)  # pyright: ignore[reportArgumentType]
+    return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
 def test_hover_and_cruise():
@@ -52,8 +54,8 @@ def test_a_design_that_does_not_trim_has_no_power():
 @pytest.mark.parametrize("mu", [0.0, 0.25, 0.35])
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_stalled_share_has_exact_slopes(preset: str, mu: float):
-    mass = 10500.0 if mu == 0.0 else 8800.0
-    design = make_design(preset=preset, mu=mu, mass_kg=mass, elements=20, azimuths=48)
+    design = make_design(preset=preset, mu=mu, mass_kg=10500.0 if mu == 0.0 else 8800.0)
+    design = replace(design, models=replace(design.models, elements=20, azimuths=48))
     concept, values, step = CONCEPTS["quadratic"], np.array([0.05, -0.3]), 1e-6
     tight = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
     centre = solve(concept.apply(design, values), options=tight)

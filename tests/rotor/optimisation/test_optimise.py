@@ -35,7 +35,8 @@ DEGREE = math.radians(1.0)
 
 
 def small(mu: float, twist: str | None = None) -> Design:
-    return make_design(mu=mu, twist=twist, elements=20, azimuths=48)
+    design = make_design(mu=mu, twist=twist)
+    return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
 def searched(

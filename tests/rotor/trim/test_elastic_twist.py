@@ -29,9 +29,9 @@ TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_
 
 
 def design(mu: float, *, inflow: str | None = None, small: bool = False, on: bool = True, **changes: object) -> Design:
-    elements, azimuths = (16, 48) if small else (None, None)
-    made = make_design(mu=mu, inflow=inflow, elements=elements, azimuths=azimuths)
-    return replace(made, models=replace(made.models, elastic_twist=on, **changes))
+    made = make_design(mu=mu, inflow=inflow) if inflow else make_design(mu=mu)
+    grid = {"elements": 16, "azimuths": 48} if small else {}
+    return replace(made, models=replace(made.models, elastic_twist=on, **grid, **changes))
 
 
 def flapping(made: Design) -> Design:

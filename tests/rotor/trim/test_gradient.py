@@ -38,7 +38,9 @@ VALUES = {
 
 def small(preset: str, inflow: str | None, mu: float) -> Design:
     """A coarse grid: exactness of a gradient does not depend on it."""
-    return make_design(preset=preset, mu=mu, inflow=inflow, elements=16, azimuths=36)
+    design = make_design(preset=preset, mu=mu)
+    models = replace(design.models, elements=16, azimuths=36, inflow=inflow or design.models.inflow)
+    return replace(design, models=models)
 
 
 def check(design: Design, name: str, objective: Objective, *, every: bool = True) -> None:
@@ -102,8 +104,8 @@ NAMES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
 
 
 def line(mu: float, inflow: str = "lifting-line", *, elastic: bool = True, preset: str = "flight") -> Design:
-    made = make_design(preset=preset, twist="linear:-14", mu=mu, inflow=inflow, elements=20, azimuths=48)
-    return replace(made, models=replace(made.models, elastic_twist=elastic))
+    made = make_design(preset=preset, twist="linear:-14", mu=mu)
+    return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic, elements=20, azimuths=48))
 
 
 @pytest.mark.parametrize("elastic", [False, True], ids=["rigid", "elastic"])

@@ -36,8 +36,9 @@ TRIMS = {
 
 def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: float | None = None) -> Design:
     trim, stand = TRIMS[name]
-    design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand, elements=20, azimuths=48)
-    return replace(design, rotor=replace(design.rotor, precone=precone))
+    design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand)
+    models = replace(design.models, elements=20, azimuths=48)
+    return replace(design, models=models, rotor=replace(design.rotor, precone=precone))
 
 
 @pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
