@@ -5,9 +5,7 @@ The site itself is built by `make docs`; here a page with a chart is, and its pi
 
 import argparse
 import ast
-import importlib
 import inspect
-import pkgutil
 import re
 import shlex
 import types
@@ -75,20 +73,6 @@ def test_each_public_type_has_an_entry():
     assert not missing, "add to docs/reference/api.md: " + ", ".join(sorted(missing))
 
 
-def test_each_entry_and_each_import_of_a_notebook_exists():
-    here = "rotor"
-    for line in API.splitlines():
-        here = line.rpartition(" ")[2] if line.startswith(".. currentmodule::") else here
-        if entry := re.fullmatch(r"   ~([\w.]+)", line):
-            assert pkgutil.resolve_name(f"{here}.{entry[1]}") is not None
-    for path in (DOCS / "notebooks").glob("*.py"):
-        for node in ast.walk(ast.parse(text(path))):
-            if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] in ("rotor", "explorer"):
-                module = importlib.import_module(node.module or "")
-                for name in node.names:
-                    assert hasattr(module, name.name) or importlib.import_module(f"{node.module}.{name.name}")
-
-
 def names_of_the_page() -> set[str]:
     """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its elements."""
     found = {row.title for row in BY_INPUT.values()} | {row.slider.label for row in BY_INPUT.values() if row.slider}
@@ -127,15 +111,6 @@ def linked(page: Path) -> set[Path]:
 def test_no_link_is_dead(path: Path):
     made = DOCS / "_made"  # Of the notebooks, when the site is built.
     assert not [str(link) for link in linked(path) if not link.exists() and not link.is_relative_to(made)]
-
-
-@pytest.mark.parametrize(("start", "pages"), [(DOCS / "index.md", SITE), (TOP[0], DEVELOPERS)], ids=["site", "code"])
-def test_every_page_is_found_in_three_clicks(start: Path, pages: set[Path]):
-    reached, at = {start}, {start}
-    for _ in range(3):
-        at = {link for page in at for link in linked(page) if link.suffix == ".md" and link.exists()} - reached
-        reached |= at
-    assert not {str(page) for page in pages - reached}
 
 
 def test_what_the_page_on_attacks_names_exists():
@@ -193,13 +168,6 @@ def test_flags_that_pages_name_exist():
         code += re.findall(r"`--[^`]*`", text(path))
         unknown[path.name] = {*re.findall(r"(?<=[ `(])--[a-z][\w-]*", "\n".join(code))} - known
     assert not {name: given for name, given in unknown.items() if given}
-
-
-def test_methods_that_the_page_on_formats_names_exist():
-    named = set(re.findall(r"`(?:\w+\.)?(to_\w+|save)\(?", text(DOCS / "formats.md")))
-    types_ = (rotor.Solution, rotor.SweepTable, rotor.Distribution)
-    assert named
-    assert not {name for name in named if not any(hasattr(one, name) for one in types_)}
 
 
 def examples(page: str) -> list[str]:

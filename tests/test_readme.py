@@ -65,11 +65,6 @@ def test_the_commands_run_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert {path.name for path in tmp_path.iterdir()} == {"mine.json", "power.csv", "report.html"}
 
 
-def test_the_rotor_file_of_the_tutorial_is_as_short_as_stated():
-    lines = [line for line in (ROOT / "docs/tutorials/mine.toml").read_text(encoding="utf-8").splitlines() if line]
-    said(f"A {len(lines)}-line TOML file")
-
-
 def said(words: str) -> None:
     assert words in PLAIN, f"README.md does not say: {words}"
 

@@ -22,7 +22,7 @@ from explorer.model.actuator_inputs import (
     verdict_on,
     verdict_tasks,
 )
-from explorer.model.inputs import Inputs, ViewState, baseline_of, with_rotor
+from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.units import SI, number
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
@@ -94,11 +94,6 @@ def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
     middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
     assert_allclose(middle, same[0].vertices(blade_shape(DESIGN.rotor)), atol=1e-3)
     assert np.abs(shapes[0] - shapes[2]).max() > 1e-3
-
-
-def test_the_baseline_has_no_actuator():
-    driven = ActuatorInputs(drives=FULL).apply(DESIGN)
-    assert baseline_of(driven) == baseline_of(DESIGN)
 
 
 def test_the_question_hangs_on_the_baseline_and_not_on_flight_voltage_or_view():

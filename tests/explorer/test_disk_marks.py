@@ -3,7 +3,6 @@
 The compiled loops of these pictures against their plain forms stand at the end.
 """
 
-import io
 import math
 import pickle
 from dataclasses import replace
@@ -11,26 +10,22 @@ from dataclasses import replace
 import msgspec
 import numpy as np
 import pytest
-from PIL import Image
 
-from explorer.colours import LIGHT
 from explorer.picture import disk_image
 from explorer.picture.blade_mesh import inset_sections
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
-from explorer.picture.picture import disk_png, field_values
+from explorer.picture.picture import field_values
 from explorer.picture.plan import stall_segments
 from explorer.picture.polar import (
-    NO_MARKS,
     DrawnSolution,
     MarkedRegion,
     RefinedFlow,
     RegionMarks,
-    mark_line,
     polar_grid,
     region_codes,
     region_masks,
 )
-from explorer.picture.wake import tip_vortex_path, tip_vortices
+from explorer.picture.wake import tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -49,12 +44,6 @@ def fast() -> Solution:
 def with_inflow(inflow: str, mu: float) -> Solution:
     """The UH-60A as built."""
     return solve(make_design(mu=mu, inflow=inflow)).require()
-
-
-def shown(solution: Solution, size: int, marks: RegionMarks) -> np.ndarray:
-    """RGBA of the angle of attack, shape (size, size, 4)."""
-    png = disk_png(solution, ALPHA, (-6.0, 14.0), size=size, marks=marks, ink=LIGHT.ink)
-    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA")).astype(int)
 
 
 def codes_of(solution: Solution, marks: RegionMarks, size: int = 960) -> np.ndarray:
@@ -93,20 +82,6 @@ class TestRegions:
         assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
 
 
-class TestHatch:
-    def test_stall_is_striped_over_the_colours_of_the_field(self, fast: Solution):
-        """About a third of the stalled part is striped; the rest keeps the field's colour."""
-        regions = (NO_MARKS, RegionMarks(reverse_flow=False, drag_divergence=False))
-        plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
-        grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = RefinedFlow(fast, grid).attached < -0.02
-        row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
-        x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
-        y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)
-        changed = np.abs(plain[y, x] - marked[y, x]).sum(axis=1) > 60
-        assert 0.2 < changed.mean() < 0.62
-
-
 UNSTEADY = ("Separation point", "Stall vortex C_n")
 
 
@@ -135,12 +110,6 @@ class TestRanges:
         filled = max(abs(inner)) / high if field.two_sided else np.ptp(inner) / (high - low)
         assert filled > 0.5
         assert keeps_range(field, values, (low, high))
-
-    def test_a_range_is_held_until_it_no_longer_fits(self, fast: Solution, hover: Solution):
-        low, high = fitted_range(ALPHA, field_values(fast, ALPHA))
-        assert keeps_range(ALPHA, field_values(fast, ALPHA), (low - 2.0, high + 2.0))
-        assert not keeps_range(ALPHA, field_values(fast, ALPHA), (low + 6.0, high - 6.0))
-        assert not keeps_range(ALPHA, field_values(hover, ALPHA), (-60.0, 60.0))
 
     def test_each_end_says_whether_values_lie_beyond(self):
         values = np.linspace(0.0, 1.0, 2001)
@@ -206,21 +175,13 @@ class TestAirLines:
             tip = (1.0 - rotor.blade.flap_hinge) * flap
             np.testing.assert_allclose(drawn[:, 2] - tip, lies[:, 2] - course.flapping(left), atol=near)
 
-    def test_in_hover_there_is_no_course(self, hover: Solution):
-        models = replace(hover.design.models, inflow="lifting-line")
-        found = solve(replace(hover.design, models=models)).require()
-        assert found.wake_course is None
-        assert tip_vortex_path(found).radius[-1] < 0.85
-
-    def test_in_hover_the_wake_contracts_and_goes_straight_down(self, hover: Solution):
+    def test_in_hover_they_contract_and_sink_with_the_inflow_they_meet(self, hover: Solution):
         points, age = tip_vortices(hover, [0.0])
         r = np.hypot(points[..., 0], points[..., 1]) / hover.design.rotor.radius
         assert 0.78 < r.min() < 0.82
         assert (np.diff(points[:, 0, 2]) < 0.0).all()
         assert len(age) == len(points)
-
-    def test_they_sink_with_the_inflow_they_meet(self, hover: Solution):
-        """In hover dz/dζ is λ_i about the radius of the vortex: here of an even inflow, so the pitch is even."""
+        # In hover dz/dζ is λ_i about the radius of the vortex: here of an even inflow, so the pitch is even.
         even = replace(hover, disk=replace(hover.disk, induced=np.full_like(hover.disk.induced, 0.06)))
         points, _ = tip_vortices(even, [0.0])
         age = 2.0 * math.pi * 0.8
@@ -240,37 +201,3 @@ class TestInset:
             assert cut.theta == pytest.approx(-12.0 * (cut.r - 0.75), abs=0.006)
         assert made.r[0] == pytest.approx(self.ROTOR.blade.root_cutout)
         assert made.cuts[-1].r == 1.0
-
-    def test_outlines_are_true_sections_about_the_quarter_chord(self):
-        made = inset_sections(self.ROTOR, LinearTwist(0.0), None, 4.0)
-        for cut in made.cuts:
-            forward, up = np.array(cut.outline).T
-            assert forward.max() == pytest.approx(0.25, abs=0.02)
-            assert forward.min() == pytest.approx(-0.75, abs=0.02)
-            assert 0.09 < np.ptp(up) < 0.13
-            assert cut.overlay is None
-        assert made.overlay is None
-
-
-class TestLine:
-    @pytest.mark.parametrize("half_width", [0.001, 0.012, 0.03])
-    def test_a_line_of_even_width_whatever_the_slope(self, half_width: float):
-        """Zero at 0.6 R, rising ever more steeply around the disk; thin ones take the points on one side of it."""
-        r, azimuths = np.linspace(0.1, 1.0, 226), 180
-        slope = 1.0 + np.linspace(0.0, 0.4, azimuths)
-        values = ((r[:, None] - 0.601) * slope).astype(np.float32)
-        codes = np.zeros(values.shape, np.uint8)
-        mark_line(codes, 7, values, np.ones(values.shape, np.bool_), half_width, r)
-        middle = codes[:, 1:-1]  # Slope and so width jump where the turn closes.
-        assert set(np.unique(codes)) == {0, 7}
-        assert np.abs(np.nonzero(middle)[0] * 0.004 + 0.1 - 0.601).max() < half_width + 0.004
-        width = np.count_nonzero(middle, axis=0) * 0.004
-        assert np.abs(width - max(2.0 * half_width, 0.004)).max() <= 0.0041
-
-    def test_none_where_values_only_touch_zero_nor_where_it_is_not_wanted(self):
-        r = np.linspace(0.1, 1.0, 91)
-        touching = np.tile(((r - 0.5) ** 2)[:, None], (1, 60)).astype(np.float32)
-        codes = np.zeros(touching.shape, np.uint8)
-        mark_line(codes, 7, touching + np.float32(1e-6), np.ones(codes.shape, np.bool_), 0.03, r)
-        mark_line(codes, 7, touching - np.float32(0.01), np.zeros(codes.shape, np.bool_), 0.03, r)
-        assert not codes.any()

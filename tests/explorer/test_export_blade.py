@@ -12,7 +12,6 @@ from numpy.testing import assert_allclose
 
 from explorer.__main__ import main
 from explorer.export.blade import blade_mesh, blade_stl
-from explorer.export.provenance import file_name
 from explorer.picture.picture import with_active_twist
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -110,11 +109,6 @@ def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
 def test_sections_that_change_at_once_stay_closed():
     design = replace(DESIGN, rotor=change_airfoils(DESIGN.rotor, "sc1094r8,sc1095@0.62"))
     assert blade_mesh(design).is_watertight
-
-
-def test_file_names_hold_nothing_that_a_system_refuses():
-    name = file_name(make_design(twist="segments:-14,-8@0.5"), "-jig.stl")
-    assert name == "uh-60a_segments_-14_-8_at_0.5-mu0.200-jig.stl"
 
 
 def test_the_command_writes_the_jig_shape(tmp_path: Path, capsys: pytest.CaptureFixture[str]):

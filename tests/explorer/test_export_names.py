@@ -6,16 +6,17 @@ import re
 import zipfile
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageFont
 
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
-from explorer.export.view_picture import view_png
+from explorer.export.view_picture import font_path, view_png
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import SI
@@ -80,3 +81,25 @@ def test_words_of_the_picture_meet_neither_each_other_nor_the_view(name: str):
     assert inked[0] >= 40
     assert inked[-1] < 1920 - 39
     assert np.diff(inked).max() > 100, "room between the words and the power"
+
+
+# The font of the picture's words
+
+
+def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatch):
+    """A base installation: the font is found by its name, and where there is none, a sentence says so."""
+    real, asked = ImageFont.truetype, []
+
+    def truetype(name: str, *more: float) -> SimpleNamespace:
+        asked.append(name)
+        if name != "Arial.ttf":
+            raise OSError(name)
+        return SimpleNamespace(path="/fonts/Arial.ttf")
+
+    monkeypatch.setattr("explorer.export.view_picture.find_spec", lambda _: None)
+    monkeypatch.setattr(ImageFont, "truetype", truetype)
+    assert font_path.__wrapped__() == "/fonts/Arial.ttf"
+    monkeypatch.setattr(ImageFont, "truetype", lambda *_: real("no such font"))
+    with pytest.raises(ValueError, match="install DejaVu Sans, or pip install"):
+        font_path.__wrapped__()
+    assert asked[0] == "DejaVuSans.ttf"

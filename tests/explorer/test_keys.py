@@ -21,14 +21,11 @@ TAKEN_BY_BROWSERS = (
 )
 
 
-def test_no_key_does_two_things():
+def test_each_key_is_one_of_the_page_free_and_does_one_thing():
     keys = Counter((key.key, key.modifier) for key in KEYS.values() if key.key)
     assert keys.most_common(1)[0][1] == 1
     assert not [key for key in keys if key[0] in TAKEN_BY_THE_CAMERA and key[1] in ("", SHIFT)]
     assert not set(keys) & TAKEN_BY_BROWSERS
-
-
-def test_the_page_has_every_key():
     known = {*typing.get_args(_messages.HotkeyKey), "?"}
     assert {key.key for key in KEYS.values()} - {""} <= known
     assert {key.modifier for key in KEYS.values()} - {""} <= set(typing.get_args(_messages.KeyModifier))

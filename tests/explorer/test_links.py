@@ -181,13 +181,11 @@ class TestUnreadable:
 
 
 class TestAddress:
-    def test_names_stand_beside_each_other(self):
+    def test_names_stand_beside_each_other_and_hold_any_text(self):
         query = with_parameter("?fixedDpr=0.5&darkMode&d=1;old", "d", "1;segments:-14,-8@0.5")
         assert query == "?fixedDpr=0.5&darkMode=&d=1;segments:-14,-8@0.5"
         assert parameter(query, "d") == "1;segments:-14,-8@0.5"
         assert parameter(with_parameter(query, "d", None), "d") is None
-
-    def test_what_a_query_must_not_hold_is_written_otherwise(self):
         text = '1;uh60a+linear:-2;name="a&b=c d"'
         query = with_parameter("", "d", text)
         assert "+" not in query

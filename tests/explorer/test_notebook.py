@@ -84,12 +84,3 @@ def test_on_a_jupyterhub_that_is_named_the_page_is_inline_by_its_path(
     page.stop()
     with pytest.raises(ValueError, match="is not a host name"):
         explorer.show(rotor.make_design(), hub="a@b")
-
-
-def test_a_second_stop_does_nothing(opened: list[str]):
-    page = explorer.show(rotor.make_design(), browser=False)
-    page.stop()
-    page.stop()
-    assert FakeApp.made[0].stops == 1
-    assert "stopped" in repr(page)
-    assert opened == []

@@ -186,11 +186,6 @@ class TestWork:
         assert steps == ["power"] * 3
         assert page.sent[-1] == {"power": True, "strip": True}
 
-    def test_of_a_panel_that_is_not_seen_nothing_is_done(self, page: Page, steps: list[str]):
-        page.now = NOW
-        page.follower.work(lambda: False, soon=True)
-        assert steps == []
-
     def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: Page, steps: list[str]):
         asked = iter([False, True])
         page.follower.work(lambda: next(asked), soon=True)

@@ -48,19 +48,21 @@ class TestDiskPicture:
         right, left, top, bottom = (at(luminance[..., None], 0.8, psi)[0] for psi in (90, 270, 180, 0))
         assert right > top > left
         assert abs(top - bottom) < 6.0
-
-    def test_nose_is_up(self, fast: Solution):
-        """Pitt–Peters puts the stronger inflow aft, ψ = 0, at the bottom."""
+        # Pitt–Peters puts the stronger inflow aft, ψ = 0, at the bottom.
         field = FIELDS["Induced inflow λi"]
         image = opened(disk_png(fast, field, (field.low, field.high))).astype(int)
         redness = image[..., 0] - image[..., 2]
         assert at(redness[..., None], 0.9, 0)[0] > at(redness[..., None], 0.9, 180)[0] + 15
 
-    def test_cut_out_and_corners_are_clear_and_the_disk_is_not(self, fast: Solution):
+    def test_cut_out_and_reverse_flow_are_clear(self, fast: Solution):
         image = opened(disk_png(fast, FIELDS["Mach number"], (0.0, 0.9)))
         assert image[0, 0, 3] == 0
         assert at(image, 0.0, 0.0)[3] == 0
         assert all(at(image, r, psi)[3] == 255 for r in (0.16, 0.5, 0.98) for psi in range(0, 360, 15))
+        field = FIELDS["Angle of attack"]
+        image = opened(disk_png(fast, field, (field.low, field.high)))
+        assert tuple(at(image, 0.2, 270)[:3]) == VOID
+        assert tuple(at(image, 0.4, 270)[:3]) != VOID
 
     def test_no_wedge_where_the_turn_closes(self, hover: Solution):
         """In hover a ring has one colour all round; edge pixels excepted."""
@@ -68,19 +70,6 @@ class TestDiskPicture:
         image = opened(disk_png(hover, field, (field.low, field.high))).astype(int)
         ring = np.array([at(image, 0.7, psi) for psi in np.arange(-8.0, 8.0, 0.25)])
         assert np.ptp(ring, axis=0).max() <= 4
-
-    def test_reverse_flow_is_blanked_for_the_angle_of_attack(self, fast: Solution):
-        field = FIELDS["Angle of attack"]
-        image = opened(disk_png(fast, field, (field.low, field.high)))
-        assert tuple(at(image, 0.2, 270)[:3]) == VOID
-        assert tuple(at(image, 0.4, 270)[:3]) != VOID
-
-    def test_a_lost_answer_is_grey_and_translucent(self, fast: Solution):
-        field = FIELDS["Angle of attack"]
-        image = opened(disk_png(fast, field, (field.low, field.high), faded=True)).astype(int)
-        pixel = at(image, 0.6, 40)
-        assert np.ptp(pixel[:3]) <= 6
-        assert 100 < pixel[3] < 200
 
 
 class TestFields:

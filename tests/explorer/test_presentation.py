@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-from unittest.mock import Mock
 
 import pytest
 
@@ -10,8 +9,6 @@ from explorer.app import App
 from explorer.hosting import browser
 from explorer.model.inputs import Inputs, ViewState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
-from explorer.sharing.share import Address
-from explorer.tabs.lecture.presentation_banner import PresentationBanner
 from tests.tools.visitor import Visitor, ran
 
 
@@ -41,13 +38,6 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
     shared = [script for script in scripts if script is not kept]
     assert any(f"?{FOLLOW}={follow_name(secret[1])}" in script for script in shared)
     assert not [script for script in shared if secret[1] in script]
-
-
-def test_a_secret_in_a_link_of_an_earlier_version_gives_no_control():
-    context, address = Mock(), Address(f"?{PRESENT}=a-secret", lambda _: None)
-    assert not PresentationBanner(context, Presentations(), address)._secret
-    assert address[PRESENT] is None
-    assert PresentationBanner(context, Presentations(), Address("", lambda _: None), "a-secret")._secret
 
 
 def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):

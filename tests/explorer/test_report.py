@@ -115,11 +115,6 @@ class TestReport:
         change = f"{100 * (FAST.power.total / BASELINE.power.total - 1):+.1f} %"
         assert change not in page
 
-    def test_draws_four_disks_a_design_each_with_its_scale(self, page: str):
-        assert page.count("over the disk") == 8
-        assert page.count("<linearGradient") == 9  # One more below the view in 3D.
-        assert page.count("data:image/png;base64,") == 8
-
     def test_aviation_units_are_those_of_the_page(self, report: DesignReport):
         page = report_html(replace(report, view=replace(VIEW, units="Aviation")), None, Swept())
         first = page.split('data-report="total-power">')[1]

@@ -96,9 +96,6 @@ class TestCommand:
 
 
 class TestControls:
-    def test_widgets_start_as_the_inputs(self, controls: DesignControls):
-        assert controls.inputs() == Inputs()
-
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: DesignControls, law: str):
         wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False)

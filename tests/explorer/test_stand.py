@@ -26,29 +26,11 @@ FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio,
 @pytest.mark.parametrize("name", MEASURED_ROTORS)
 def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: str):
     inputs = with_rotor(OPENING, name)
-    assert inputs.stand is not None
     assert any(
         (one.advance_ratio, one.stand) == (inputs.advance_ratio, inputs.stand) for one in measured_conditions(name)
     )
     assert inputs_from(code_of(inputs.design())) == inputs
     assert with_rotor(inputs, "uh60a").stand is None
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ('stand={"ct_over_sigma":0.9}', "outside 0…0.25"),
-        ('stand={"colective_deg":8}', "'colective_deg' is not known"),
-        ('trim=tunnel;stand={"ct_over_sigma":0.07}', "'tunnel' is not known"),
-        ("trim=free-rotor", "needs the inputs of a test stand"),
-        ('trim=free-rotor;mu=0;stand={"ct_over_sigma":0.07}', "needs wind"),
-    ],
-)
-def test_a_bad_test_in_a_link_is_one_sentence(words: str, said: str):
-    with pytest.raises(ValueError, match="The design in the address") as error:
-        inputs_from(f"1;linear:-8;{words}")
-    assert said in str(error.value)
-    assert "\n" not in str(error.value)
 
 
 def test_the_wind_tunnel_begins_with_what_the_flight_had():

@@ -14,7 +14,6 @@ from explorer.charts.strip import (
     LOOKS,
     Role,
     alpha_chart,
-    lift_chart,
     lift_per_metre,
     power_change_chart,
     total_power_chart,
@@ -177,11 +176,3 @@ class TestLift:
         per_blade = float(cruise.disk.dr @ lift_per_metre(cruise)) * design.rotor.radius
         assert_allclose(per_blade * design.rotor.blades, cruise.ct * design.thrust_unit, rtol=1e-9)
         assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
-
-    def test_less_twist_moves_the_peak_outboard(self, cruise: Solution):
-        untwisted = solve(make_design(mu=0.2, twist="linear:0")).require()
-        chart = lift_chart(untwisted, cruise)
-        assert roles(chart) == ["reference", "this"]
-        r = untwisted.disk.r
-        assert r[np.argmax(line(chart, "this"))] >= r[np.argmax(line(chart, "reference"))]
-        assert chart.span("y")[0] <= 0.0

@@ -21,8 +21,7 @@ from rotor.trim.solve import solve
 
 
 def coarse(mu: float) -> Design:
-    design = make_design(mu=mu)
-    return replace(design, models=replace(design.models, elements=12, azimuths=24, inflow="pitt-peters"))
+    return make_design(mu=mu, elements=12, azimuths=24, inflow="pitt-peters")
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +72,6 @@ def test_what_was_interrupted_goes_on_and_it_is_shown_whole_or_not_at_all():
     left = iter([False] * 2 * len(SWITCHES))  # For all steps but those two, and to see the end.
     steps = work.run(lambda: next(left), lambda: None)
     assert next(left, None) is None
-    assert steps is not None
     assert len(steps) == 2 * len(SWITCHES) + 1
     known = replace(now, answers={work.key: steps}, memory=replace(now.memory, latest={work.name: steps}))
     drawn = shown(known)

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.model.units import AVIATION
-from explorer.text.why import _place, lift_centroid, lift_movement, why
+from explorer.text.why import lift_centroid, why
 from rotor.aero.switches import with_switches
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -43,31 +43,6 @@ class TestWhereTheLiftIs:
         assert_allclose(swayed, (middle, 0.5), atol=1e-12)
         with pytest.raises(ValueError, match="no lift"):
             lift_centroid(lifting(solution, np.zeros(())))
-
-    def test_movements_below_the_threshold_are_not_given_a_direction(self):
-        solution = flown()
-        even = lifting(solution, np.ones(()))
-        tilted = lifting(solution, (1.0 + 1e-5 * solution.disk.r)[:, None])
-        assert lift_movement(even, tilted) == "Lift hardly moved"
-        assert lift_movement(even, lifting(solution, solution.disk.r[:, None])) == "Lift moved outboard"
-        swayed = lifting(solution, 1.0 - 0.2 * np.sin(solution.disk.psi))
-        assert lift_movement(even, swayed) == "Lift moved towards the retreating side"
-
-
-@pytest.mark.parametrize(
-    ("r", "psi_deg", "said"),
-    [
-        (0.6, 0.0, "at the rear of the disk"), (0.6, 180.0, "at the front of the disk"),
-        (0.9, 90.0, "near the tip on the advancing side"), (0.3, 270.0, "inboard on the retreating side"),
-    ],
-)  # fmt: skip
-def test_a_region_is_told_by_where_it_came(r: float, psi_deg: float, said: str):
-    disk = flown().disk
-    near = (np.abs(disk.r - r) < 0.1)[:, None] & np.ones(disk.dct.shape, dtype=bool)
-    there = near & (np.cos(disk.psi - np.radians(psi_deg)) > 0.9)
-    assert _place(flown(), np.zeros_like(there), there) == said
-    assert _place(flown(), np.zeros_like(there), near).endswith("all round the disk")
-    assert _place(flown(), there, there) == "on the disk"  # Nothing of it is new.
 
 
 def test_another_test_or_flight_is_named():

@@ -1,10 +1,13 @@
 """What several tests of the solver share."""
 
-from collections.abc import Iterator
+import json
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 from patched import Patch, patching
 
+from rotor.__main__ import main
 from rotor.engine.linearise import Point
 from rotor.engine.newton import Factors
 
@@ -27,3 +30,36 @@ def patch() -> Iterator[Patch]:
     """For what cached functions read: every cache is emptied with each change, and at the end."""
     with patching() as patch:
         yield patch
+
+
+@pytest.fixture
+def printed(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
+    """What a command prints where all is well."""
+
+    def run(*words: str) -> str:
+        assert main(list(words)) == 0
+        return capsys.readouterr().out
+
+    return run
+
+
+@pytest.fixture
+def answer(printed: Callable[..., str]) -> Callable[..., Any]:
+    """Its JSON, which has no NaN."""
+
+    def strange(name: str) -> None:
+        pytest.fail(f"{name} in JSON")
+
+    return lambda *words: json.loads(printed(*words, "--json"), parse_constant=strange)
+
+
+@pytest.fixture
+def refused(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
+    """The sentence of a command that cannot be done: one line, and exit code 2."""
+
+    def run(*words: str) -> str:
+        code, (out, err) = main(list(words)), capsys.readouterr()
+        assert (code, out, err.count("\n"), err.partition(" ")[0]) == (2, "", 1, "rotor:")
+        return err
+
+    return run

@@ -12,7 +12,7 @@ import pytest
 from numba.core import caching, config
 
 import rotor
-from rotor.support.compiled import _watch, compiled, compiling, log_compiling, why_not_kept
+from rotor.support.compiled import _watch, compiling, why_not_kept
 
 SOURCE = """
 import numba
@@ -31,7 +31,6 @@ def module(path: Path) -> Any:
     """The module in a file, imported anew."""
     spec = importlib.util.spec_from_file_location("kernels_of_a_test", path)
     assert spec is not None
-    assert spec.loader is not None
     made = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(made)
     return made
@@ -147,15 +146,3 @@ def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monk
     said.truncate(0)
     assert module(source).kernel(1.0) == 2.0
     assert said.getvalue() == ""  # Kept code.
-
-
-def test_elsewhere_one_line_tells_it_where_that_is_asked_for(source: Path, monkeypatch: pytest.MonkeyPatch):
-    said = io.StringIO()
-    monkeypatch.setattr(sys, "stderr", said)
-    assert module(source).kernel(1.0) == 2.0
-    assert said.getvalue() == ""
-    log_compiling()
-    kernel = module(source).plain
-    assert [compiled()(kernel)(one) for one in (1.0, 2)] == [2.0, 3.0]
-    assert said.getvalue().count("\n") == 1
-    assert "Compiling kernels, once" in said.getvalue()

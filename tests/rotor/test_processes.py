@@ -28,7 +28,6 @@ from rotor.support.processes import (
     WorkerLost,
     run_tasks,
 )
-from rotor.support.worker_process import WorkerProcess
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 120.0
@@ -150,30 +149,6 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         pool.submit(pow, 2, 3)
 
 
-@dataclass(frozen=True)
-class Echo:
-    value: Any
-    pause: float = 0.0
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Any:
-        time.sleep(self.pause)
-        return self.value
-
-
-def test_no_task_takes_the_answer_of_one_that_was_given_up():
-    """A warm-up of more than a minute was given up; from then on each job had the answer of the one before."""
-    process = WorkerProcess("late")
-    try:
-        process.begin(Echo("first", 0.5))
-        process.begin(Echo("second"))
-        begin, reply = time.monotonic(), None
-        while reply is None and time.monotonic() < begin + PATIENCE:
-            reply = process.receive(0.1)
-        assert reply.value == "second"
-    finally:
-        process.close()
-
-
 def test_a_listener_that_fails_leaves_its_process_at_no_other_call():
     with Processes(1) as pool:
 
@@ -210,15 +185,6 @@ def test_a_shutdown_ends_calls_at_once_where_asked():
     assert all(call.done() for call in calls)
     _, after = begin(pool, Count(1))
     assert "shut down" in after.until(JobFailed).message
-
-
-def test_a_call_that_was_cancelled_in_the_queue_is_not_made(tmp_path: Path):
-    with Processes(1) as pool:
-        pool.submit(time.sleep, 0.3)
-        cancelled = pool.submit(Path.touch, tmp_path / "made")
-        assert cancelled.cancel()
-        assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("processes", [0, 2])

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
 
 import rotor
 from rotor.support.arrays import Array
@@ -72,19 +71,6 @@ def test_a_blade_that_bends_forgets_the_altitude_before(inflow: str) -> None:
             empty_caches()
             alone.append(rotor.solve(design).last_power)
         assert in_a_row == alone
-
-
-def test_warm_starts_end_at_the_same_trim() -> None:
-    """From a trim of another speed, altitude and twist: power to 1e-9."""
-    cases: tuple[dict[str, Any], ...] = (
-        {}, {"inflow": "pitt-peters"}, {"bending": True, "altitude_m": 3000.0}, {"preset": "thesis"}
-    )  # fmt: skip
-    for given in cases:
-        design = rotor.make_design(mu=0.25, twist="linear:-10", **given)
-        near: dict[str, Any] = {**given, "altitude_m": 1000.0}
-        start = rotor.solve(rotor.make_design(mu=0.28, twist="linear:-14", **near))
-        warm, cold = (rotor.solve(design, own).require().power.total for own in (start, None))
-        assert_allclose(warm, cold, rtol=1e-9)
 
 
 def test_gradients_in_threads_are_those_alone() -> None:

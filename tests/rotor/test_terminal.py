@@ -77,14 +77,6 @@ def test_failures_are_one_line(error: BaseException, code: int, says: str, capsy
     assert err.count("\n") == 1
 
 
-def test_errors_of_the_program_are_not_hidden():
-    def run() -> int:
-        raise AssertionError("a mistake of ours")
-
-    with pytest.raises(AssertionError):
-        run_command("rotor", run)
-
-
 def test_a_stop_whose_exception_is_lost_still_ends_the_program():
     """Python prints and discards one that comes up while a weak reference is cleared."""
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}

@@ -12,7 +12,7 @@ from rotor.files.design_file import load_design, parse_design
 from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.objective import read_mission
 from rotor.study.study_file import read_study
-from rotor.support.user_input import brief, check_writable, make_folder, read_text, refusing, shorten, write_whole
+from rotor.support.user_input import check_writable, make_folder, read_text, refusing, write_whole
 
 READERS = {
     "design": load_design,
@@ -90,15 +90,6 @@ def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path: Path):
     path.write_bytes(b"\xef\xbb\xbf0.2 1\r\n1.0 -3\r\n")
     assert read_text(path, "table", "…") == "0.2 1\n1.0 -3\n"
     assert read_twist_table(path).stations == (0.2, 1.0)
-
-
-def test_a_sentence_keeps_its_beginning_and_its_remedy():
-    sentence = brief(f"mass is {'9' * 5000}, not a mass: give a number")
-    assert sentence.startswith("mass is 999")
-    assert sentence.endswith("not a mass: give a number")
-    assert len(sentence) < 120
-    assert brief("a\nb" * 2000).count("\n") == 0
-    assert shorten("short") == "short"
 
 
 @pytest.mark.parametrize("error", [RecursionError(), MemoryError(), IndexError("x" * 999)])

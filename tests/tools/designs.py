@@ -1,17 +1,11 @@
-"""Random designs over everything that can be asked for: `python -m tests.tools.designs --count 10000 --seed 1`.
+"""Random designs over everything that can be asked for.
 
 Each is solved from a cold start, from a trim of a neighbour, and its residual is evaluated anew.
 """
 
-import argparse
-import json
 import math
 import re
-import sys
-import time
-from collections import Counter
 from dataclasses import asdict, dataclass, fields, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -192,33 +186,6 @@ def run(count: int, seed: int) -> list[Outcome]:
         return [try_design(draw(random, rotors[k % len(rotors)])) for k in range(count)]
 
 
-def main() -> int:
-    """Print how they ended; 1 where one is wrong, or fewer than `FIRST` of plain level flights trim at once."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--json", metavar="FILE", help="all that did not trim")
-    args = parser.parse_args()
-    begin = time.perf_counter()
-    outcomes = run(args.count, args.seed)
-    kinds = Counter(one.kind for one in outcomes)
-    print(f"{args.count} designs in {time.perf_counter() - begin:.0f} s: {dict(kinds)}")
-    shares = [share(outcomes), share(outcomes, below=MOST_STALLED), share(outcomes, plain=True)]
-    whole, attached, plain = (f"{100 * one:.2f} %" for one in shares)
-    alone = sum(one.kind == "trimmed" and one.alone for one in outcomes) / max(kinds["trimmed"], 1)
-    print(
-        f"first attempt: {whole} of the trimmed, {attached} with less than a quarter of the thrust from stalled "
-        f"sections, {plain} of level flight; no other trim was looked for in {100 * alone:.2f} %"
-    )
-    for one in outcomes:
-        if one.kind not in RIGHT or one.kind == "in deep stall":
-            print(f"{one.kind}: {one.said} {json.dumps(one.asked)}")
-    if args.json:
-        kept = [asdict(one) for one in outcomes if one.kind != "trimmed" or not one.first]
-        Path(args.json).write_text(json.dumps(kept, indent=1), encoding="utf-8")
-    return 0 if set(kinds) <= RIGHT and share(outcomes, plain=True) >= FIRST else 1
-
-
 def share(outcomes: list[Outcome], *, plain: bool = False, below: float = 1.0) -> float:
     """Part of the designs that trim, with less than `below` stalled, which the first attempt trims.
 
@@ -226,7 +193,3 @@ def share(outcomes: list[Outcome], *, plain: bool = False, below: float = 1.0) -
     """
     chosen = [one for one in outcomes if (one.plain if plain else one.kind == "trimmed" and one.stalled <= below)]
     return sum(one.kind == "trimmed" and one.first for one in chosen) / max(len(chosen), 1)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,11 +1,9 @@
-"""Sweeps of one slider in fine steps: `python -m tests.tools.sweeps --count 200 --seed 1` draws them at random.
+"""Sweeps of one slider in fine steps, drawn at random or given.
 
 Power may bend along a sweep, but it may not jump, and no refusal may lie between trims that were accepted.
 """
 
-import argparse
 import math
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -118,22 +116,3 @@ def random_sweep(random: np.random.Generator) -> tuple[dict[str, object], Design
     values = values_of(design, name)
     first = int(random.integers(len(values) - 12))
     return asked, design, sweep(design, name, values[first : first + 12])
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
-    random, wrong = np.random.default_rng(asked.seed), 0
-    for _ in range(asked.count):
-        arguments, design, found = random_sweep(random)
-        if found.islands or lasting_jump(design, found)[0] > largest_jump(design):
-            wrong += 1
-            print(f"{found}\n  {arguments}", flush=True)
-    print(f"{asked.count} sweeps, {wrong} with a jump or an island")
-    return int(wrong > 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,5 @@
 """The tool that makes the bundled section data: decks rebuilt from raw polars; runs of XFOIL, and its failures."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -10,7 +8,6 @@ from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars
 from rotor.support.assets import asset_path
-from tests.tools.sections import __main__ as command
 from tests.tools.sections.recipes import NATIVE_MACHS, RECIPES, TRIP, compare_decks, make_deck
 from tests.tools.sections.xfoil import XfoilCase, XfoilError, require_xfoil, run_polar
 
@@ -45,19 +42,6 @@ def test_deck_rebuilt_from_the_raw_polars_is_the_shipped_deck(name: str) -> None
         assert p.alpha_deg[-1] >= 10.0
         if name in ("sc1095", "sc1094r8", "naca0012", "naca63a015"):
             assert np.count_nonzero((p.alpha_deg >= -5.0) & (p.alpha_deg <= 15.0)) == 41, f"{name} Mach {p.mach}"
-
-
-def test_command_builds_and_verifies(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert command.main(["build", "sc1095", "--from-polars", "--out", str(tmp_path)]) == 0
-    for file in ("sc1095.c81", "sc1095_trip5.polars.csv"):
-        assert (tmp_path / file).read_text() == asset_path(f"airfoils/{file}").read_text()
-    assert command.main(["verify", "sc1094r8", "--from-polars"]) == 0
-    assert "agrees with the bundled deck" in capsys.readouterr().out
-    monkeypatch.setattr(command, "CL_TOLERANCE", -1.0)
-    assert command.main(["verify", "sc1095", "--from-polars"]) == 1
-    assert "DIFFERS" in capsys.readouterr().out
 
 
 @pytest.mark.xfoil

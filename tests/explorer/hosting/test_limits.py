@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from explorer.hosting.request_filter import AllowedHosts, host_name, is_loopback
+from explorer.hosting.request_filter import AllowedHosts, host_name
 from explorer.hosting.server_limits import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
@@ -63,20 +63,14 @@ class TestAllowedHosts:
             with pytest.raises(ValueError, match="is not a host name"):
                 host_name(wrong)
 
-    def test_loopback_addresses_are_known(self):
-        assert all(map(is_loopback, ("127.0.0.1", "127.1.2.3", "::1", "localhost")))
-        assert not any(map(is_loopback, ("0.0.0.0", "::", "192.168.1.5", "rotor.example", "")))
-
 
 class TestRateLimiter:
-    def test_a_burst_is_allowed_then_only_the_rate(self):
+    def test_a_burst_is_allowed_then_only_the_rate_of_messages_and_bytes(self):
         limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
         assert all(limiter.allows(1, 0.0) for _ in range(20))
         assert not limiter.allows(1, 0.0)
         limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
         assert all(limiter.allows(1, 0.1 * k) for k in range(1000))
-
-    def test_bytes_are_limited_too(self):
         limiter = RateLimiter(0.0, RateLimit(100.0, 100.0), RateLimit(1e3, 1e4))
         assert limiter.allows(10_000, 0.0)
         assert not limiter.allows(1_000, 0.5)

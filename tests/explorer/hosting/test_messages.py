@@ -1,6 +1,5 @@
 """What a page says: each name is known, and each value finite, in range and short, or it is dropped with a line."""
 
-import ast
 import dataclasses
 import json
 import logging
@@ -14,7 +13,6 @@ import msgspec
 import pytest
 from viser import _messages
 
-from explorer import web
 from explorer.app import App
 from explorer.hosting.messages import LONGEST_TEXT, PageFacts, Sent, checked_press, message_fault, read_facts
 from explorer.parts.presses import PRESSES
@@ -39,35 +37,6 @@ FLOATS = [(name, value) for name, value in _CAMERA.items() if not isinstance(val
 
 def press(name: Any, value: Any, serial: Any = 1) -> str:
     return json.dumps([serial, name, value])
-
-
-def test_every_press_has_a_row_an_action_and_a_sender():
-    """In Python a press is sent by `data_do`, the `action` of points, a button of a notice, and a row of sections."""
-    folder = Path(web.__file__).parent
-    scripts = "".join(path.read_text("utf-8") for path in folder.iterdir() if path.suffix in (".js", ".html"))
-    sent = set(re.findall(r"(?:RX\.send|report)\('(\w+)'", scripts)) | set(re.findall(r'data-do="?(\w+)', scripts))
-    heard = set[str]()
-    for path in folder.parent.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            match node:
-                case ast.Call(ast.Attribute(attr="on") | ast.Name("on"), [ast.Constant(str(name)), *_]):
-                    heard.add(name)
-                case ast.Call(ast.Name("Sections"), [_, _, ast.Constant(str(name)), *_]):
-                    heard.add(name)
-                    sent.add(name)
-                case ast.keyword("presses", ast.Dict(keys)):
-                    heard |= {key.value for key in keys if isinstance(key, ast.Constant)}
-                case ast.keyword("data_do", ast.Constant(str(name))):
-                    sent.add(name)
-                case ast.keyword("action", ast.Constant(str(name))) if name in PRESSES:
-                    sent.add(name)
-                case ast.Dict(keys=[ast.Constant("data_do"), *_], values=[ast.Constant(str(name)), *_]):
-                    sent.add(name)
-                case ast.Tuple([ast.Constant(str(name)), ast.Constant()]) if name in PRESSES:
-                    sent.add(name)
-                case ast.Tuple([ast.Constant(str(name)), ast.Attribute()]) if name in PRESSES:
-                    heard.add(name)
-    assert (heard ^ PRESSES.keys(), PRESSES.keys() ^ sent) == (set(), set())
 
 
 @pytest.mark.parametrize("name", GOOD)

@@ -5,59 +5,21 @@ and quick callbacks in `test_values.py`; what is changed in the client, in `test
 """
 
 import asyncio
-import io
 import threading
 from collections.abc import Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from importlib.metadata import requires, version
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 import viser
-from PIL import Image
 from viser import _gui_api, _messages, _viser
-from viser._assignable_props_api import AssignablePropsBase
 
 from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import ThreadedBuffer
-from explorer.picture import disk_image
-from explorer.picture.disk_image import encode_png
-
-MESSAGES, THREADS = 300, 4
-
-
-async def send_and_count() -> int:
-    """How many messages arrive that threads have queued while the loop takes them out."""
-    buffer = ThreadedBuffer(asyncio.get_running_loop(), persistent_messages=False)
-    buffer.window_duration_sec = 0.0
-    arrived = 0
-
-    def queue(thread: int) -> None:
-        for k in range(MESSAGES):
-            buffer.push(_messages.RunJavascriptMessage(f"{thread}-{k}"))
-            buffer.flush()
-
-    async def take() -> None:
-        nonlocal arrived
-        async for window in buffer.window_generator(0):
-            arrived += sum(isinstance(one, _messages.RunJavascriptMessage) for one in window)
-            if arrived == THREADS * MESSAGES:
-                return
-
-    with ThreadPoolExecutor(THREADS) as threads:
-        queued = [asyncio.wrap_future(threads.submit(queue, k)) for k in range(THREADS)]
-        async with asyncio.timeout(90.0):
-            await asyncio.gather(take(), *queued)
-    buffer.set_done()
-    return arrived
-
-
-def test_all_messages_of_several_threads_arrive():
-    assert asyncio.run(send_and_count()) == MESSAGES * THREADS
 
 
 def test_a_thread_does_not_touch_what_waits_on_the_loop():
@@ -89,29 +51,11 @@ def test_a_message_to_a_browser_that_has_left_is_no_warning():
     asyncio.run(late())
 
 
-def test_plain_values_are_assigned_as_they_are_and_arrays_cast(monkeypatch: pytest.MonkeyPatch):
-    """Without asking viser, which would compare types; an array still becomes one of the property's own type."""
-    handle = AssignablePropsBase.__new__(AssignablePropsBase)
-    made = handle._cast_value_recursive(npt.NDArray[np.float32], np.arange(3.0), "vertices")
-    assert made.dtype == np.float32
-    monkeypatch.setattr(viser_compat, "_cast", lambda *_: pytest.fail("asked viser"))
-    for value in ("text", True, 3, 0.5, None):
-        assert handle._cast_value_recursive(str, value, "content") is value
-
-
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
     server = viser_compat.quiet_server("127.0.0.1", 0, "test")
     yield server
     viser_compat.quiet_stop(server)
-
-
-def test_an_encoded_png_is_assigned_as_it_is(server: viser.ViserServer):
-    handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
-    png = encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
-    viser_compat.set_png(handle, png)
-    assert bytes(handle._data) == png
-    assert Image.open(io.BytesIO(png)).size == (4, 4)
 
 
 def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):

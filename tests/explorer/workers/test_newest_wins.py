@@ -41,14 +41,6 @@ def fail(error: Exception) -> None:
 
 
 class TestNewest:
-    def test_a_held_worker_begins_with_its_release_and_not_before(self):
-        ran, pool = threading.Event(), UpdatePool(1)
-        worker = NewestWins(ran.set, fail, pool, held=True)
-        worker.wake()
-        assert not pool.waiting
-        worker.release()
-        assert ran.wait(LONG)
-
     def test_works_on_the_newest_and_never_queues(self):
         state, seen, gate, begun = [0], list[int](), threading.Event(), threading.Event()
 

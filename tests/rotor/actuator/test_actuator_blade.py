@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import tip_amplitude
 from rotor.actuator.installation import (
     InstalledActuator,
     addition,
@@ -86,11 +85,8 @@ def test_centrifugal_force_of_the_blade():
 # Kind, share, plies: tip twist [deg] rotating, actuator mass [kg], first torsion [per rev].
 WORKED = [
     ("retrofit", 1.0, 1, 0.92, 7.30, 5.14),
-    ("retrofit", 1.0, 2, 1.66, 14.60, 5.01),
     ("retrofit", 1.0, 4, 2.84, 29.21, 4.78),
-    ("retrofit", 1.0, 6, 3.78, 43.81, 4.58),
     ("new", 1.0, 4, 4.31, 29.12, 4.58),
-    ("new", 0.5, 1, 2.16, 7.28, 3.71),
     ("new", 0.5, 2, 4.16, 14.56, 3.58),
     ("new", 0.25, 1, 3.88, 7.28, 2.78),
 ]
@@ -152,13 +148,6 @@ def test_segments_add_up():
     assert_allclose(parts.limit(1.0), whole.attainable, rtol=0.01)
 
 
-def test_amplitude_at_the_tip():
-    """Half the range of the blade at rest; heat cannot follow."""
-    installed = mfc(2)
-    assert_allclose(tip_amplitude(installed), 0.5 * abs(installed.rest_shapes[0, -1]), rtol=1e-12)
-    assert tip_amplitude(tube(1)) == 0.0
-
-
 # Flap bending
 
 
@@ -169,14 +158,11 @@ def flap_moment(stiffness: float, at: float) -> float:
     return float(bending_moments(blade, SPEED, nodes, np.full((ELEMENTS + 1, 1), 100.0), np.array([at]))[0, 0])
 
 
-def test_flap_bending_of_a_string_is_small():
+def test_flap_bending_of_a_string_and_of_a_stiff_blade():
     """A hinged chain under centrifugal force carries load without bending."""
     limp, stiff = (flap_moment(stiffness, 3.0) for stiffness in (1e3, 1e9))
     assert abs(limp) < 0.05 * abs(stiff)
-
-
-def test_flap_bending_without_pull_to_relieve_it():
-    """Very stiff and hinged: rigid rotation Ω²Iβ balances the moment; the rest bends the blade, M(r) by statics."""
+    # Very stiff and hinged: rigid rotation Ω²Iβ balances the moment; the rest bends the blade, M(r) by statics.
     x = np.linspace(0.0, 6.0, 2001)
     # Pull acts as −Ω²mxβ for small β: balance about the hinge, then bend.
     beta = 100.0 * 6.0**2 / 2.0 / (10.0 * SPEED**2 * 6.0**3 / 3.0)
@@ -261,10 +247,6 @@ def test_plies_move_the_centre_of_gravity_aft_and_a_nose_weight_moves_it_back():
     assert_allclose(structure.at(r, structure.mass_offset), plies * arm / (blade + plies), rtol=0.01)
     assert_allclose(structure.at(0.9 * low, structure.mass_offset), 0.0, atol=1e-12)
     assert np.abs(installed.blade.mass_offset or (0.0,)).max() < 1e-12
-
-
-def test_a_tube_lies_on_the_axis():
-    assert retrofit("SMA_tube", 2).blade.mass_offset == ()
 
 
 def test_the_blade_with_its_actuator_is_less_damped_and_nearer_to_flutter_without_nose_weight():

@@ -94,10 +94,3 @@ def test_a_leg_that_does_not_trim_is_named():
         fly(verdict(), (FlightLeg("hover", 0.0), FlightLeg("fast", 0.59)))
     with pytest.raises(ValueError, match="needs a leg"):
         fly(verdict(), ())
-
-
-@pytest.mark.slow
-def test_the_standard_flight_of_two_segments():
-    flight = fly(verdict(concept="two-segment"))
-    assert len(flight.voltages[0]) == 2
-    assert all(-500.001 <= volts <= 1500.001 for leg in flight.voltages for volts in leg)

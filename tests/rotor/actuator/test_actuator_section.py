@@ -169,19 +169,14 @@ WHOLE = (0.05, 0.80)
 # Kind, GJ share, sheet, plies, chord, then GJ [N m²] and M_a [N m] of an independent laminate model of the same blade.
 WORKED = [
     ("retrofit", 1.0, "MFC_P1", 1, WHOLE, 72357.0, 214.05),
-    ("retrofit", 1.0, "MFC_P1", 2, WHOLE, 74683.1, 399.85),
     ("retrofit", 1.0, "MFC_P1", 4, WHOLE, 78827.4, 721.97),
-    ("retrofit", 1.0, "MFC_P1", 6, WHOLE, 82531.8, 1003.31),
     ("retrofit", 1.0, "MFC_P2", 1, WHOLE, 72357.0, -31.49),
     ("retrofit", 1.0, "PZT5H_strips", 1, WHOLE, 74883.9, -32.34),
     ("retrofit", 1.0, "AFC", 1, WHOLE, 70847.6, 32.76),
     ("retrofit", 1.0, "PZT5H", 1, WHOLE, 74883.9, 0.0),  # An isotropic sheet induces no shear at any angle.
-    ("new", 1.0, "MFC_P1", 1, WHOLE, 69760.0, 257.42),
     ("new", 1.0, "MFC_P1", 4, WHOLE, 69760.0, 973.11),
-    ("new", 0.5, "MFC_P1", 1, WHOLE, 34880.0, 252.86),
     ("new", 0.5, "MFC_P1", 4, WHOLE, 34880.0, 904.96),
     ("new", 0.25, "MFC_P1", 2, WHOLE, 17440.0, 454.01),
-    ("new", 0.5, "MFC_P1", 2, (0.05, 0.60), 34880.0, 339.51),
     ("new", 0.5, "MFC_P1", 2, (0.05, 0.45), 34880.0, 239.34),
     ("new", 0.5, "MFC_P1", 2, (0.40, 0.80), 34880.0, 240.83),
 ]

@@ -1,16 +1,16 @@
 """The break-even line against trims of its own, and the command."""
 
-import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.__main__ import main
 from rotor.actuator.optimum import ConditionPair, best_actuated
 from rotor.actuator.pay import ENOUGH, BreakEven, break_even, other_stroke, pay_sentence, with_mass
 from rotor.actuator.tables import pay_table
@@ -21,8 +21,7 @@ from rotor.trim.solve import solve
 
 
 def pair(rotor: str = "uh60a") -> ConditionPair:
-    design = make_design(rotor=rotor, inflow="drees")
-    return ConditionPair(replace(design, models=replace(design.models, elements=16, azimuths=36)), (0.0, 0.3))
+    return ConditionPair(make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36), (0.0, 0.3))
 
 
 @cache
@@ -114,15 +113,12 @@ def test_where_twist_saves_nothing_no_actuator_pays():
 
 
 @pytest.mark.slow
-def test_command(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+def test_command(answer: Callable[..., Any], refused: Callable[..., str], tmp_path: Path):
     drawn = tmp_path / "line.svg"
-    arguments = ["actuator", "--rotor", "s61", "--inflow", "drees", "--what-would-pay", "--plot", str(drawn), "--json"]
-    assert main(arguments) == 0
-    answer = json.loads(capsys.readouterr().out)
-    assert answer["rotor"].startswith("Sikorsky S-61")
-    assert answer["message"].startswith("Pays if it twists")
-    assert answer["pays_from"]["twist_deg"] < answer["optima_apart_deg"]
-    assert len(answer["line"]["mass_kg"]) == len(answer["line"]["twist_deg"])
+    found = answer("actuator", "--rotor", "s61", "--inflow", "drees", "--what-would-pay", "--plot", str(drawn))
+    assert found["rotor"].startswith("Sikorsky S-61")
+    assert found["message"].startswith("Pays if it twists")
+    assert found["pays_from"]["twist_deg"] < found["optima_apart_deg"]
+    assert len(found["line"]["mass_kg"]) == len(found["line"]["twist_deg"])
     assert drawn.read_text(encoding="utf-8").startswith("<svg")
-    assert main(["actuator", "--plot", str(drawn)]) == 2
-    assert "add --what-would-pay" in capsys.readouterr().err
+    assert "add --what-would-pay" in refused("actuator", "--plot", str(drawn))

@@ -8,18 +8,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.elements import TrimState
-from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.linear import LinearInflow
-from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import disk_sums as sums_at
-from rotor.columns.flight import elements_of
-from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
-from rotor.trim.forward import first_guess
-from rotor.trim.newton import newton
 from rotor.trim.power import hub_moment
 from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
 
@@ -119,18 +112,6 @@ def test_the_residuals_are_sums_over_the_elements():
     rows = point.system.structure.equations
     for name, value in expected.items():
         assert_allclose(point.residual[rows[name]], value, rtol=1e-12, atol=1e-12 * p.weight, err_msg=name)
-
-
-def test_loss_average_over_azimuth_is_settled():
-    """24 azimuths for the average of F against 360 azimuths of the same field."""
-    p = problem(mu=0.35)
-    point = newton(p, first_guess(p)).linear.point
-    wake, psi = elements_of(p, point).flow, 2.0 * np.pi * np.arange(360) / 360
-    model, rotor = INFLOW_MODELS["pitt-peters"], p.design.rotor
-    assert isinstance(model, LinearInflow)
-    field = model.field(p.disk.r, waves_at(3, psi), wake)[0]
-    factor, _ = loss_factor(p.disk.r[:, None], wake.mu_z + field, rotor.blades, rotor.blade.root_cutout)
-    assert_allclose(point.channels[LOSS, :, 0], factor.mean(axis=1), atol=1e-4)
 
 
 def test_sums_by_quadrature_of_a_known_field():

@@ -27,8 +27,7 @@ TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12)
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:
-    design = make_design(preset=preset, twist=twist, mu=mu)
-    return replace(design, models=replace(design.models, inflow=inflow))
+    return make_design(preset=preset, twist=twist, mu=mu, inflow=inflow)
 
 
 def coarse(inflow: str, mu: float) -> Design:

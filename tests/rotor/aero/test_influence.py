@@ -248,7 +248,6 @@ SLOW = replace(FAST, mu_x=0.05, lambda0=0.05)
 HALF_CHORD = 0.0322
 """Half chord of a UH-60A, over R."""
 PANEL = 16
-FREQUENCIES = (0.05, 0.1, 0.2)
 
 
 def deficiency(k: float) -> complex:
@@ -269,13 +268,6 @@ def test_theodorsens_function(k: float, published: complex):
     assert theodorsen(np.array([k]))[0] == pytest.approx(deficiency(k), abs=1e-12)
 
 
-@pytest.mark.parametrize(("k", "short"), list(zip(FREQUENCIES, (0.011, 0.035, 0.073), strict=True)))
-def test_the_lattice_alone_has_too_little_lift(k: float, short: float):
-    harmonic = np.array([k * FINE.r[PANEL] / HALF_CHORD])
-    own, whole = of_downwash(lattice_lag(FINE, FAST, harmonic)[PANEL, 0]), deficiency(k)
-    assert abs(own) / abs(whole) - 1.0 == pytest.approx(-short, abs=2e-3)
-
-
 @pytest.mark.parametrize("n", [1, 2, 3, 5])
 @pytest.mark.parametrize("course", [FAST, SLOW], ids=["fast", "slow"])
 def test_with_what_is_added_it_has_theodorsens_within_a_hundredth(n: int, course: WakeCourse):
@@ -291,3 +283,62 @@ def test_nothing_is_added_to_a_circulation_that_rests_nor_inboard():
     added = shed_correction(FINE, FAST, np.full(24, HALF_CHORD))
     assert np.abs(added.sum(axis=2)).max() < 1e-12
     assert np.abs(added[FINE.r < FAST.mu_x + 0.05]).max(initial=0.0) == 0.0
+
+
+# Where the wake of a blade lies: on the blade when young, and along the velocities of the formula
+
+
+SKEWED = WakeCourse(0.25, 0.02, 0.015, coning=0.06, flap_1c=0.02, flap_1s=-0.03, core=(1e-4, 1e-5))
+
+
+def track(course: WakeCourse, released: float, r: float, t: float) -> Array:
+    """Where what left the blade at an azimuth and radius is at a time after."""
+    return course.nodes(np.array([released + t]), np.array([t]), np.array([r]))[0, 0, 0]
+
+
+def test_what_has_just_left_lies_on_the_blade():
+    psi, r = np.array([0.3, 2.0, 5.0]), np.array([0.2, 0.7, 1.0])
+    beta = 0.06 + 0.02 * np.cos(psi) - 0.03 * np.sin(psi)
+    found = SKEWED.nodes(psi, np.zeros(1), r)[:, 0]
+    expected = np.stack([np.outer(np.cos(psi), r), np.outer(np.sin(psi), r), np.outer(beta, r)], axis=-1)
+    assert_allclose(found, expected, atol=1e-15)
+
+
+def test_without_flight_it_sinks_as_the_helix_of_momentum_theory():
+    course = replace(SKEWED, mu_x=0.0, mu_z=0.0)
+    for t in (0.1, 3.0, 20.0):
+        begin, now = track(course, 1.0, 0.8, 0.0), track(course, 1.0, 0.8, t)
+        assert_allclose(now - begin, [0.0, 0.0, -course.lambda0 * t], atol=1e-14)
+
+
+@pytest.mark.parametrize(("released", "r"), [(math.pi, 0.9), (2.5, 0.6), (4.0, 1.0)])
+def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r: float):
+    """Differences of z along the track against Beddoes' inflow, with χ = atan2(µ_x, µ_z + λ0)."""
+    skew, step = 0.5 * math.atan2(SKEWED.mu_x, SKEWED.mu_z + SKEWED.lambda0), 1e-5
+    y = r * math.sin(released)
+    leaves = (math.sqrt(1.0 - y * y) - r * math.cos(released)) / SKEWED.mu_x
+    assert SKEWED.skewed == 1.0
+    for t in (0.2 * leaves, 0.7 * leaves, 1.2 * leaves, 2.0 * leaves):
+        before, after = track(SKEWED, released, r, t - step), track(SKEWED, released, r, t + step)
+        x = r * math.cos(released) + SKEWED.mu_x * t
+        outward = skew * abs(y) ** 3
+        induced = 1.0 + skew * x - outward if t < leaves else 2.0 * (1.0 - outward)
+        velocity = [SKEWED.mu_x, 0.0, -SKEWED.mu_z - SKEWED.lambda0 * induced]
+        assert_allclose((after - before) / (2.0 * step), velocity, atol=1e-8)
+
+
+def test_the_helix_of_hover_passes_over_to_the_skewed_wake_smoothly():
+    """Nothing jumps, and nothing turns: the share of the skewed wake grows from 0 to 1 at µ_x = 2.5 √(C_T/2)."""
+    thrust = 0.006
+    mu = np.linspace(0.0, 0.15, 301)
+    share: list[float] = []
+    for one in mu:
+        inflow = math.sqrt(0.5 * thrust)
+        for _ in range(100):  # λ0 = C_T/2V
+            inflow = 0.5 * (inflow + 0.5 * thrust / math.hypot(one, inflow))
+        share.append(replace(SKEWED, mu_x=float(one), mu_z=0.0, lambda0=inflow).skewed)
+    slope = np.diff(share)
+    assert share[0] == 0.0
+    assert np.all(slope >= 0.0)
+    assert slope.max() < 0.02
+    assert_allclose(mu[share.index(1.0)], 2.5 * math.sqrt(0.5 * thrust), atol=1e-3)

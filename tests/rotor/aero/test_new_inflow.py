@@ -125,11 +125,3 @@ def test_commands_and_the_page_take_the_file(tmp_path: Path):
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert NAME in done.stdout
-
-
-def test_order_and_names_of_the_models():
-    """From the simplest to the most detailed; every model is in a file of the folder, under a name of its own."""
-    models = [*INFLOW_MODELS.values()]
-    assert [model.load_dependent for model in models] == sorted(model.load_dependent for model in models)
-    assert [name for name, model in INFLOW_MODELS.items() if model.wake_along][-1:] == [*INFLOW_MODELS][-1:]
-    assert all(model.wake_along in INFLOW_MODELS for model in models if model.wake_along)

@@ -1,17 +1,16 @@
 """Physics switches: limits, hand values, the energy identity and exact derivatives for every combination."""
 
 import itertools
-import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import dblquad
 
-from rotor.__main__ import main
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import DiskFlow, Losses
@@ -19,7 +18,7 @@ from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.losses import tip_factor
 from rotor.aero.problem import LOW_MACH, build_problem
 from rotor.aero.section import LOSS
-from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
+from rotor.aero.switches import SWITCHES, no_effect, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
 from rotor.design.design import BEYOND_DOCUMENT, Design
 from rotor.files.design_file import design_from_record
@@ -28,12 +27,9 @@ from rotor.files.rotor_file import read_aircraft
 from rotor.study.series import PARTS, waterfall, waterfall_steps
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
-from rotor.trim.newton import SolverOptions
 from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
 from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
-
-TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 
 
 def combinations(names: tuple[str, ...]) -> list[tuple[str, ...]]:
@@ -245,36 +241,18 @@ class TestWaterfall:
         assert steps[1].change is None
         assert steps[2].against is steps[0].solution
 
-    def test_command(self, capsys: pytest.CaptureFixture[str]):
-        assert main(["waterfall", "--mu", "0.3", "--json"]) == 0
-        answer = json.loads(capsys.readouterr().out)
-        assert answer["steps"][0]["switch"] is None
-        assert [step["switch"] for step in answer["steps"][1:]] == [s.flag for s in SWITCHES.values()]
-        ends = answer["steps"][0]["total_w"], answer["steps"][-1]["total_w"]
-        added = sum(sum(step["change_w"].values()) for step in answer["steps"][1:])
-        assert_allclose(added, ends[1] - ends[0], rtol=1e-12)
-        assert main(["waterfall", "--mu", "0", "--preset", "thesis"]) == 0
-        assert "-0.0" not in capsys.readouterr().out
+    def test_command(self, printed: Callable[..., str], answer: Callable[..., Any]):
+        first, *steps = answer("waterfall", "--mu", "0.3")["steps"]
+        assert [first["switch"], *(step["switch"] for step in steps)] == [None, *(s.flag for s in SWITCHES.values())]
+        added = sum(sum(step["change_w"].values()) for step in steps)
+        assert_allclose(added, steps[-1]["total_w"] - first["total_w"], rtol=1e-12)
+        assert "-0.0" not in printed("waterfall", "--mu", "0", "--preset", "thesis")
 
 
-class TestCommandAndFiles:
-    def test_the_off_flag_changes_the_models(self, capsys: pytest.CaptureFixture[str]):
-        assert main(["solve", "--mu", "0.2", "--off", "tip-loss, reverse_flow", "--json"]) == 0
-        answer = json.loads(capsys.readouterr().out)
-        assert answer["switched_off"] == ["tip-loss", "reverse-flow"]
-        assert set(answer["hub_moment_n_m"]) == {"roll", "pitch"}
-
-    def test_unknown_switch_is_one_sentence(self, capsys: pytest.CaptureFixture[str]):
-        assert main(["sweep", "--mu", "0.2", "--off", "gravity"]) == 2
-        error = capsys.readouterr().err
-        assert error.count("\n") == 1
-        assert "'gravity' is not known: use flapping, tip-loss, hub-loss" in error
-        assert parse_switches("") == ()
-
-    def test_files_keep_every_switch_and_old_files_are_read(self, tmp_path: Path):
-        for off in EVERY[::7]:
-            design = with_switches(make_design(mu=0.2), off)
-            assert design_from_record(design.to_dict()).models == design.models
-        assert switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
-        with pytest.raises(ValueError, match="flapping is 0, not true or false"):
-            design_from_record({"flapping": 0})
+def test_files_keep_every_switch_and_old_files_are_read():
+    for off in EVERY[::7]:
+        design = with_switches(make_design(mu=0.2), off)
+        assert design_from_record(design.to_dict()).models == design.models
+    assert switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
+    with pytest.raises(ValueError, match="flapping is 0, not true or false"):
+        design_from_record({"flapping": 0})

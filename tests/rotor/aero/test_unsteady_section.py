@@ -118,14 +118,6 @@ def test_apparent_mass_by_hand() -> None:
     assert f[FZ] == pytest.approx(0.0, abs=1e-15)
 
 
-def test_plunging_apparent_mass_takes_no_power_over_a_cycle() -> None:
-    data = flat(B)
-    c = moving(np.zeros(len(B)), SMALL * B, 0.05)
-    added = SECTION.section(c, data, False, False)[0] - PLAIN.section(c[:FIRST], data.section, False, False)[0]
-    size = np.abs(added[FZ] * c[UP]).max()
-    assert np.abs((c[UT] * added[FX] - c[UP] * added[FZ]).mean(axis=1)).max() < 1e-12 * size
-
-
 @pytest.mark.parametrize(("pitches", "height"), [(1.0, 0.0), (0.0, 1.0), (0.6 - 0.4j, 0.3 + 0.2j)])
 def test_a_plate_without_friction_takes_no_power_over_a_cycle(pitches: complex, height: complex) -> None:
     """The wake apart, lift, suction, apparent mass and moment close to second order of the motion."""

@@ -98,7 +98,7 @@ def test_titled_outlines_are_read_and_bad_ones_refused_in_one_sentence(tmp_path:
         load_contour("vr12")
 
 
-def test_the_tab_is_behind_the_published_naca_23012() -> None:
+def test_the_tab_is_behind_the_published_naca_23012_and_oa209_is_thin() -> None:
     """Ordinates of NACA Report 824 (upper 4.91, 7.55, 7.14, 5.47, lower −3.15, −4.46, −4.48, −3.67 % at 5 … 60 %), on
     115.6/121 of the chord; then 0.8 mm of tab to either side of the chord line."""
     points, body = load_contour("naca23012tab").points, 115.6 / 121.0
@@ -110,7 +110,4 @@ def test_the_tab_is_behind_the_published_naca_23012() -> None:
     assert_allclose(np.interp(place * body, *lower.T) / body, [-0.0292, -0.0446, -0.0448, -0.0367], atol=3e-4)
     behind = points[points[:, 0] > body + 1e-6]
     assert_allclose(np.abs(behind[:, 1]), 0.4 / 121.0, atol=1e-6)
-
-
-def test_oa209_is_nine_per_cent_thick() -> None:
     assert_allclose(thickness_and_camber(load_contour("oa209"))[0], 0.09, atol=5e-4)

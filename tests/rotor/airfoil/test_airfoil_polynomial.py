@@ -32,17 +32,6 @@ def test_error_against_order_agrees_with_published_values() -> None:
         assert_allclose([short[order].cd_rms, longer[order].cd_rms], [cd_short, cd_long], rtol=0.03, atol=1e-5)
 
 
-def test_fit_recovers_a_known_polynomial() -> None:
-    polar = thesis_polar()
-    alpha = np.deg2rad(polar.alpha_deg)
-    exact = 0.1 + 6.0 * alpha - 20.0 * alpha**3
-    made = type(polar)(0.3, 3.68e6, polar.alpha_deg, exact, 0.01 + alpha**2, polar.cm)
-    x = np.deg2rad(np.linspace(-10.0, 15.0, 101))
-    cl, cd = fit_polynomials(made)(x)
-    assert_allclose(cl, 0.1 + 6.0 * x - 20.0 * x**3, atol=1e-12)  # order 3 within order 10, to rounding
-    assert_allclose(cd, 0.01 + x**2, atol=1e-12)
-
-
 def test_constant_and_flagged_outside_the_fit() -> None:
     section = polynomial_section()
     low, high = section.fit_range

@@ -194,14 +194,3 @@ def test_between_two_spans_each_section_has_its_own_reynolds_number():
         assert (1.0 - weight) * ours[0] + weight * ours[1] == pytest.approx(by_hand, rel=1e-12)
     assert solve(design).converged
     assert install_own(blade.own_sections[0]).of_reynolds[0][0] == KNOTS[0]
-
-
-def test_one_element_beyond_the_data_is_no_range():
-    design = make_design(rotor=drone(), mu=0.0)
-    blade, r = design.rotor.blade, build_problem(design).disk.r
-    section = blade.installed(blade.spans[0].section)
-    first, second = sorted(blade.reynolds(section, r, design.reynolds_per_metre))[:2]
-    found = solve(make_design(rotor=drone(knots=(0.5 * (first + second), 1e6)), mu=0.0)).require()
-    (said,) = (caveat.sentence for caveat in found.caveats if caveat.name == "reynolds-outside-data")
-    assert f"the Reynolds number is {first:,.0f}; the data" in said
-    assert said.startswith("At ")

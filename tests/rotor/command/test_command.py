@@ -9,7 +9,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.command.optimise import digits_of_band
 from rotor.files.make_design import make_design
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.support.user_input import parse_range
@@ -87,41 +86,10 @@ def test_distribution(capsys: pytest.CaptureFixture[str]):
     assert "lift of one blade" not in run(capsys, *heavy)[1]
 
 
-def test_climb(capsys: pytest.CaptureFixture[str]):
-    level, climbing = (solved(capsys, "--mu", "0.2", *flag) for flag in ((), ("--climb-m-s", "4")))
-    assert (level["climb_m_s"], climbing["climb_m_s"]) == (0.0, 4.0)
-    assert level["power_w"]["climb"] == 0.0
-    assert_allclose(climbing["power_w"]["climb"], 8322.4 * 9.80665 * 4.0, rtol=1e-12)
-    assert "climb            326.5 kW" in run(capsys, "solve", "--mu", "0.2", "--climb-m-s", "4")[1]
-    code, out, _ = run(capsys, "sweep", "--mu", "0:0.2:0.1", "--climb-m-s", "4")
-    assert code == 0
-    assert all(line.split()[3] == "4" and "converged" not in line for line in out.splitlines()[1:])
-    code, out, _ = run(capsys, "solve", "--hover", "--climb-m-s=-8")
-    assert code == 1
-    assert "vortex ring state" in out
-
-
 def test_an_optimum_beyond_autorotation_is_refused(capsys: pytest.CaptureFixture[str]):
     code, out, _ = run(capsys, "optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band")
     assert code == 1
     assert "descend more slowly, or use the objective induced" in " ".join(out.split())
-
-
-def test_hover_and_speed(capsys: pytest.CaptureFixture[str]):
-    hover = solved(capsys, "--hover")
-    assert hover["mu"] == 0.0
-    assert hover["power_w"]["parasite"] == 0.0
-    assert solved(capsys, "--mu", "0")["power_w"] == hover["power_w"]
-    knots = solved(capsys, "--speed-kt", "90")
-    assert_allclose(knots["speed_m_s"], 90 * 1852 / 3600, rtol=1e-12)
-
-
-def test_case_file_and_override(capsys: pytest.CaptureFixture[str], tmp_path: Path):
-    path = tmp_path / "case.json"
-    path.write_text(json.dumps({"preset": "thesis", "twist": "linear:-10", "advance_ratio": 0.15, "mass_kg": 7000}))
-    answer = solved(capsys, "--case", str(path))
-    assert (answer["preset"], answer["twist"], answer["mu"]) == ("thesis", "linear:-10", 0.15)
-    assert solved(capsys, "--case", str(path), "--mu", "0.25", "--twist", "linear:-4")["twist"] == "linear:-4"
 
 
 def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
@@ -142,9 +110,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["solve", "--twst", "linear:-8"], "did you mean '--twist'?"),
         (["sweep", "--mu", "0.4:0.1:0.1"], "write 0.4:0.1:-0.1 or 0.1:0.4:0.1"),
         (["envelope", "--hover"], "--hover is not a flag of this command; see"),
-        (["sweep", "--hover", "--mu", "0.1"], "--hover and --mu both give the speed"),
         (["sweep", "--mu", "0.1", "--twist", "linear:-8", "--relative-to", "builtin"], "use linear:-8"),
-        (["solve", "--mass-kg", "heavy"], "'heavy' is not a number"),
         (["solve", "--trim", "controls", "--thrust-n", "20"], "needs a collective"),
         (["solve", "--ct-over-sigma", "0.07"], "add --trim wind-tunnel"),
         (["solve", "--preset", "thesis", "--climb-m-s", "4"], "leave the rate of climb out"),
@@ -153,15 +119,12 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
         (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
         (["optimise", "--bound", "angle=1,2"], "does not name a parameter"),
-        (["optimise", "--bound", "rate=1"], "write two numbers"),
         (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
         (["schedule", "--plies", "3"], "add --actuator"),
         (["schedule", "--processes", "0"], "0 processes"),
         (["study", "nowhere.toml"], "two_segment.toml"),
         (["study", "two_segment.toml", "DIR"], "study show DIR"),
         (["study", "two_segment.toml", "--workers", "0"], "1…1024"),
-        (["study", "two_segment.toml", "--json"], "study show DIR"),
-        (["study", "show", "nowhere", "--dry-run"], "--dry-run"),
         (["study", "show", "nowhere"], "nowhere"),
     ],
 )
@@ -187,10 +150,6 @@ def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, caps
 
     assert words in caveats(*flags)
     assert words not in caveats("--twist", "linear:-18", "--airfoils", "sc1095-thesis")
-
-
-def test_degrees_have_the_digits_that_the_band_deserves():
-    assert [digits_of_band(width) for width in (30.0, 3.0, 0.3, 0.0)] == [0, 1, 2, 3]
 
 
 def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):

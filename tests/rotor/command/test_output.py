@@ -22,7 +22,7 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     return capsys.readouterr().out
 
 
-def test_a_sweep_goes_over_any_quantity_of_flight(capsys: pytest.CaptureFixture[str]):
+def test_a_sweep_goes_over_any_quantity_of_flight_and_hover(capsys: pytest.CaptureFixture[str]):
     out = run(capsys, "sweep", "--speed-kt", "60:100:20", "--csv", "-", *QUICK)
     rows = list(csv.DictReader(io.StringIO(out)))
     assert [float(row["speed_kt"]) for row in rows] == [60.0, 80.0, 100.0]
@@ -30,9 +30,6 @@ def test_a_sweep_goes_over_any_quantity_of_flight(capsys: pytest.CaptureFixture[
     rows = json.loads(out)
     assert [row["mass_kg"] for row in rows] == [7000.0, 8000.0]
     assert rows[0]["total_kw"] < rows[1]["total_kw"]
-
-
-def test_a_sweep_in_hover(capsys: pytest.CaptureFixture[str]):
     rows = json.loads(run(capsys, "sweep", "--hover", "--isa-offset-c", "0:20:20", "--json", *QUICK))
     assert [(row["mu"], row["isa_offset_c"]) for row in rows] == [(0.0, 0.0), (0.0, 20.0)]
 
@@ -45,13 +42,10 @@ def test_a_stand_says_its_altitude_and_a_model_rotor_its_torque(capsys: pytest.C
     assert re.search(r"torque 0\.\d{3} N m", out)
 
 
-def test_a_sweep_over_two_quantities_is_refused(capsys: pytest.CaptureFixture[str]):
+def test_two_ranges_or_outputs_at_once_are_refused(capsys: pytest.CaptureFixture[str]):
     for words in ([], ["--mu", "0.1:0.3:0.1", "--mass-kg", "7000:8000:500"], ["--mu", "0.1", "--speed-kt", "80"]):
         assert main(["sweep", *words]) == 2
         assert "give one range" in capsys.readouterr().err
-
-
-def test_two_outputs_at_once_are_refused(capsys: pytest.CaptureFixture[str]):
     assert main(["sweep", "--mu", "0.1:0.2:0.1", "--csv", "-", "--json"]) == 2
     assert "both print" in capsys.readouterr().err
 

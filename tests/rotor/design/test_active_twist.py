@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -127,27 +126,3 @@ def test_the_saving_grows_with_speed():
         net.append(effect(loaded, design).power[0])
         assert changes.min() < net[-1]
     assert net[1] < 0.0 < net[0]
-
-
-def test_power_of_twice_per_revolution_vanishes_with_its_amplitude():
-    """Driven or not, the blade has one flow: a thousandth of the twist moves power by a thousandth, not by a step."""
-    design = make_design(mu=0.3, inflow="pitt-peters")
-    installed = mfc(design)
-    slight = replace(installed, rest_shapes=1e-3 * installed.rest_shapes)
-    (_, full), (waves, least) = (powers(design, one) for one in (installed, slight))
-    assert_allclose(tip_amplitude(slight), 1e-3 * tip_amplitude(installed), rtol=1e-9)
-    assert_allclose(np.ptp(least) / 1e-3, np.ptp(full), rtol=0.1)
-    off = solve(replace(waves[0], active_twist=None)).require()
-    assert np.abs(least).max() < 2e-5 * off.power.total
-
-
-@pytest.mark.parametrize("given", ["twist_per_rev=2:{}:90", "pitch_per_rev=3:{}:200", "pitch_per_rev=2:{}:0"])
-def test_a_little_per_rev_moves_power_in_proportion(given: str):
-    """With n/rev and without, sections have one flow: from zero there is no step."""
-    name, text = given.split("=")
-    still = solve(make_design(mu=0.3, inflow="pitt-peters")).require().power.total
-    by_size: list[dict[str, Any]] = [{name: text.format(size)} for size in (0.02, 0.01)]
-    few, fewer = (
-        solve(make_design(mu=0.3, inflow="pitt-peters", **one)).require().power.total - still for one in by_size
-    )
-    assert_allclose(few, 2.0 * fewer, rtol=0.05, atol=2.0)  # Trims close to 1e-6 of power.

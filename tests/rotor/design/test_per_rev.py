@@ -13,7 +13,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from rotor.__main__ import main
 from rotor.design.active_twist import ActiveTwist, Harmonic, harmonics_text, read_harmonics
 from rotor.design.aircraft import Stand
 from rotor.design.design import Design
@@ -23,13 +22,9 @@ from rotor.files.make_design import make_design
 from rotor.study.study_file import parse_study
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
-from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.torsion_waves import driven_by_its_root, tip_wave
-
-DEGREE = math.radians(1.0)
-TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
 
 
 def rigid(design: Design) -> Design:
@@ -204,31 +199,27 @@ def test_design_files_hold_both(tmp_path: Path):
         design_from_record({**record, "active_twist": shaped.to_dict()["active_twist"]})
 
 
-def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_on_the_command_line(
+    tmp_path: Path, printed: Callable[..., str], answer: Callable[..., Any], refused: Callable[..., str]
+):
     """Flags, what is printed, JSON; over a design file a flag counts, and zero takes away."""
     flags = ["--mu", "0.2", "--inflow", "pitt-peters", "--pitch-per-rev", "3:1:180", "--twist-per-rev", "2:1.5:57"]
-    assert main(["solve", *flags]) == 0
-    out = capsys.readouterr().out
+    out = printed("solve", *flags)
     assert "root pitch 3/rev ±1.00°, phase 180°" in out
     assert "active twist 2/rev ±1.50°, phase 57°" in out
-    assert main(["solve", *flags, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    found = answer("solve", *flags)
     assert found["pitch_per_rev"] == [{"per_rev": 3, "amplitude_deg": 1.0, "phase_deg": 180.0}]
     assert found["active_twist"]["harmonics"] == [{"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 57.0}]
     design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev="3:1:180", twist_per_rev="2:1.5:57")
     assert found["power_w"]["total"] == pytest.approx(rotor.solve(design).power.total, rel=1e-9)
     design.save(tmp_path / "case.json")
-
-    def solved(*more: str) -> dict[str, Any]:
-        assert main(["solve", "--case", str(tmp_path / "case.json"), "--json", *more]) == 0
-        return json.loads(capsys.readouterr().out)
-
-    assert solved()["power_w"] == found["power_w"]
-    assert not {"pitch_per_rev", "active_twist"} & set(solved("--pitch-per-rev", "2:0:0", "--twist-per-rev", "2:0:0"))
-    other = solved("--pitch-per-rev", "4:0.5:0")
+    case = ("solve", "--case", str(tmp_path / "case.json"))
+    assert answer(*case)["power_w"] == found["power_w"]
+    still = answer(*case, "--pitch-per-rev", "2:0:0", "--twist-per-rev", "2:0:0")
+    assert not {"pitch_per_rev", "active_twist"} & set(still)
+    other = answer(*case, "--pitch-per-rev", "4:0.5:0")
     assert (other["pitch_per_rev"][0]["per_rev"], other["active_twist"]) == (4, found["active_twist"])
-    assert main(["solve", "--pitch-per-rev", "1:1:0"]) == 2
-    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert "cyclic pitch" in refused("solve", "--pitch-per-rev", "1:1:0")
 
 
 def test_a_search_keeps_the_pitch():

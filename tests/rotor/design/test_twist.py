@@ -41,35 +41,26 @@ def test_zero_at_three_quarter_radius_and_round_trip(spec: str):
     assert hash(parse(spec)) == hash(law)
 
 
-def test_linear_is_degrees_per_radius():
+def test_laws_by_hand():
     """−8° per radius: root at 0.25 is 4° up, tip 2° down."""
     assert_allclose(np.degrees(parse("linear:-8")(np.array([0.25, 1.0]))), [4.0, -2.0], rtol=1e-13)
-
-
-def test_quadratic_root_tip_difference_and_curvature():
     law = parse("quadratic:6,-14")
     assert_allclose(np.degrees(law(1.0) - law(0.0)), -14.0, rtol=1e-13)
     second = law(0.2) - 2.0 * law(0.5) + law(0.8)
     assert_allclose(np.degrees(second) / 0.3**2 / 2.0, 6.0, rtol=1e-10)
+    law = parse("segments:-12,-4@0.5")
+    assert_allclose(np.degrees(law(0.4) - law(0.3)) / 0.1, -12.0, rtol=1e-10)
+    assert_allclose(np.degrees(law(0.9) - law(0.8)) / 0.1, -4.0, rtol=1e-10)
+    assert_allclose(law(0.5 - 1e-9), law(0.5 + 1e-9), atol=1e-8)
+    # θ + θ_tip/0.75 = θ_tip/r, eq. (1.1).
+    law = IdealTwist(0.11)
+    assert_allclose((law(R) + 0.11 / 0.75) * R, 0.11, rtol=1e-13)
 
 
 @given(rate=st.floats(-24, 5), division=st.floats(0.2, 0.9), second=st.floats(0.01, 0.09))
 def test_equal_rates_are_linear(rate: float, division: float, second: float):
     law = PiecewiseLinearTwist((rate, rate, rate), (division, division + second))
     assert_allclose(law(R), LinearTwist(rate)(R), atol=1e-12)
-
-
-def test_segments_have_their_rates_and_no_step():
-    law = parse("segments:-12,-4@0.5")
-    assert_allclose(np.degrees(law(0.4) - law(0.3)) / 0.1, -12.0, rtol=1e-10)
-    assert_allclose(np.degrees(law(0.9) - law(0.8)) / 0.1, -4.0, rtol=1e-10)
-    assert_allclose(law(0.5 - 1e-9), law(0.5 + 1e-9), atol=1e-8)
-
-
-def test_ideal_is_hyperbolic():
-    """θ + θ_tip/0.75 = θ_tip/r, eq. (1.1)."""
-    law = IdealTwist(0.11)
-    assert_allclose((law(R) + 0.11 / 0.75) * R, 0.11, rtol=1e-13)
 
 
 def test_ideal_twist_without_a_number_is_for_hover_at_the_weight():
@@ -79,15 +70,12 @@ def test_ideal_twist_without_a_number_is_for_hover_at_the_weight():
     assert 0.05 < light.tip_pitch < heavy.tip_pitch < 0.25
 
 
-def test_uh60a_table_agrees_with_genhel():
+def test_uh60a_table_agrees_with_genhel_and_a_line():
     """GenHel TWSTMR (NASA CR-166309) relative to 0.75 R, from two transcriptions; the deck is within 0.12°."""
     stations = [0.25, 0.30, 0.40, 0.50, 0.60, 0.70, 0.80, 0.90, 0.95]
     genhel = [8.70, 7.85, 6.10, 4.35, 2.55, 0.85, -0.65, -2.65, -3.45]
     assert_allclose(np.degrees(BUILTIN(stations)), genhel, atol=0.13)
-
-
-def test_uh60a_equivalent_linear_twist():
-    """r²-weighted least squares over 0.2…1: −15.9°, which supports the document's −16°."""
+    # r²-weighted least squares over 0.2…1: −15.9°, which supports the document's −16°.
     r = np.linspace(0.2, 1.0, 801)
     slope, _ = np.polyfit(r, np.degrees(BUILTIN(r)), 1, w=r)
     assert_allclose(slope, -15.9, atol=0.15)

@@ -37,16 +37,13 @@ def test_published_flap_frequency_and_lock_number():
     assert_allclose(lock_number(rotor, 1.225, 5.73), 8.07, atol=0.05)
 
 
-def test_document_inertia():
+def test_inertia_of_the_document_and_weight_of_the_blade():
     """13.92 kg/m about a hinge at the centre: m R³/3 = 2539 kg m², Lock number 6.5."""
     rotor = uh60a_rotor("thesis")
     assert_allclose(rotor.blade.flap_inertia, 2539.0, atol=1.0)
     assert_allclose(lock_number(rotor, 1.225, 5.73), 6.5, atol=0.05)
     assert rotor.flap_frequency_squared == 1.0
-
-
-def test_blade_weight_lowers_the_coning():
-    """g S/(I Ω²) = 9.807·385.66/(2050.8·729) = 0.00253 rad."""
+    # g S/(I Ω²) = 9.807·385.66/(2050.8·729) = 0.00253 rad.
     rotor = uh60a_rotor("flight")
     assert_allclose(flap_dynamics(rotor, 1.225, blade_weight=True).weight, 0.00253, atol=1e-5)
     assert flap_dynamics(rotor, 1.225, blade_weight=False).weight == 0.0

@@ -5,6 +5,7 @@ import re
 import sys
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +15,6 @@ from numpy.testing import assert_allclose
 from test_rotor_file import DECK, GOOD, POLARS, polar_file
 
 from explorer.tabs.design_files import UploadedFiles
-from rotor.__main__ import main
 from rotor.airfoil.c81 import format_c81, parse_c81
 from rotor.airfoil.polars import COLUMNS, Polar, parse_polars
 from rotor.design.aircraft import Aircraft
@@ -224,16 +224,14 @@ def test_names_stay_inside_the_folder(name: str, tmp_path: Path):
     assert load_rotor(folder / "my.toml", allow_outside=True).rotor.blade.own_sections[0].name == "mine"
 
 
-def test_no_line_of_a_foreign_file_is_quoted(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_no_line_of_a_foreign_file_is_quoted(tmp_path: Path, refused: Callable[..., str]):
     """On the command line too, where `--allow-outside` is for those who want it."""
     secret = tmp_path / "secret"
     secret.write_text("root:x:0:0:very secret\n", encoding="utf-8")
     (tmp_path / "own").mkdir()
     path = tmp_path / "own" / "my.toml"
     path.write_text(OUTSIDE.replace("NAME", str(secret)), encoding="utf-8")
-    assert main(["solve", "--rotor", str(path)]) == 2
-    said = capsys.readouterr().err
+    said = refused("solve", "--rotor", str(path))
     assert "outside its folder" in said
     assert "very secret" not in said
-    assert main(["solve", "--rotor", str(path), "--allow-outside"]) == 2
-    assert "outside its folder" not in capsys.readouterr().err
+    assert "outside its folder" not in refused("solve", "--rotor", str(path), "--allow-outside")

@@ -120,7 +120,6 @@ BAD = [
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
     ("radius_m = 5.0", "radius = 5.0", "my.toml, line 5: unknown key 'radius'; did you mean 'radius_m'?"),
-    ("radius_m = 5.0", "", "my.toml, line 3: [main_rotor] has no radius_m: add radius_m = 1.0"),
     ("blades = 3", "blades = 3.5", "my.toml, line 4: blades is 3.5, not a whole number"),
     ("blades = 3", 'blades = 3\nhub = "teetering"', "my.toml, line 5: hub is 'teetering' with 3 blades"),
     (
@@ -130,7 +129,6 @@ BAD = [
     ),
     ("speed_rpm = 400.0", "speed_rpm = 400.0\ntip_speed_m_s = 200.0", "my.toml, line 7: speed_rpm and"),
     ("chord_m = [0.30, 0.20]", "chord_m = [0.3, 0.2, 0.2]", "my.toml, line 9: chord_r has 2 and chord_m 3 values"),
-    ("chord_r = [0.2, 1.0]", "chord_r = [1.0, 0.2]", "my.toml, line 8: chord_r goes from 1 to 0.2"),
     ("chord_r = [0.2, 1.0]", "chord_r = [1.0, 1.0]", "chord_r has 1 twice: for a step write 0.999 and 1"),
     (
         '"naca0012"',
@@ -138,7 +136,6 @@ BAD = [
         "line 10: this is not TOML (Unescaped '\\' in a string): write key = value, texts in",
     ),
     ('section = "naca0012"', 'section = "naca9999x"', "my.toml, line 10: section 'naca9999x' is not known"),
-    ("twist_deg = [6.0, 0.0, -3.0]", "twist_deg = [6.0, true, -3.0]", "my.toml, line 12: twist_deg holds True, not a"),
     ("mass_kg = 1500.0", "mass_kg = 1500.0\ncolour = 3", "my.toml, line 19: unknown key 'colour': the keys are"),
     (
         "mass_kg = 1500.0",

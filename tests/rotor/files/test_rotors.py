@@ -4,12 +4,14 @@ import json
 import math
 import pickle
 import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 from numpy.testing import assert_allclose
 
 from rotor import make_design
-from rotor.__main__ import main
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
@@ -70,15 +72,12 @@ def test_the_thesis_preset_on_another_rotor_has_a_caveat():
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
 
 
-def test_without_tail_rotor_the_documents_share_is_used():
+def test_without_or_with_another_hub_or_tail_rotor_there_is_a_caveat():
     text = own("r22")["my.toml"]
     craft = read_aircraft("my.toml", {"my.toml": re.sub(r"(?s)\[tail_rotor\].*\[airframe\]", "[airframe]", text)})
     solution = solve(make_design(rotor=craft, mu=0.2)).require()
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
     assert "no-tail-rotor" in [one.name for one in solution.caveats]
-
-
-def test_a_teetering_hub_has_a_caveat_about_coning():
     text = own("r22")["my.toml"].replace("teetering-with-coning-hinges", "teetering")
     solution = solve(make_design(rotor=read_aircraft("my.toml", {"my.toml": text}), mu=0.1))
     assert [one.name for one in solution.caveats] == ["teetering", "no-blade-structure"]
@@ -123,18 +122,13 @@ def test_fewer_blades_have_a_greater_bound():
     assert bounds["r22"].any_circulation > bounds["uh60a"].any_circulation > bounds["s61"].any_circulation > 1.0
 
 
-def test_rotor_flag(capsys: pytest.CaptureFixture[str], tmp_path):
-    assert main(["solve", "--rotor", "r22", "--hover", "--json"]) == 0
-    named = json.loads(capsys.readouterr().out)
+def test_rotor_flag(
+    printed: Callable[..., str], answer: Callable[..., Any], refused: Callable[..., str], tmp_path: Path
+):
     path = tmp_path / "mine.toml"
     path.write_text(own("r22")["my.toml"], encoding="utf-8")
-    assert main(["solve", "--rotor", str(path), "--hover", "--json"]) == 0
-    read = json.loads(capsys.readouterr().out)
+    named, read = (answer("solve", "--rotor", rotor, "--hover") for rotor in ("r22", str(path)))
     assert named["power_w"] == read["power_w"]
-    assert main(["sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--preset", "thesis"]) == 0
-    for words, says in (
-        (["--rotor", "r44"], "rotor 'r44' is not known: use uh60a, r22, s61, gazelle, bo105, xv15, pca2,"),
-        (["--rotor", "none.toml"], "rotor file 'none.toml' does not exist"),
-    ):
-        assert main(["solve", *words]) == 2
-        assert says in capsys.readouterr().err
+    assert printed("sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--preset", "thesis").count("\n") == 3
+    assert "rotor 'r44' is not known: use uh60a, r22, s61, gazelle" in refused("solve", "--rotor", "r44")
+    assert "rotor file 'none.toml' does not exist" in refused("solve", "--rotor", "none.toml")

@@ -1,18 +1,20 @@
 """How sure a saving is, and where the best twist may lie, beside new searches with changed inputs."""
 
-import json
 import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import pytest
 
 import rotor
-from rotor.__main__ import main
 from rotor.design.design import Design
 from rotor.design.uncertain import UNCERTAIN
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.objective import at_condition, over_conditions
-from rotor.optimisation.search import Search, run_search
+from rotor.optimisation.results import BestTwist, TwistRange
+from rotor.optimisation.search import Search, best_linear_twist, nearby_flights, run_search
 from rotor.trim.doubt import doubt
 from tests.patched import Patch
 from tests.uncertain import either_side
@@ -78,20 +80,65 @@ def test_other_objectives_have_no_band():
     assert rotor.optimise(design, "linear", quantity="induced", starts=1).doubt is None
 
 
-def test_hover_has_another_wake_with_more_twist(capsys: pytest.CaptureFixture[str]):
-    assert main(["optimise", "--hover", "--starts", "1", "--doubt", "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    line = answer["models"]["inflow lifting-line"]["parameters"]["rate_deg"]
-    assert line < answer["parameters"]["rate_deg"] - 1.0
-    low, high = answer["doubt_band"]["rate_deg"]
-    assert low < answer["parameters"]["rate_deg"] < high
-    assert math.isfinite(answer["saving_doubt_percent"])
+def test_hover_has_another_wake_with_more_twist(answer: Callable[..., Any]):
+    found = answer("optimise", "--hover", "--starts", "1", "--doubt")
+    line, ours = found["models"]["inflow lifting-line"]["parameters"]["rate_deg"], found["parameters"]["rate_deg"]
+    low, high = found["doubt_band"]["rate_deg"]
+    assert line < ours - 1.0
+    assert low < ours < high
+    assert math.isfinite(found["saving_doubt_percent"])
 
 
-def test_the_doubt_of_a_twist_in_flight_names_masses_and_drag_areas(capsys: pytest.CaptureFixture[str]):
-    command = ["optimise", "--mu", "0.2", "--inflow", "uniform", "--starts", "1", "--doubt", "--json"]
-    assert main(command) == 0
-    flights = json.loads(capsys.readouterr().out)["flights"]
-    assert list(flights) == ["mass 6658 kg", "mass 9987 kg", "drag area 0.0 m²", "drag area 4.1 m²"]
-    assert main([*command, "--objective", "induced"]) == 2
-    assert "total power of one flight condition" in capsys.readouterr().err
+def test_the_doubt_of_a_twist_in_flight_names_masses_and_drag_areas(
+    answer: Callable[..., Any], refused: Callable[..., str]
+):
+    command = ["optimise", "--mu", "0.2", "--inflow", "uniform", "--starts", "1", "--doubt"]
+    flights = ["mass 6658 kg", "mass 9987 kg", "drag area 0.0 m²", "drag area 4.1 m²"]
+    assert list(answer(*command)["flights"]) == flights
+    assert "total power of one flight condition" in refused(*command, "--objective", "induced")
+
+
+# How far the best linear twist can move, beside searches alone
+
+
+def degrees(best: BestTwist, cause: str) -> tuple[float, float]:
+    low, high = next(each.rates for each in best.ranges if each.cause == cause)
+    return math.degrees(low), math.degrees(high)
+
+
+def test_drag_area_and_mass_move_it_further_than_what_is_uncertain():
+    design = rotor.make_design(mu=0.35)
+    best = best_linear_twist(design)
+    width = {each.cause: each.width for each in best.ranges}
+    assert set(width) == {"flat", "doubt", "mass", "drag area"}
+    assert width["drag area"] > width["doubt"]
+    sleek, draggy = degrees(best, "drag area")
+    assert -7.5 < sleek < -6.3
+    light, heavy = degrees(best, "mass")
+    assert heavy < math.degrees(best.rate) < light
+    assert draggy < math.degrees(best.rate) < sleek
+    low, high = degrees(best, "flat")
+    assert low < math.degrees(best.rate) < high
+
+
+def test_ends_are_those_of_searches_alone():
+    design = rotor.make_design(mu=0.3, inflow="uniform")
+    sleek = replace(design, fuselage=replace(design.fuselage, drag_area=0.0))
+    alone = rotor.optimise(sleek, "linear", starts=1).best
+    assert degrees(best_linear_twist(design), "drag area")[0] == pytest.approx(
+        math.degrees(alone.parameters[0]), abs=0.1
+    )
+
+
+def test_on_a_stand_neither_mass_nor_drag_counts():
+    stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
+    assert nearby_flights(stand) == []
+    free = rotor.make_design(rotor="pca2", mu=0.2, trim="free-rotor", stand={"ct_over_sigma": 0.07})
+    with pytest.raises(ValueError, match="takes no power"):
+        best_linear_twist(free)
+
+
+def test_a_range_without_an_end_is_left_out():
+    assert not math.isfinite(TwistRange("mass", (-0.2, math.nan)).width)
+    heavy = rotor.make_design(hover=True, mass_kg=15000)
+    assert "mass" not in {each.cause for each in best_linear_twist(heavy).ranges}

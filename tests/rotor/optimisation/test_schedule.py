@@ -22,8 +22,7 @@ NAMES = ("linear", "quadratic", "two-segment", "free-form")
 
 
 def small() -> Design:
-    design = make_design()
-    return replace(design, models=replace(design.models, inflow="uniform", elements=20, azimuths=48))
+    return make_design(inflow="uniform", elements=20, azimuths=48)
 
 
 def plan(

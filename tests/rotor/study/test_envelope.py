@@ -2,15 +2,14 @@
 
 import csv
 import io
-import json
 import math
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from rotor.__main__ import main
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION
 from rotor.study.envelope import find_limit
@@ -97,14 +96,11 @@ def test_what_has_none():
 
 
 @pytest.mark.slow
-def test_the_command(capsys: pytest.CaptureFixture[str]):
+def test_the_command(printed: Callable[..., str], answer: Callable[..., Any]):
     flags = ["envelope", "--mu", "0.2", "--twist", "linear:-10", "--inflow=drees", "--elements=16", "--azimuths=32"]
-    assert main(flags) == 0
-    assert "top speed  µ 0." in capsys.readouterr().out
-    assert main([*flags, "--json"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)
-    assert main([*flags, "--csv", "-"]) == 0
-    (row,) = csv.DictReader(io.StringIO(capsys.readouterr().out))
+    assert "top speed  µ 0." in printed(*flags)
+    (found,) = answer(*flags)
+    (row,) = csv.DictReader(io.StringIO(printed(*flags, "--csv", "-")))
     assert float(row["load_factor"]) == found["points"][0]["load_factor"]
     assert row["limit"] in ("stall", "engines")
     assert_allclose(float(row["mass_kg"]), float(row["load_factor"]) * rotor.make_design().condition.mass, rtol=1e-12)

@@ -1,12 +1,12 @@
 """A row of a study is a design again: in Python, and by `solve --row`."""
 
-import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.__main__ import main
 from rotor.files.design_file import load_design
 from rotor.study.chunks import StudyFolder, StudyProvenance, arrow_modules, evaluate_chunk
 from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
@@ -97,18 +97,14 @@ def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
         design_at(f"{tmp_path / 'some'}:3")
 
 
-def test_the_command_solves_and_saves_a_row(
-    trims: tuple[Path, Results], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-):
+def test_the_command_solves_and_saves_a_row(trims: tuple[Path, Results], tmp_path: Path, answer: Callable[..., Any]):
     folder, results = trims
-    file = tmp_path / "row.json"
-    assert main(["solve", "--row", f"{folder}:5", "--save", str(file), "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
-    row = results.row_of(5)
-    assert_allclose(answer["power_w"]["total"], results.columns["power_total_w"][row], rtol=1e-8)
+    file, row = tmp_path / "row.json", results.row_of(5)
+    found = answer("solve", "--row", f"{folder}:5", "--save", str(file))
+    assert_allclose(found["power_w"]["total"], results.columns["power_total_w"][row], rtol=1e-8)
     assert solve(load_design(file)).power.total == solve(design_at(f"{folder}:5")).power.total
-    assert main(["solve", "--row", f"{folder}:5", "--mass-kg", "9000", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["power_w"]["total"] > answer["power_w"]["total"]
+    heavy = answer("solve", "--row", f"{folder}:5", "--mass-kg", "9000")
+    assert heavy["power_w"]["total"] > found["power_w"]["total"]
 
 
 @pytest.mark.parametrize(
@@ -121,9 +117,6 @@ def test_the_command_solves_and_saves_a_row(
         (["--save", "a.toml"], "a.toml"),
     ],
 )
-def test_bad_input_gets_one_sentence(flags: list[str], sentence: str, capsys: pytest.CaptureFixture[str]):
+def test_bad_input_gets_one_sentence(flags: list[str], sentence: str, refused: Callable[..., str]):
     study = str(asset_path("studies") / "hover_cruise_264")
-    assert main(["solve", *(flag.replace("{study}", study) for flag in flags)]) == 2
-    error = capsys.readouterr().err
-    assert sentence in error
-    assert error.count("\n") == 1
+    assert sentence in refused("solve", *(flag.replace("{study}", study) for flag in flags))

@@ -196,7 +196,7 @@ def test_two_modes_suffice(patch: Patch):
     assert_allclose(few.elastic.tip.mean(), many.elastic.tip.mean(), atol=math.radians(0.03))
 
 
-def test_more_inertia_of_the_tip_mass_lifts_the_nose():
+def test_tension_unwinds_a_blade_and_its_tip_mass_lifts_the_nose():
     """Mass behind the axis of a coned blade is pulled down behind it: with a heavier swept tip the nose goes up."""
     light = design(0.0)
     structure = light.rotor.blade.structure
@@ -205,10 +205,7 @@ def test_more_inertia_of_the_tip_mass_lifts_the_nose():
     heavy = with_structure(light, mass_per_length=masses, tension_gyration=0.0)
     light = with_structure(light, tension_gyration=0.0)
     assert mean_tip(solve(heavy)) > mean_tip(solve(light))
-
-
-def test_tension_unwinds_a_twisted_blade():
-    """k_A² of zero leaves the blade more nose-down at the tip, by ∫ F k_A² θ'/GJ dr to first order."""
+    # k_A² of zero leaves the blade more nose-down at the tip, by ∫ F k_A² θ'/GJ dr to first order.
     made = design(0.0)
     structure = made.rotor.blade.structure
     without = with_structure(made, tension_gyration=0.0)

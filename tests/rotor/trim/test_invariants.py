@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.columns.flight import LEAST_AZIMUTHS, flight_system
-from rotor.design.design import Design
-from rotor.design.twist import LinearTwist
-from rotor.engine.linearise import System, evaluate, jacobian
+from rotor.columns.flight import LEAST_AZIMUTHS
+from rotor.design.twist import LinearTwist, TableTwist
+from rotor.engine.linearise import evaluate, jacobian
 from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.low_speed import trim_problem
 from rotor.trim.solve import solve
 
 
@@ -55,11 +53,8 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
 
 def test_twist_offset_is_absorbed_by_collective():
     """A constant added to the twist is collective: the same rotor."""
-    from rotor.design.twist import TableTwist
-
-    a = solve(make_design(mu=0.2, twist=LinearTwist(-0.2))).require()
     table = TableTwist((0.0, 1.0), (0.3, 0.1))
-    b = solve(make_design(mu=0.2, twist=table)).require()
+    a, b = (solve(make_design(mu=0.2, twist=twist)).require() for twist in (LinearTwist(-0.2), table))
     assert_allclose(b.power.total, a.power.total, rtol=1e-10)
 
 
@@ -77,10 +72,10 @@ def test_low_speed_tends_to_symmetry(preset: str):
 @pytest.mark.parametrize(("preset", "mu"), [("flight", 0.0), ("thesis", 0.0), ("flight", 0.3), ("thesis", 0.3)])
 def test_elements_converge(preset: str, mu: float):
     """Figs. 3.7, 3.8: power settles with the number of elements; 40 are within 0.6 % of 320, and 80 nearer."""
-    design = make_design(preset=preset, twist="linear:-16", mu=mu, inflow="drees")
 
     def power(elements: int) -> float:
-        return solve(replace(design, models=replace(design.models, elements=elements))).require().power.main_rotor
+        design = make_design(preset=preset, twist="linear:-16", mu=mu, inflow="drees", elements=elements)
+        return solve(design).require().power.main_rotor
 
     fine = power(320)
     errors = [abs(power(n) / fine - 1.0) for n in (20, 40, 80)]
@@ -92,8 +87,7 @@ def test_elements_converge(preset: str, mu: float):
 @pytest.mark.parametrize("inflow", ["pitt-peters", "local-momentum"])
 def test_few_azimuths_stand_for_all(inflow: str, mu: float):
     """The trim on a third of the azimuths, and its derivatives as a step on all: what is left of the error."""
-    made = make_design(mu=mu)
-    design = replace(made, models=replace(made.models, inflow=inflow))
+    design = make_design(mu=mu, inflow=inflow)
     whole = solve(design).require()
     few = solve(replace(design, models=replace(design.models, azimuths=LEAST_AZIMUTHS))).require()
     assert few.disk.theta.shape[1] == LEAST_AZIMUTHS
@@ -103,20 +97,3 @@ def test_few_azimuths_stand_for_all(inflow: str, mu: float):
     matrices = [jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)]
     left = np.eye(len(matrices[0])) - np.linalg.solve(matrices[1], matrices[0])
     assert np.abs(np.linalg.eigvals(left)).max() < 2e-2
-
-
-def test_azimuths_that_cannot_be_thinned():
-    """No fewer than 40 are left, and all of a lifting line."""
-
-    def system(of: Design) -> System:
-        return flight_system(trim_problem(of))
-
-    few = make_design(mu=0.2, inflow="drees")
-    few = replace(few, models=replace(few.models, azimuths=72))
-    whole = system(few)
-    assert whole.thin is whole.grid
-    assert solve(few).converged
-    more = replace(few, models=replace(few.models, azimuths=150))
-    assert system(more).thin.waves.azimuths == 50
-    line = system(make_design(mu=0.2))
-    assert line.thin is line.grid

@@ -55,17 +55,18 @@ def test_hover_is_the_limit_of_forward_flight(twist: str, elastic: bool):
     assert watts(at.at(mu=1e-4)) == pytest.approx(watts(at), rel=1e-5)
 
 
-def test_without_it_hover_is_no_limit_and_at_speed_it_hardly_matters():
+def test_it_changes_slow_flight_alone():
     with_, without = design(), design(low_speed="wake")
     assert watts(without.at(mu=0.002)) < 0.995 * watts(without)
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
-
-
-def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed():
     with_, without = design("linear:-12.345"), design("linear:-12.345", low_speed="wake")
     before = hover_difference.cache_info()
     assert watts(with_.at(mu=0.15)) == watts(without.at(mu=0.15))
     assert hover_difference.cache_info() == before
+    at = design().at(mu=0.05)
+    with_ = replace(at, models=replace(at.models, inflow="drees"))
+    without = replace(with_, models=replace(with_.models, low_speed="wake"))
+    assert watts(with_) == watts(without)
 
 
 def test_where_hover_has_no_answer_a_caveat_says_so(patch: Patch):
@@ -79,10 +80,3 @@ def test_where_hover_has_no_answer_a_caveat_says_so(patch: Patch):
     assert found.power.total == pytest.approx(solve(without).require().power.total, rel=1e-12)
     faster = solve(at.at(mu=0.15)).require()
     assert "low-speed-not-matched" not in {caveat.name for caveat in faster.caveats}
-
-
-def test_linear_inflow_stays_what_it_is():
-    at = design().at(mu=0.05)
-    with_ = replace(at, models=replace(at.models, inflow="drees"))
-    without = replace(with_, models=replace(with_.models, low_speed="wake"))
-    assert watts(with_) == watts(without)

@@ -13,7 +13,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import MODELS
 from rotor.aero.problem import build_problem
 from rotor.files.make_design import make_design
-from rotor.trim.power import power_budget, profile_power_coefficient
+from rotor.trim.power import power_budget, profile_power_coefficient, tail_rotor_power
 from rotor.trim.solve import solve
 from tests.rotor.check_jacobian import disk_sums, elements_at
 
@@ -25,8 +25,7 @@ TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8
 @pytest.mark.parametrize("twist", TWISTS)
 def test_energy_identity(inflow: str, mu: float, twist: str):
     """P_shaft = Σ(λ_i dF_z + U dD) + D·V: torque, dissipation and trim are computed apart and must meet."""
-    design = make_design(twist=twist, mu=mu)
-    solution = solve(replace(design, models=replace(design.models, inflow=inflow))).require()
+    solution = solve(make_design(twist=twist, mu=mu, inflow=inflow)).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
@@ -54,9 +53,7 @@ def test_induced_power_of_linear_inflow_does_not_depend_on_twist(name: str):
     for mu in (0.15, 0.3):
         induced = []
         for twist in ("linear:0", "linear:-8", "linear:-16"):
-            design = make_design(twist=twist, mu=mu)
-            design = replace(design, models=replace(design.models, inflow=name))
-            induced.append(solve(design).require().power.induced)
+            induced.append(solve(make_design(twist=twist, mu=mu, inflow=name)).require().power.induced)
         assert np.ptp(induced) < 0.01 * np.mean(induced)
 
 
@@ -92,14 +89,47 @@ def test_numerical_profile_power_of_a_constant_drag():
     assert_allclose(budget.profile / problem.design.power_unit, expected, rtol=5e-4)  # midpoint rule in r
 
 
-def test_parasite_power_by_hand():
+def test_parasite_and_induced_power_by_hand():
     """µ 0.3: D = ½·1.225·(66.25)²·3.2646 = 8776 N, times V = 581 kW."""
     power = solve(make_design(mu=0.3)).require().power
     assert_allclose(power.parasite, 581.4e3, rtol=1e-3)
-
-
-def test_induced_power_is_momentum_theory_with_uniform_inflow():
-    """Uniform inflow: Σ λ0 dF_z = λ0 C_T."""
+    # Uniform inflow: Σ λ0 dF_z = λ0 C_T.
     design = make_design(mu=0.25)
     solution = solve(replace(design, models=replace(design.models, inflow="uniform", swirl=False))).require()
     assert_allclose(solution.power.induced, solution.controls.lambda0 * solution.ct * design.power_unit, rtol=1e-9)
+
+
+# The tail rotor
+
+
+TAIL = make_design().tail_rotor or pytest.fail("The UH-60A has a tail rotor.")
+
+
+def test_hover_power_by_hand():
+    """T = Q/(l cos 20°); induced T^1.5/√(2ρA)/B; profile σ c̄_d/8 at the mean angle 6C_T/(σa)."""
+    torque = 50_000.0
+    thrust = torque / (9.926 * math.cos(math.radians(20.0)))
+    area, tip = math.pi * 1.6764**2, 124.62 * 1.6764
+    unit = 1.225 * area * tip**2
+    solidity = 4 * 0.2469 / (math.pi * 1.6764)
+    assert_allclose(solidity, 0.1875, atol=1e-4)  # published, TM-85890
+    induced = thrust**1.5 / math.sqrt(2.0 * 1.225 * area) / 0.92
+    alpha = 6.0 * (thrust / unit) / (solidity * 5.73)
+    drag = 0.0087 - 0.0216 * alpha + 0.4 * alpha**2
+    profile = solidity * drag / 8.0 * unit * tip
+    assert_allclose(tail_rotor_power(TAIL, torque, 0.0, 1.225)[0], induced + profile, rtol=1e-10)
+
+
+@pytest.mark.parametrize("speed", [0.0, 30.0, 80.0])
+@pytest.mark.parametrize("torque", [-4e4, 5e3, 4e4, 9e4])
+def test_slope_is_exact(speed: float, torque: float):
+    _, slope = tail_rotor_power(TAIL, torque, speed, 1.1)
+    difference = (
+        tail_rotor_power(TAIL, torque + 1.0, speed, 1.1)[0] - tail_rotor_power(TAIL, torque - 1.0, speed, 1.1)[0]
+    ) / 2.0
+    assert_allclose(slope, difference, rtol=1e-6)
+
+
+def test_the_thesis_adds_five_per_cent():
+    power = solve(make_design(preset="thesis", mu=0.15)).require().power
+    assert_allclose(power.tail, 0.05 * power.main_rotor, rtol=1e-14)

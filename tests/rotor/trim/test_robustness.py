@@ -197,16 +197,13 @@ def test_continuation_on_a_stand_stays_within_its_limits():
     assert solution.message
 
 
-def test_a_hopeless_design_ends_within_the_passes_allowed():
+def test_a_hopeless_design_ends_within_the_passes_allowed_or_when_told():
     solution = solve(HOPELESS)
     assert not solution.converged
     assert solution.passes <= DEFAULT_OPTIONS.most_passes + DEFAULT_OPTIONS.max_passes
     few = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, most_passes=60))
     assert few.passes < solution.passes
     assert not few.converged
-
-
-def test_a_solve_ends_when_it_is_told_to_stop():
     asked: list[int] = []
 
     def stop() -> bool:

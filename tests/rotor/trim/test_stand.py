@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.inflow import DiskFlow
-from rotor.aero.inflow.linear import MODELS, half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.design.aircraft import Stand, read_stand
 from rotor.design.design import Design
@@ -89,16 +87,13 @@ def test_given_controls_return_the_trim_they_came_from():
     assert_allclose(back.power.shaft, tunnel.power.shaft, rtol=1e-8)
 
 
-def test_hover_at_the_collective_of_a_thrust_has_that_thrust():
+def test_hover_at_a_collective_and_without_thrust():
     thrust = solve(bench("tunnel-thrust", 0.0)).require()
     stand = Stand(collective=thrust.controls.collective)
     given = solve(replace(thrust.design, condition=replace(thrust.design.condition, stand=stand))).require()
     assert_allclose(given.ct, thrust.ct, rtol=1e-10)
     assert_allclose(given.power.shaft, thrust.power.shaft, rtol=1e-10)
-
-
-def test_hover_without_thrust_takes_profile_power():
-    """σ C_d0/8 with the drag near zero lift, and a little from the twist: between 0.006 and 0.016."""
+    # σ C_d0/8 with the drag near zero lift, and a little from the twist: between 0.006 and 0.016.
     solution = solve(bench("tunnel-no-thrust", 0.0)).require()
     assert abs(solution.ct) < 1e-12
     assert 0.006 < 8.0 * solution.cp / solution.design.rotor.solidity < 0.016
@@ -157,19 +152,6 @@ def test_negative_thrust_mirrors_positive(inflow: str, mu: float):
     assert down.power.induced == pytest.approx(up.power.induced, rel=1e-4)
     assert down.controls.flap_1c == pytest.approx(-up.controls.flap_1c, abs=1e-6)
     assert down.controls.flap_1s == pytest.approx(-up.controls.flap_1s, abs=1e-6)
-
-
-@pytest.mark.parametrize("axial", [0.02, -0.02, -0.06])
-def test_wake_parameters_of_upflow(axial: float):
-    """A wake above the disk has the skew of its mirror image, and exact slopes."""
-    wake = DiskFlow(0.2, axial - 0.01, 0.01)
-    here, mirrored = half_skew(wake), half_skew(DiskFlow(0.2, abs(axial) - 0.01, 0.01))
-    assert_allclose(here[0], mirrored[0])
-    for model in MODELS:
-        assert_allclose(model.longitudinal(wake)[0], model.longitudinal(DiskFlow(0.2, abs(axial) - 0.01, 0.01))[0])
-    for name, slope in (("mu_x", here[1]), ("mu_z", here[2]), ("lambda0", here[2])):
-        low, high = (half_skew(replace(wake, **{name: getattr(wake, name) + h}))[0] for h in (-1e-7, 1e-7))
-        assert_allclose(slope, (high - low) / 2e-7, rtol=1e-6, atol=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -14,11 +14,6 @@ def test_the_shares_are_those_shipped():
         still_true(row)
 
 
-def test_a_point_is_inside_up_to_its_band():
-    assert PointAndBand("", "hover", -0.05, 0.05).inside
-    assert not PointAndBand("", "hover", 0.051, 0.05).inside
-
-
 def test_points_inside_and_outside_are_counted_by_kind_of_flight():
     """Forty of one kind say nothing of another."""
     hover = [PointAndBand("", "hover", error, 0.05) for error in (0.2, -0.01)]

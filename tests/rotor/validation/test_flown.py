@@ -1,26 +1,35 @@
 """Airloads, twist and power of rotors in flight: what the files say, how curves are compared, and what is found."""
 
 import cmath
-import json
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.__main__ import main
+from rotor.aero.lifting_line import WakeCourse
 from rotor.files.make_design import make_design
+from rotor.trim.analysis import Analysis
+from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation import hart2
 from rotor.validation.airloads import (
     HART2_BASELINE,
+    PITCH_LINK,
+    PITCH_LINK_SPEEDS,
     CurveAgreement,
+    agreement,
     airload_agreement,
+    computed_curve,
     harmonics,
     measured_curves,
     wave_amplitude,
 )
 from rotor.validation.flown import LEAST, flown_angles, flown_powers, shape_errors, tail_pitch
+from rotor.validation.hart2 import height, measured_vortices
 from rotor.validation.trust import rms
 
 
@@ -131,11 +140,116 @@ def test_pitch_of_the_tail_rotor_in_hover():
         tail_pitch(replace(solution, design=replace(solution.design, tail_rotor=None)))
 
 
-def test_validate_shows_them(capsys: pytest.CaptureFixture[str]):
-    assert main(["validate", "hart2-airloads", "--json"]) == 0
-    rows = json.loads(capsys.readouterr().out)["airloads"]
+def test_validate_shows_them(printed: Callable[..., str], answer: Callable[..., Any]):
+    rows = answer("validate", "hart2-airloads")["airloads"]
     assert [row["quantity"] for row in rows] == ["cn_m2", "cm_m2", "tip_twist_deg", "tip_flap"] * 2
     assert [row["case"] for row in rows] == ["BL"] * 4 + ["MN"] * 4
     assert not any(row["fitted"] for row in rows)
-    assert main(["validate", "hart2-airloads"]) == 0
-    assert "HART II, DNW 2001" in capsys.readouterr().out
+    assert "HART II, DNW 2001" in printed("validate", "hart2-airloads")
+
+
+# HART II: definitions against facts and closed forms
+
+
+CURVES = hart2.curves()
+CASES = {case.name: case for case in hart2.cases()}
+
+
+@pytest.fixture(scope="module")
+def solutions() -> dict[str, Solution]:
+    return {name: solve(case.design()).require() for name, case in CASES.items()}
+
+
+def test_amplitude_and_phase_of_a_known_curve(solutions: dict[str, Solution]):
+    """2 cos(3ψ − 40°) beside our twist: its amplitude, its phase, and how late ours is."""
+    psi = np.linspace(0.0, 2.0 * math.pi, 30, endpoint=False)
+    curve = replace(CURVES["MN", "tip_twist_deg"], psi=psi, values=2.0 * np.cos(3.0 * psi - math.radians(40.0)))
+    one = agreement(curve, solutions["MN"])
+    assert_allclose(one.amplitude(3, measured=True), 2.0)
+    assert_allclose(one.phase_deg(3, measured=True), 40.0)
+    assert_allclose(one.late_deg(3), one.phase_deg(3) - 40.0)
+    assert_allclose(one.ratio(3), 0.5 * one.amplitude(3) - 1.0)
+
+
+def test_measured_motion_and_vortices_are_those_of_the_source():
+    """23 flap positions a case, a mean of −0.006 R; 46 and 43 vortices above the hub, most in the disk."""
+    for name, points in (("BL", 46), ("MN", 43)):
+        flap = CURVES[name, "tip_flap"]
+        assert len(flap.psi) == 23
+        assert_allclose(flap.waves[0], -0.006, atol=4e-4)
+        x, y, z = measured_vortices(name)
+        assert len(x) == points
+        assert (np.hypot(x, y) > 1.0).sum() <= 2
+        assert 0.0 < z.min() < z.max() < 0.14
+    twist = CURVES["MN", "tip_twist_deg"].waves
+    assert_allclose(np.hypot(twist[1:4], twist[4:]), [0.28, 0.42, 1.28], atol=0.03)
+
+
+def test_height_of_a_vortex_that_no_inflow_moves():
+    """Then it rises along a straight line: β0 above the hub at the edge, −µ_z t above that."""
+    course = WakeCourse(0.15, -0.0113, 0.0, coning=0.04, flap_1c=0.0, flap_1s=0.0, core=(1e-4, 1e-6))
+    x, y = np.array([-0.8, 0.0, 0.6]), np.array([0.6, 0.0, -0.7])
+    age = (x + np.sqrt(1.0 - y * y)) / 0.15
+    assert_allclose(height(course, x, y), 0.04 + 0.0113 * age, atol=1e-12)
+
+
+def test_moment_of_the_pitch_rate(solutions: dict[str, Solution]):
+    """C_m of MN at 3/rev, −(π/4) c θ̇/U at 0.87 R with U = ΩR (0.87 + µ sin ψ) over the section's own by hand."""
+    solution = solutions["MN"]
+    disk, psi = solution.disk, solution.disk.psi
+    i = int(np.argmin(np.abs(disk.r - 0.87)))
+    theta = harmonics(psi, disk.theta[i], 8)
+    order = np.arange(1, 9)
+    rate = order * theta[9:] @ np.cos(np.outer(order, psi)) - order * theta[1:9] @ np.sin(np.outer(order, psi))
+    speed = disk.r[i] + solution.design.condition.advance_ratio * np.sin(psi)
+    mach = 2.0 * 109.01 / 342.2
+    by_hand = -0.25 * math.pi * 0.0605 * rate * speed * mach**2
+    curve = replace(CURVES["MN", "cm_m2"], r=float(disk.r[i]))
+    whole = harmonics(*computed_curve(curve, solution), 3)
+    expected = harmonics(psi, by_hand, 3)
+    assert math.hypot(expected[3], expected[6]) > 0.001
+    rest = whole - expected  # The section's own moment, a fifth of it, and that of d²θ/dt².
+    assert math.hypot(rest[3], rest[6]) < 0.0007
+
+
+# Pitch-link loads of the UH-60A: the source's numbers and signs
+
+
+def test_measured_loads_are_those_of_the_figure():
+    """Highest and lowest digitised points, as printed, in pounds-force; none of the curves has a mean."""
+    curves = [one for one in measured_curves() if one.case.test == PITCH_LINK]
+    printed = ((543.2, -460.1), (592.8, -426.2), (619.5, -460.0), (813.4, -596.6))
+    assert [one.case.conditions["mu"] for one in curves] == list(PITCH_LINK_SPEEDS)
+    for one, (high, low) in zip(curves, printed, strict=False):
+        assert_allclose(one.values.max() / 4.44822, high, rtol=0.02)
+        assert_allclose(one.values.min() / 4.44822, low, rtol=0.02)
+    for one in curves:
+        assert len(one.psi) == 90
+        assert abs(one.values.mean()) < 0.01 * np.ptp(one.values)
+    for mu, n, size, phase in ((0.15, 1, 1630.0, 48.0), (0.37, 2, 1340.0, 76.0)):  # By a fit to all 252 and 135 points.
+        wave = next(one for one in curves if one.case.conditions["mu"] == mu).waves
+        found = complex(wave[n], wave[n + 10])
+        assert_allclose(abs(found), size, rtol=0.03)
+        assert_allclose(math.degrees(np.angle(found)), phase, atol=2.0)
+
+
+def test_load_is_that_of_the_moment_nose_up_on_the_blade():
+    """The link holds the blade by a moment against its elastic twist at the bearing: K_θ φ_root over the horn.
+
+    A blade twisted nose up at the root pulls its nose down by the link, which is where the measured load is positive.
+    """
+    measured = next(one for one in measured_curves() if one.case.test == PITCH_LINK)
+    solution = solve(make_design(mu=0.3)).require()
+    elastic, structure = solution.elastic, solution.design.rotor.blade.structure
+    psi, ours = computed_curve(measured, solution)
+    torsion = Analysis(solution).linear.problem.torsion
+    root = torsion.modes.shape[:, 0] @ elastic.coordinates
+    order = (np.arange(len(root)) + 1) // 2
+    around = sum(
+        own * (np.cos(n * psi) if k % 2 or not k else np.sin(n * psi))
+        for k, (own, n) in enumerate(zip(root, order, strict=True))
+    )
+    by_hand = structure.control_stiffness * (around - root[0]) / structure.pitch_horn
+    assert np.ptp(ours) > 1000.0
+    assert_allclose(ours, by_hand, atol=0.12 * np.ptp(ours))  # The bearing's share in two modes only.
+    assert np.corrcoef(ours, by_hand)[0, 1] > 0.98

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.validation.thesis.disk_figures import convergence_order, line_error
-from rotor.validation.thesis.implementation import knee_of
+from rotor.validation.thesis.disk_figures import line_error
 from rotor.validation.thesis.report import Agreement, Report, ReportTable
 from rotor.validation.thesis.twist_effect import crossings
 
@@ -40,15 +39,12 @@ def test_figure_3_4(report: Make):
     assert one.numbers["from_2_-10_15"] > 10.0
 
 
-def test_figure_3_5(report: Make):
+def test_figures_3_5_and_3_6(report: Make):
     """The lift fit is accurate only inside its range: extrapolated, it is wrong at 30°."""
     one = report("3.5")
     assert one.verdict is Agreement.NO_REFERENCE  # The statement has no number.
     assert abs(one.numbers["unheld_at_30"]) > 100.0
-
-
-def test_figure_3_6(report: Make):
-    """The drag fit: a few per cent in the flight range, wrong outside, on either side of zero."""
+    # The drag fit: a few per cent in the flight range, wrong outside, on either side of zero.
     numbers = report("3.6").numbers
     assert numbers["attached_rms"] < 0.03
     assert abs(numbers["unheld_at_30"]) > 100.0
@@ -72,11 +68,6 @@ def test_figure_3_8(report: Make):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
     assert 1.0 < one.numbers["flight-linear_order"] < 3.0
     assert one.numbers["thesis_error_at_40"] < 1e-3
-
-
-def test_order_of_a_known_sequence():
-    """Errors 4^−k give order 2 whatever the limit."""
-    assert_allclose(convergence_order([100.0 + 4.0**-k for k in range(6)]), 2.0, rtol=1e-9)
 
 
 def test_figure_3_9(report: Make):
@@ -123,11 +114,6 @@ def test_figure_3_10(report: Make):
     assert one.numbers["rms_to_model_curve"] < 0.15
     # The points scatter by 3.2 % about their own fit, and a fifth of their gap was drag: now the best lies above.
     assert -0.10 < one.numbers["hover_least"] < one.numbers["hover_largest"] < 0.033
-
-
-def test_the_knee_of_a_broken_line():
-    """An error that falls tenfold an order to 1e-4 at order 5 and then stays has its knee there."""
-    assert knee_of([(order, 10.0 ** -(min(order, 5) - 1)) for order in range(1, 17)]) == 5
 
 
 @pytest.mark.slow
