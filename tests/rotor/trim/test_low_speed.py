@@ -10,7 +10,7 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design
 from rotor.design.quantities import LowSpeed
 from rotor.files.make_design import make_design
-from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
+from rotor.trim.low_speed import FASTEST, axial_share, inflow_ratio
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 from tests.patched import Patch
@@ -61,11 +61,15 @@ def test_without_it_hover_is_no_limit_and_at_speed_it_hardly_matters():
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
 
 
-def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed():
+def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed(patch: Patch):
+    def unasked(design: Design, course: object) -> None:
+        pytest.fail("hover is computed")
+
+    patch("rotor.trim.low_speed.hover_difference", unasked)
     with_, without = design("linear:-12.345"), design("linear:-12.345", low_speed="wake")
-    before = hover_difference.cache_info()
     assert watts(with_.at(mu=0.15)) == watts(without.at(mu=0.15))
-    assert hover_difference.cache_info() == before
+    with pytest.raises(pytest.fail.Exception, match="hover is computed"):
+        watts(with_.at(mu=0.02))
 
 
 def test_where_hover_has_no_answer_a_caveat_says_so(patch: Patch):
