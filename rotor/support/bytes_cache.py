@@ -12,16 +12,17 @@ from dataclasses import dataclass, field
 from functools import wraps
 from threading import RLock
 from types import FunctionType, ModuleType
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar, cast
 
 import numpy as np
 from numba.core.dispatcher import Dispatcher
+from numpy.typing import NDArray
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 
-CACHE_BYTES = 384 * 2**20
-"""By default: tables of the five shipped rotors, 130 MB, and a lifting line in 90 conditions, 2.8 MB each."""
+CACHE_BYTES = 256 * 2**20
+"""By default: tables of the five shipped rotors, 130 MB, and a lifting line in 45 conditions, 2.8 MB each."""
 LEAST = 64 * 2**20
 """[bytes]; with less, tables would be made anew in each trim."""
 _LONG = 1000
@@ -43,16 +44,18 @@ class _Result:
     """[bytes] of all else."""
 
     def measure(self) -> None:
-        self.rest, seen, left = 0, set[int](), [self.key, self.value]
+        seen, left = set[int](), list[Any]([self.key, self.value])
+        self.rest = 0
         while left:
             one = left.pop()
             if id(one) in seen or isinstance(one, (type, FunctionType, ModuleType, Dispatcher)):
                 continue
             seen.add(id(one))
-            while isinstance(one, np.ndarray) and isinstance(one.base, np.ndarray):
-                one = one.base
             if isinstance(one, np.ndarray):
-                self.buffers[id(one)] = one, one.nbytes
+                owner = cast(NDArray[Any], one)
+                while isinstance(owner.base, np.ndarray):
+                    owner = owner.base
+                self.buffers[id(owner)] = owner, owner.nbytes
             elif isinstance(one, (str, bytes)) and len(one) >= _LONG:
                 self.buffers[id(one)] = one, len(one)
             else:
