@@ -177,8 +177,3 @@ def test_a_trim_is_the_same_to_the_last_bit_whatever_is_kept(room: Callable[[int
     room(0)
     after = [solve(design).power.total for _ in range(2)]
     assert len({*before, *after}) == 1
-
-
-def test_too_little_room_is_refused():
-    with pytest.raises(ValueError, match="3 MB is too little for caches: give at least 64 MB"):
-        limit_caches(3 * MEGABYTE)
