@@ -42,7 +42,7 @@ class TestDrawing:
         assert len(column) == len(SWITCHES) + 2
         assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.05 * len(column))
         unit = KILOWATT if units is SI else HORSEPOWER
-        assert column[-1] == pytest.approx(unit.of(found.full.power), abs=0.05)
+        assert column[-1] == pytest.approx(unit.of(found.full.power or 0.0), abs=0.05)
 
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
