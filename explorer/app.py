@@ -29,6 +29,7 @@ from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
 from explorer.workers import solver
 from rotor import solve
+from rotor.support.bytes_cache import limit_caches
 from rotor.support.compiled import compiling
 from rotor.support.processes import Processes
 from rotor.trim.newton import SolverOptions
@@ -174,10 +175,11 @@ class App:
         sys.setswitchinterval(_SWITCH)
         self._start = start or OPENING
         self._limits = limits or ServerLimits()
+        limit_caches(self._limits.cache_bytes)
         self._connections: dict[int, ClientConnection] = {}
         self._lock = threading.Lock()
         self._seated: set[ClientConnection] = set()
-        self.pool = Processes(_WORKERS, solver.prepare_worker)
+        self.pool = Processes(_WORKERS, partial(solver.prepare_worker, self._limits.cache_bytes))
         self._warmed = threading.Event()
         self.presentations = Presentations()
         hosts, page = (

@@ -263,6 +263,7 @@ class Page:
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
         self.solved(state.inputs, state.solution)
+        self.context.analyses.forget_others(state.solution, state.reference, self.optimised.solution)
         self.follower.memory = self.follower.memory.then(state, self._now.state)
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.

@@ -13,6 +13,8 @@ import time
 from collections import OrderedDict
 from dataclasses import dataclass
 
+from rotor.support.bytes_cache import CACHE_BYTES
+
 _PAUSE = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
 _M_ARENA_MAX = -8
@@ -59,7 +61,7 @@ def release_memory() -> None:
 
 
 SESSIONS = 24
-"""Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
+"""Pages at work by default: a class. With all of them dragging each gets a frame a second."""
 _SPARE = 40
 """Connections beyond the pages at work: pages that were turned away, or have only just connected."""
 
@@ -71,6 +73,8 @@ class ServerLimits:
     allow_hosts: tuple[str, ...] = ()
     frame_ancestors: tuple[str, ...] = ()
     """Origins of other pages that may show this one in a frame, such as a notebook's."""
+    cache_bytes: int = CACHE_BYTES
+    """What the server keeps to be fast, and each of its worker processes: `rotor.support.bytes_cache`."""
 
     @property
     def connections(self) -> int:

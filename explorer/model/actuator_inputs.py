@@ -22,6 +22,7 @@ from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import find_concept
 from rotor.support.arrays import Array
+from rotor.support.bytes_cache import bytes_cache
 
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Concepts whose divisions an actuator can be laid out for before any optimum is known."""
@@ -190,7 +191,7 @@ def flight_of(verdict: Verdict) -> ActuatorFlight:
     return fly(verdict, flight_legs(verdict.baseline.pair.design))
 
 
-@lru_cache(maxsize=8)
+@bytes_cache
 def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
     """The standard flight of a design, with a leg half way between any two."""
     legs = standard_flight(design)

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, make_dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +31,7 @@ from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.support.bytes_cache import bytes_cache
 
 OWN = "own"
 """Name in `Inputs` of the user's own rotor."""
@@ -38,7 +39,7 @@ _LIGHTEST, _HEAVIEST = 0.6, 1.32
 """Ends of the weight slider over the rotor's reference mass."""
 
 
-@cache
+@bytes_cache
 def menu_titles(brought: Aircraft | None) -> dict[str, str]:
     """The menu: name in `Inputs` → title; rotors that were tested on a stand follow, the user's own comes last."""
     titles = {

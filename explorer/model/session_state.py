@@ -161,6 +161,10 @@ class Analyses:
     def of(self, solution: Solution) -> Analysis:
         return self._keep(next((one for one in self._kept if one.solution is solution), None) or Analysis(solution))
 
+    def forget_others(self, *shown: Solution | None) -> None:
+        """Keep those of these solutions only: each takes 4 MB."""
+        self._kept = tuple(one for one in self._kept if one.solution in shown)
+
     def _keep(self, analysis: Analysis) -> Analysis:
         self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_SHOWN]
         return analysis

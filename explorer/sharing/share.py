@@ -17,7 +17,6 @@ import time
 import unicodedata
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
 from typing import Any, TypeVar
 from urllib.parse import parse_qsl, quote
 
@@ -29,6 +28,7 @@ from rotor import Design, make_design
 from rotor.design.aircraft import Aircraft
 from rotor.design.quantities import BY_KEY
 from rotor.files.design_file import design_from_record, parse_design
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.user_input import refusing
 
 VERSION = 1
@@ -88,7 +88,7 @@ def code_of(design: Design) -> str:
     return code
 
 
-@lru_cache(maxsize=8)
+@bytes_cache
 def _usual(preset: str, aircraft: Aircraft) -> Mapping[str, Any]:
     """What a text need not say."""
     plain = make_design()
@@ -219,7 +219,7 @@ def read_history(text: str | None, start: Inputs) -> StoredHistory:
     return StoredHistory(before[-MOST_STEPS:], start, after[:MOST_STEPS], bookmarks)
 
 
-@lru_cache(maxsize=1024)
+@bytes_cache
 def _code(inputs: Inputs) -> str | None:
     """The code of the design; None where the inputs mean none, or one that no address holds."""
     try:

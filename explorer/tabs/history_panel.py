@@ -122,7 +122,7 @@ class HistoryPanel(Tab):
             return
         with self._lock:
             others = [item for item in self._kept if item.inputs != state.inputs]
-            self._kept = [*others, KeptDesign(state.inputs, state.solution)][-MOST_KEPT:]
+            self._kept = [*others, KeptDesign(state.inputs, state.solution.without_factors())][-MOST_KEPT:]
         self._context.wake()
 
     def store(self) -> None:
@@ -144,7 +144,7 @@ class HistoryPanel(Tab):
             with self._lock:
                 self._waiting.pop()
                 if solution.converged and all(item.inputs != inputs for item in self._kept):
-                    self._kept = [KeptDesign(inputs, solution), *self._kept][-MOST_KEPT:]
+                    self._kept = [KeptDesign(inputs, solution.without_factors()), *self._kept][-MOST_KEPT:]
             if (state := self._context.state()) is not None:
                 self.show(state)
 

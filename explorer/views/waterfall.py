@@ -8,9 +8,11 @@ from explorer.model.units import SI, Units, number
 from explorer.text import readout
 from explorer.text.readout import part_titles
 from explorer.views.page_state import PageState, Panel, PanelWork, Tell
+from rotor import Design
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.study.series import WaterfallStep, waterfall_steps
 from rotor.support.markup import Markup, group, tag
+from rotor.trim.power import PowerBudget
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""
@@ -27,28 +29,28 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup
     """Rows from everything off to everything on; "Computing …" without steps."""
     if not steps:
         return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
-    powers = [step.solution.power for step in steps if step.power is not None]
+    powers = [step.budget for step in steps if step.budget is not None]
     # The total but for what a descent gives.
     lengths = [max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers]
     top = 1.04 * max(lengths, default=1.0)
     rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
-    if steps[-1].power is not None:
-        rows.append(_whole("All switched on", steps[-1], 2.0 + len(steps) * _ROW, top, units))
+    if (full := steps[-1]).budget is not None:
+        rows.append(_whole("All switched on", full.budget, full.design, 2.0 + len(steps) * _ROW, top, units))
     box = f"0 0 {WIDTH} {(len(steps) + 1) * _ROW - 8.0:.0f}"
     drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
-    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].solution.design)]
+    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].design)]
     key = tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
     return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
 
 
 def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
-    if step.power is None:
-        sentence, words = tag("title", step.solution.message), _words(0, y + 11, step.title)
+    if step.budget is None:
+        sentence, words = tag("title", step.message), _words(0, y + 11, step.title)
         return tag("g", sentence, words, _words(_BAR_LEFT, y + 11, "has no trim", "rx-w-bad"))
     change, added = step.change, step.added
     if change is None or added is None or step.against is None:
-        return _whole(step.title, step, y, top, units)
-    before, after = _x(step.against.power.total, top), _x(step.power, top)
+        return _whole(step.title, step.budget, step.design, y, top, units)
+    before, after = _x(step.against.total, top), _x(step.budget.total, top)
     left, width = min(before, after), abs(after - before)
     if width < _THINNEST:
         left, width = 0.5 * (before + after - _THINNEST), _THINNEST
@@ -63,10 +65,10 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     return tag("g", tag("title", _spoken(step, units)), link, _words(0, y + 11, step.title), bar, power, beneath)
 
 
-def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
+def _whole(name: str, power: PowerBudget, design: Design, y: float, top: float, units: Units) -> Markup:
     """A bar of all parts from zero."""
-    power, x, rects, unit = step.solution.power, _BAR_LEFT, list[Markup](), units.power[0]
-    titles = part_titles(step.solution.design)
+    x, rects, unit = _BAR_LEFT, list[Markup](), units.power[0]
+    titles = part_titles(design)
     for part in titles:
         width = max(_x(getattr(power, part), top) - _BAR_LEFT, 0.0)
         rects.append(_rect(x, y + 2, width, PARTS[part]))
@@ -93,7 +95,7 @@ def _patches(change: dict[str, float], y: float, units: Units) -> Markup:
 def _spoken(step: WaterfallStep, units: Units) -> str:
     """The step in words, for those who point at it or have it read out."""
     change, unit = step.change or {}, units.power[0]
-    titles = part_titles(step.solution.design)
+    titles = part_titles(step.design)
     parts = ", ".join(f"{part} {unit.text(change[part], 1, sign=True)}" for part in titles if part in change)
     what = step.switch.on if step.switch else ""
     return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"

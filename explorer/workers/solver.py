@@ -23,6 +23,7 @@ from rotor.optimisation import (
     run_search,
 )
 from rotor.study.point import WarmStarts
+from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
 from rotor.trim import analyse, power_gradient
 
 _NICE = 5
@@ -36,8 +37,9 @@ def warm() -> None:
             power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
 
 
-def prepare_worker() -> None:
+def prepare_worker(cache_bytes: int = CACHE_BYTES) -> None:
     """In a new process: a lower priority, and what every solution, and blades that bend, would wait for."""
+    limit_caches(cache_bytes)
     if hasattr(os, "nice"):
         os.nice(_NICE)
     warm()

@@ -7,7 +7,6 @@ of the thesis.
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +28,7 @@ from rotor.dynamics.torsion import (
 )
 from rotor.optimisation.limits import ChangeLimit
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ class InstalledActuator:
         return np.interp(np.asarray(r, dtype=float), self.r, total)
 
 
-@lru_cache(maxsize=64)
+@bytes_cache
 @read_only
 def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Rotor) -> InstalledActuator:
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""

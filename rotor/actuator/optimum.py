@@ -13,7 +13,6 @@ two conditions, weighted by their shares of time.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist,
 from rotor.optimisation.concepts import Concept, nearest, restrict
 from rotor.optimisation.descent import slsqp
 from rotor.support.arrays import Array
+from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
@@ -297,7 +297,7 @@ class Baseline:
         return np.diff(self.change(edges))
 
 
-@lru_cache(maxsize=64)
+@bytes_cache
 def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
     """Find the optima; free breaks are fixed at those of the best fixed blade.
 

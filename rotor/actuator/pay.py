@@ -12,7 +12,6 @@ a softer blade, saves more or less than its tip twist would along the whole blad
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -24,6 +23,7 @@ from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.units import GRAVITY
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -108,7 +108,7 @@ class BreakEven:
         return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def break_even(pair: ConditionPair) -> BreakEven:
     """The break-even line of any rotor for a pair of flight conditions; it takes a second or two.

@@ -22,7 +22,6 @@ tip's mass does to bending through pitch of the root.
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -33,6 +32,7 @@ from rotor.design.twist import TwistLaw
 from rotor.dynamics.bending import BendingModes, bending_beam, bending_modes, blade_bending_modes, frequencies_by_kind
 from rotor.dynamics.torsion import blade_modes
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.units import GRAVITY
 
 MODES = 4, 3
@@ -88,7 +88,7 @@ class BladeBending:
     harmonics: int
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def build_bending(
     rotor: Rotor,

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.design.blade import Blade, Rotor
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 
 class OnDisk:
@@ -102,7 +102,7 @@ def azimuths_of(count: int) -> Array:
     return 2.0 * math.pi * np.arange(count) / count
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 def build_disk(
     rotor: Rotor,
     *,
@@ -128,7 +128,7 @@ def build_disk(
     return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown))
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def _disk(
     rotor: Rotor,
@@ -197,13 +197,13 @@ def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float
     return (one, *rest[0]) if rest else (one, one, 0.0)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 def _at_mach(sections: tuple[Section, ...], only_mach: float | None) -> tuple[SectionTable, ...]:
     """Their tables, or those of one Mach number."""
     return tuple(item.table if only_mach is None else item.table.held_at(only_mach) for item in sections)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Array]:
     """`Disk.tables` and `Disk.held`; drag: of the real surface over that of the data."""
@@ -212,7 +212,7 @@ def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Arra
     return coefficients, np.stack([held_beyond_peak(each) for each in coefficients])
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Array]:
     """`StallOnset.numbers` of every element, about the blade's reference line, and the tables of its sections.
@@ -226,7 +226,7 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
     return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], _onset_tables(disk.sections, only_mach)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def _onset_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
     """Kept apart from the disks, which share them: 4 MB for two sections."""

@@ -7,7 +7,6 @@ interpolated, and reverse flow, stall and drag rise begin where they would if th
 
 import math
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,6 +26,7 @@ from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
 from rotor.engine.waves import wave_grid
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 ENOUGH_ELEMENTS = 40
 """Elements whose cells are counted as they are: the border of a region cuts few of them."""
@@ -36,7 +36,7 @@ AREA_RADII = 80
 """Even radii at which regions are counted where there are fewer elements."""
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def resampling(source: int, target: int) -> Array:
     """Matrix of the Fourier interpolation of evenly spaced periodic samples, (source, target), exact at the samples."""
@@ -146,7 +146,7 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
     return areas(disk, e, margin)[1:]
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def _finer_radii(root: float, r: tuple[float, ...]) -> tuple[Array, Array]:
     """Linear interpolation from elements at r/R to even radii, (radii, elements), and the parts of πR² about these.

@@ -20,7 +20,6 @@ moment), and that of first-harmonic flapping on it, which is zero for a hinge at
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -33,6 +32,7 @@ from rotor.design.blade import Rotor
 from rotor.dynamics.torsion import TorsionModes, blade_modes
 from rotor.engine.waves import wave_grid
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 MODES = 2
 """Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""
@@ -94,7 +94,7 @@ REVERSE_FLOW_DEG = (165.0, 172.0)
 """Angles of attack over which the moment passes from that of the section data to that of attached reverse flow."""
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     """C_m of a section about the quarter chord, (α cells, Mach cells, 4, 4); zero where its source has none.
@@ -121,14 +121,14 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
     return out
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def _moment_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
     """`BladeTorsion.moment_tables`; kept apart from the blades, which share them: 4 MB for two sections."""
     return np.stack([moment_table(item.table, only_mach) for item in sections])[:, :, :, None]
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def build_torsion(
     rotor: Rotor, disk: Disk, density: float, *, only_mach: float | None, swept: bool, highest: int, count: int = MODES
@@ -143,7 +143,7 @@ def build_torsion(
     return replace(torsion, **scaled, gain=torsion.gain * density, moment_unit=torsion.moment_unit * density)
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 def _at_unit_density(
     rotor: Rotor, disk: Disk, *, only_mach: float | None, swept: bool, highest: int, count: int
 ) -> BladeTorsion:

@@ -35,7 +35,6 @@ adds to a panel's own block. Inboard it fades out as the core of the young trail
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -46,6 +45,7 @@ from scipy.special import exp1, hankel2
 from rotor.aero.disk import azimuths_of, stations
 from rotor.aero.momentum import DiskFlow
 from rotor.support.arrays import Array, Integers, Singles, fixed_property, read_only
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.compiled import compiled
 
 GRADIENT = 0.5
@@ -327,7 +327,7 @@ def influence(line: LiftingLine, course: WakeCourse) -> Array:
     return out.reshape(n * m, n * m)
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def mean_influence(line: LiftingLine, course: WakeCourse) -> Array:
     """Influence of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""

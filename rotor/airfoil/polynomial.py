@@ -7,7 +7,6 @@ have a condition number of 2e15.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -18,6 +17,7 @@ from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.section_table import ALPHA_STEP, N_ALPHA, N_MACH, SectionTable, make_table
 from rotor.support.arrays import Array, read_only
 from rotor.support.assets import asset_path
+from rotor.support.bytes_cache import bytes_cache
 
 THESIS_NAME = "sc1095-thesis"
 LIFT_ORDER = 10  # document, fig. 3.3
@@ -149,7 +149,7 @@ def fit_error_study(polar: Polar, range_deg: tuple[float, float]) -> tuple[FitEr
     return tuple(out)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def polynomial_section(reading: PolynomialReading = PolynomialReading()) -> PolynomialSection:
     """The fit with the document's orders to the bundled polar of a reading."""
@@ -178,7 +178,7 @@ def _cubic_cells(value: Array, slope: Array) -> Array:
     )
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> SectionTable:
     """The document's section on the common grid, the same at every Mach, with its treatment of reverse flow.

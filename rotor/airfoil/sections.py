@@ -5,7 +5,6 @@ so that a design stays hashable and can be sent to other processes.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from rotor.airfoil.reynolds import shares
 from rotor.airfoil.section_table import SectionTable, between, table_from_deck
 from rotor.support.arrays import read_only
 from rotor.support.assets import asset_path
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.user_input import did_you_mean
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
@@ -32,7 +32,7 @@ _MEASURED = "measured by Knight and Hefner (NACA TN 626) at Re 242 000; wrapped 
 _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility and +-180 deg wrap by this project"
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def load_section(name: str) -> SectionTable:
     """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached; takes about 20 ms."""
@@ -109,7 +109,7 @@ def load_installed(name: str) -> Section:
     return Section(name, table, 0.0, 1.0, outline)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 @read_only
 def install_own(section: OwnSection) -> Section:
     """A user's section; read once per process and cached; takes some 30 ms.

@@ -10,7 +10,6 @@ travel, as the program DSmodel (L. Pancini, github.com/luizpancini/DSmodel, comm
 adapted the travel of the vortex up to Mach 0.3; that of Mach 0.4 stands in for it.
 """
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ import numpy as np
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_MACH, SectionTable, bicubic_coefficients, mach_nodes
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 LEAST_SEPARATION = 0.02
 """f where the flow is separated from the leading edge on: its root has no slope at 0 (Leishman and Beddoes)."""
@@ -50,7 +50,7 @@ class StallOnset(NamedTuple):
     """f and m by the angle from zero lift and the Mach number, (α cells, Mach cells, 2, 4, 4)."""
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def stall_onset(table: SectionTable) -> StallOnset:
     """From a section's static data."""

@@ -11,7 +11,6 @@ tilted disk, as (3.6) prints it, µ_x is µ and µ_z is 0; λ_i is then still sk
 import math
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 
@@ -28,6 +27,7 @@ from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, wave_grid
 from rotor.support.arrays import Array
+from rotor.support.bytes_cache import bytes_cache
 
 LEAST_AZIMUTHS = 40
 """Azimuths on which derivatives are evaluated, and first steps made: the power of a trim on 40 agrees with that on 120
@@ -72,7 +72,7 @@ class _StructureKey:
     terms: InflowTerms = field(compare=False)
 
 
-@lru_cache(maxsize=64)
+@bytes_cache
 def _structure(key: _StructureKey) -> Structure:
     """Atoms, columns and equations of a flight; see the head of this file."""
     terms, s = key.terms, Structure(*key.section, key)

@@ -11,7 +11,7 @@ balance by the implicit function theorem. What remains are collective, coning an
 
 import math
 from collections.abc import Hashable
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,6 +32,7 @@ from rotor.engine.linearise import Grid, Live, Point, Shapes, System
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY, wave_grid
 from rotor.support.arrays import Array
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.compiled import compiled
 
 LIFT_CURVE_MACH = 0.3
@@ -71,7 +72,7 @@ def lift_curve(problem: Problem) -> tuple[Array, Array]:
     )
 
 
-@lru_cache(maxsize=64)
+@bytes_cache
 def _straight_line(section_: Section, mach: float) -> tuple[float, float]:
     zero = float(section_.table.zero_lift_alpha(mach)) + section_.incidence_offset
     return float(section_.table.lift_slope(mach)), zero
@@ -181,7 +182,7 @@ def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
     return inflow, balance[3] / np.maximum(balance[1], 1e-12)
 
 
-@lru_cache(maxsize=16)
+@bytes_cache
 def _structure(modes: int, trim: Trim, numbers: tuple[Hashable, ...]) -> Structure:
     """Atoms, columns and equations of a trim for thrust and coning, and of steady twist."""
     s = Structure(HOVER_PAIRS, len(CHANNELS), len(FORCES) + 1, ("hover", modes, trim))

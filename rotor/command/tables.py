@@ -243,8 +243,8 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
         "switch": step.switch.flag if step.switch else None,
         "total_w": step.power,
         "change_w": step.change,
-        "hub_moment_n_m": step.solution.hub_moment.size if step.solution.converged else None,
-        "note": step.note or ("" if step.solution.converged else step.solution.message),
+        "hub_moment_n_m": None if step.budget is None else step.hub_moment,
+        "note": step.note or (step.message if step.budget is None else ""),
     }
 
 
@@ -274,9 +274,9 @@ def _steps_text(steps: Sequence[WaterfallStep], design: Design) -> str:
 
 def _step_row(step: WaterfallStep, parts: Sequence[str], size: float) -> tuple[CellValue, ...]:
     if step.power is None:
-        return step.title, None, None, *(None for _ in parts), step.solution.message
+        return step.title, None, None, *(None for _ in parts), step.message
     if step.change is None or step.added is None:
-        shares = (f"{getattr(step.solution.power, part) / size:z.1f}" for part in parts)
+        shares = (f"{getattr(step.budget, part) / size:z.1f}" for part in parts)
         return step.title, step.power / size, None, *shares, None
     shares = (f"{step.change[part] / size:+z.1f}" for part in parts)
     return step.title, step.power / size, round(step.added / size, 1) + 0.0, *shares, step.note

@@ -17,7 +17,6 @@ Finite elements with cubic (Hermite) polynomials; integrals by Gauss' rule.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +24,7 @@ from scipy.linalg import eigh
 
 from rotor.design.blade import BladeStructure
 from rotor.support.arrays import Array, Integers, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 ELEMENTS = 40
 _PLACES, _SHARES = np.polynomial.legendre.leggauss(4)
@@ -159,7 +159,7 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
     return mass, stiffness
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def blade_bending_modes(
     structure: BladeStructure,

@@ -11,7 +11,6 @@ Range: no coupling with bending. Linear finite elements, exact integrals of piec
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +19,7 @@ from scipy.linalg import eigh, solveh_banded
 from rotor.design.blade import BladeStructure
 from rotor.support.arrays import Array, read_only
 from rotor.support.blas_threads import one_blas_thread
+from rotor.support.bytes_cache import bytes_cache
 
 ELEMENTS = 240
 
@@ -173,7 +173,7 @@ def torsion_modes(beam: TorsionBeam, count: int) -> TorsionModes:
     return TorsionModes(beam.r, shape / tip[:, None], np.sqrt(np.maximum(squares, 0.0)), 1.0 / tip**2, beam.pull)
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 @read_only
 def blade_modes(structure: BladeStructure, angular_speed: float, count: int) -> TorsionModes:
     """The modes of a blade at a rotor speed [rad/s], on its control system."""

@@ -27,6 +27,7 @@ from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
 from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
 from rotor.trim.many import solve_many
+from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -375,13 +376,19 @@ def _vibration(solution: Solution) -> tuple[float | None, ...]:
 
 @dataclass(frozen=True, eq=False)
 class WaterfallStep:
-    """One trim and its difference from a reference trim."""
+    """One trim and its difference from a reference trim, without its fields: a page keeps thirty of them."""
 
     switch: Quantity | None
     """The switch changed; None at the start."""
-    solution: Solution
-    against: Solution | None
-    """The last step before it that trimmed, or the full model; None at the start."""
+    design: Design
+    budget: PowerBudget | None
+    """Power by parts; None where it did not trim."""
+    message: str
+    """How the trim ended."""
+    hub_moment: float
+    """[N m]"""
+    against: PowerBudget | None
+    """That of the last step before it that trimmed, or of the full model; None at the start."""
     note: str = ""
     """Why this switch has no effect here, as a clause."""
 
@@ -392,15 +399,14 @@ class WaterfallStep:
     @property
     def power(self) -> float | None:
         """Total [W]; None where it did not trim."""
-        return self.solution.power.total if self.solution.converged else None
+        return None if self.budget is None else self.budget.total
 
     @property
     def change(self) -> dict[str, float] | None:
         """What it added to each part [W]; None at the start and where it did not trim."""
-        if self.against is None or not self.solution.converged:
+        if self.against is None or self.budget is None:
             return None
-        here, before = self.solution.power, self.against.power
-        return {part: getattr(here, part) - getattr(before, part) for part in PARTS}
+        return {part: getattr(self.budget, part) - getattr(self.against, part) for part in PARTS}
 
     @property
     def added(self) -> float | None:
@@ -413,23 +419,25 @@ def waterfall_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> I
     """All switches on one after another, then each one off alone, each step trimmed when requested.
 
     The design's own switches have no effect. A step that does not trim is skipped: the next is compared with the last
-    that did. The steps keep no factors.
+    that did.
     """
     left = list(order)
     start = full = solve(with_switches(design, left))
-    kept = full.without_factors()
-    yield WaterfallStep(None, kept, None)
-    last = kept if full.converged else None
+    yield (step := _step(None, full, None))
+    last = step.budget
     for name in order:
         left.remove(name)
         full = solve(with_switches(design, left), start if start.converged else None)
-        kept = full.without_factors()
-        yield WaterfallStep(SWITCHES[name], kept, last, no_effect(full.design, name))
-        start, last = (full, kept) if full.converged else (start, last)
-    against = kept if kept.converged else None
+        yield (step := _step(name, full, last))
+        start, last = (full, step.budget) if full.converged else (start, last)
     for name in order:
-        alone = solve(with_switches(design, (name,)), full)
-        yield WaterfallStep(SWITCHES[name], alone.without_factors(), against, no_effect(alone.design, name))
+        yield _step(name, solve(with_switches(design, (name,)), full), step.budget)
+
+
+def _step(name: str | None, trim: Solution, against: PowerBudget | None) -> WaterfallStep:
+    switch, note = (None, "") if name is None else (SWITCHES[name], no_effect(trim.design, name))
+    budget = trim.power if trim.converged else None
+    return WaterfallStep(switch, trim.design, budget, trim.message, trim.hub_moment.size, against, note)
 
 
 @dataclass(frozen=True, eq=False)
@@ -440,12 +448,12 @@ class Waterfall:
     """Each switch off alone, compared with the full model."""
 
     @property
-    def full(self) -> Solution:
-        return self.steps[-1].solution
+    def full(self) -> WaterfallStep:
+        return self.steps[-1]
 
     @property
     def converged(self) -> bool:
-        return all(step.solution.converged for step in (*self.steps, *self.alone))
+        return all(step.budget is not None for step in (*self.steps, *self.alone))
 
 
 def waterfall(design: Design) -> Waterfall:

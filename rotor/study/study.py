@@ -8,7 +8,6 @@ is computed, not stored: a study of 10⁹ points needs no memory. A study pickle
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -30,6 +29,7 @@ from rotor.optimisation.concepts import (
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.series import HUB_COLUMNS, POWERS
 from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 from rotor.support.units import unit_of
 
 Value = float | str | bool
@@ -155,7 +155,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
     return digits
 
 
-@cache
+@bytes_cache
 @read_only
 def _spread(sample: StudySample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""

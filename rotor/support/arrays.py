@@ -1,10 +1,8 @@
 """The array types of signatures, whose docstrings give the shapes; arrays that nobody may write to."""
 
-from collections import OrderedDict
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cached_property, wraps
-from threading import Lock
 from typing import Any, ParamSpec, TypeVar, cast
 
 import numpy as np
@@ -42,42 +40,6 @@ def read_only(function: Callable[_P, _T]) -> Callable[_P, _T]:
         return value
 
     return fixed
-
-
-def size_of(value: Any) -> int:
-    """Bytes of an array, or of all arrays in a tuple, list or dataclass."""
-    if isinstance(value, np.ndarray):
-        return value.nbytes
-    if isinstance(value, (tuple, list)):
-        return sum(map(size_of, cast(tuple[Any, ...], value)))
-    return size_of(tuple(vars(value).values())) if is_dataclass(value) and not isinstance(value, type) else 0
-
-
-def bytes_cache(most: int) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
-    """A decorator like `lru_cache` for large results: it keeps so many bytes of arrays, and one result at least."""
-
-    def keep_results(function: Callable[_P, _T]) -> Callable[_P, _T]:
-        known, lock = OrderedDict[Hashable, _T](), Lock()
-
-        @wraps(function)
-        def cached(*args: _P.args, **kwargs: _P.kwargs) -> _T:
-            key = args, tuple(kwargs.items())
-            with lock:
-                if key in known:
-                    known.move_to_end(key)
-                    return known[key]
-            value = function(*args, **kwargs)
-            with lock:
-                known[key] = value
-                size = sum(map(size_of, known.values()))
-                while size > most and len(known) > 1:
-                    size -= size_of(known.popitem(last=False)[1])
-            return value
-
-        cached.__dict__["cache_clear"] = known.clear
-        return cached
-
-    return keep_results
 
 
 class fixed_property(cached_property[_T]):

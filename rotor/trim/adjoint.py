@@ -8,7 +8,7 @@ dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -24,6 +24,7 @@ from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array, ShortRepr
 from rotor.support.blas_threads import one_blas_thread
+from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.low_speed import HoverDifference, joined_hover
 from rotor.trim.newton import LinearisedTrim
 from rotor.trim.power import tail_power
@@ -208,7 +209,7 @@ class Adjoint(_Linear):
         return adjoint.slopes(adjoint.measure(hovering))[0]
 
 
-@lru_cache(maxsize=4)
+@bytes_cache
 def _difference_adjoint(difference: HoverDifference) -> _Linear:
     """Adjoint for all measures, and for all conditions that share the hovering rotor."""
     return _Linear(difference.hover.linear)

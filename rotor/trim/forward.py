@@ -10,7 +10,6 @@ up to 2°: its wake is laid again along the trim found, once.
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import lru_cache
 from itertools import chain
 
 from rotor.aero.display import stalled_parts
@@ -22,7 +21,7 @@ from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, STAND
-from rotor.support.arrays import bytes_cache
+from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 FAST = 0.25
@@ -56,7 +55,7 @@ def _trim_of_wake(design: Design) -> tuple[WakeCourse, TrimState] | None:
     return _linear_trim(replace(as_built(design), models=models))
 
 
-@lru_cache(maxsize=64)
+@bytes_cache
 def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
     """The trim of a design with linear inflow and lift held beyond its peak, and its course; None where it has none.
 
@@ -179,7 +178,7 @@ def start_as_built(problem: Problem) -> Guess | None:
     return _trim_as_built(as_built(design))
 
 
-@bytes_cache(50_000_000)
+@bytes_cache
 def _trim_as_built(design: Design) -> Guess | None:
     """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
     problem = with_course(build_problem(design))

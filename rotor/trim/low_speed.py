@@ -24,7 +24,6 @@ climb hover is that at the same rate of climb.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.lifting_line import WakeCourse
@@ -33,6 +32,7 @@ from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.support.arrays import Array, fix
+from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.forward import SLOWEST, found_course, with_course
 from rotor.trim.hover import hover
 from rotor.trim.newton import TrimResult
@@ -56,7 +56,7 @@ class HoverDifference:
     """The constant c of the swirl."""
 
 
-@lru_cache(maxsize=32)
+@bytes_cache
 def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifference | None:
     """The difference for a hovering design with the course of its wake at `SLOWEST`; None where it does not hover."""
     problem = build_problem(design)

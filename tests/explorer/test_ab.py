@@ -11,7 +11,7 @@ from PIL import Image
 
 from explorer.colours import PINNED_OVERLAY, VOID
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import Pinboard, Pinned, apply_order
+from explorer.model.session_state import Analyses, Pinboard, Pinned, apply_order
 from explorer.picture.fields import FIELDS, difference, fitted_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import DrawnSolution, polar_grid
@@ -228,3 +228,11 @@ def test_a_pinned_design_of_the_document_stays_level_beside_a_climb():
     moved = pinned.design(climbing)
     assert moved.condition == replace(climbing.condition, climb_speed=0.0)
     assert Inputs(preset="thesis", climb_m_s=5.0).design().condition.climb_speed == 0.0
+
+
+def test_analyses_of_what_is_no_longer_shown_are_forgotten(cruise: Solution, fast: Solution):
+    analyses = Analyses()
+    kept, other = analyses.of(cruise), analyses.of(fast)
+    analyses.forget_others(cruise, None)
+    assert analyses.of(cruise) is kept
+    assert analyses.of(fast) is not other

@@ -1,12 +1,20 @@
-"""Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone."""
+"""Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone.
+
+How long frames took is printed, with the memory of the process. A hundred pages that come and go do not add to it.
+"""
 
 import asyncio
+import os
 import time
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from explorer.app import App
+from explorer.hosting.server_limits import ServerLimits, release_memory
 from explorer.session import Session
+from rotor.support.bytes_cache import CACHE_BYTES, bytes_kept, limit_caches
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 from tests.explorer.test_leaving import searching
@@ -24,13 +32,24 @@ def query(k: int) -> str:
     return f"?d=1;linear:-{4 + 0.5 * k:g};mu={0.14 + 0.012 * k:g};mass={7000 + 90 * k};alt={150 * k}{bends}"
 
 
-async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
-    """Drag, and now and then search, or open what the doubt consists of, which needs the gradient."""
+STATM = Path("/proc/self/statm")
+
+
+def resident() -> float:
+    """Memory of this process [MB], where the system tells it as Linux does."""
+    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6 if STATM.exists() else float("nan")
+
+
+async def work(visitor: Visitor, app: App, k: int, seconds: float) -> list[float]:
+    """Drag, and now and then search, or open what the doubt consists of, which needs the gradient.
+
+    Returns how long each edit took until a picture showed it [s].
+    """
     await visitor.open(app.address)
     await visitor.until(lambda: visitor.text("status") == "converged", PATIENCE)
     await visitor.press("more", "on")
     await visitor.until(lambda: visitor.shows("Altitude [m]"), PATIENCE)
-    end, step = time.monotonic() + seconds, 0
+    end, step, took = time.monotonic() + seconds, 0, list[float]()
     while step == 0 or time.monotonic() < end:
         if step % 40 == 0 and k % 5 == 0:
             await searching(visitor, PATIENCE)
@@ -38,11 +57,17 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
             await visitor.press("discard")
         elif step % 40 == 0 and k % 5 == 1:
             await visitor.press("drawer", "trust")
-        await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
-        await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
+        begun, shown = time.monotonic(), visitor.pictures
+        if step % 2:
+            await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
+        else:
+            await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
+        await visitor.until(lambda shown=shown: visitor.pictures > shown, PATIENCE)
+        took.append(time.monotonic() - begun)
         await asyncio.sleep(0.15)
         step += 1
     await visitor.idle(PATIENCE, wholly=False)
+    return took
 
 
 def answers(session: Session) -> tuple[float, float]:
@@ -57,15 +82,21 @@ def answers(session: Session) -> tuple[float, float]:
 @pytest.mark.slow
 @pytest.mark.parametrize(("pages", "seconds"), [(4, 1.0), pytest.param(20, 600.0, marks=pytest.mark.nightly)])
 def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, seconds: float):
-    async def visit() -> tuple[list[str], list[Session]]:
+    before = resident()
+
+    async def visit() -> tuple[list[str], list[Session], list[float]]:
         visitors = [Visitor(query=query(k)) for k in range(pages)]
-        await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
+        took = await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
         sessions, notices = list(app.sessions), [notice for visitor in visitors for notice in visitor.notices]
         for visitor in visitors:
             await visitor.close()
-        return notices, sessions
+        return notices, sessions, sorted(time for each in took for time in each)
 
-    notices, sessions = ran(visit, seconds + 4.0 * PATIENCE)
+    notices, sessions, took = ran(visit, seconds + 4.0 * PATIENCE)
+    p50, p95 = (1e3 * took[int(share * len(took))] for share in (0.5, 0.95))
+    print(
+        f"{pages} pages, {len(took)} edits: p50 {p50:.0f} ms, p95 {p95:.0f} ms; {before:.0f} MB, then {resident():.0f}"
+    )
     assert notices == []
     assert len(sessions) == pages
     designs = {session._state.solution.design for session in sessions if session._state is not None}
@@ -75,3 +106,39 @@ def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, se
         power, gradient = answers(session)
         assert power < SAME
         assert gradient < 1e-5
+
+
+@pytest.fixture
+def small_caches() -> Iterator[App]:
+    """A server whose caches are soon full."""
+    app = App("127.0.0.1", 0, limits=ServerLimits(cache_bytes=128 * 2**20))
+    app.wait_until_warm()
+    yield app
+    app.stop()
+    limit_caches(CACHE_BYTES)
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+@pytest.mark.skipif(not STATM.exists(), reason="the system does not tell how much memory a process has")
+def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: App):
+    """A page takes 15 MB, a solution that it leaves behind 2 MB."""
+    sizes, app = list[float](), small_caches
+
+    async def visit() -> None:
+        for k in range(100):
+            visitor = Visitor(query=query(k % 20))
+            await visitor.open(app.address)
+            await visitor.until(lambda visitor=visitor: visitor.text("status") == "converged", PATIENCE)
+            await visitor.move("Adv. ratio µ", 0.25)
+            await visitor.idle(PATIENCE, wholly=False)
+            await visitor.close()
+            while app.sessions:
+                await asyncio.sleep(0.05)
+            release_memory()
+            sizes.append(resident())
+
+    ran(visit, 10.0 * PATIENCE)
+    print("after every tenth page [MB]:", *(f"{size:.0f}" for size in sizes[9::10]))
+    assert bytes_kept() <= 128 * 2**20
+    assert min(sizes[-10:]) - min(sizes[30:40]) < 40.0  # The caches are full by then.

@@ -47,6 +47,8 @@ class Visitor:
         self.notices: list[str] = []
         self.blade: list[float] = []
         """Pitch of each ring of the reference blade [rad]."""
+        self.pictures = 0
+        """Pictures of the disk."""
         self.frames = 0
         self.bytes = 0
         self._pressed = 0
@@ -179,6 +181,8 @@ class Visitor:
                     self.frame.update(json.loads(state[1]))
                 elif forms := _FORMS.fullmatch(message["source"]):
                     self.blade = json.loads(forms[1])[BLADE][0]
+                elif message["source"].startswith("rotorDisk.paint("):
+                    self.pictures += 1
                 elif told := _TOLD.fullmatch(message["source"]):
                     self._keep(told[1], *json.loads(f"[{told[2]}]"))
             case _ if "props" in message and "uuid" in message:

@@ -30,7 +30,8 @@ from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
 from rotor.engine.waves import STEADY
-from rotor.support.arrays import Array, bytes_cache, read_only
+from rotor.support.arrays import Array, read_only
+from rotor.support.bytes_cache import bytes_cache
 
 MOST_PANELS = 128
 """Beyond some 200 the panels at the tip are so short that Newton's method in single precision no longer converges."""
@@ -111,7 +112,7 @@ def mean_share(course: DiskFlow) -> float:
     return 1.0 - 1.0 / course.mass_flow
 
 
-@bytes_cache(100_000_000)
+@bytes_cache
 @read_only
 def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
     """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.

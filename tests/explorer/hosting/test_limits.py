@@ -5,8 +5,16 @@ from collections.abc import Iterator
 
 import pytest
 
+from explorer.app import App
 from explorer.hosting.request_filter import AllowedHosts, host_name
-from explorer.hosting.server_limits import LARGEST_FILE, RateLimit, RateLimiter, RepeatFilter, refuse_upload
+from explorer.hosting.server_limits import (
+    LARGEST_FILE,
+    RateLimit,
+    RateLimiter,
+    RepeatFilter,
+    ServerLimits,
+    refuse_upload,
+)
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"
@@ -144,3 +152,8 @@ def test_later_the_number_left_out_is_told(kept: Kept, monkeypatch: pytest.Monke
         "a callback failed",
         "a callback failed (2 more like this were not written)",
     ]
+
+
+def test_a_server_with_too_little_room_for_caches_does_not_begin():
+    with pytest.raises(ValueError, match="3 MB is too little for caches: give at least 64 MB"):
+        App("127.0.0.1", 0, limits=ServerLimits(cache_bytes=3 * 2**20))

@@ -219,17 +219,17 @@ class TestWaterfall:
         assert found.full.design == design
         for part in PARTS:
             total = sum(step.change[part] for step in found.steps if step.change)
-            ends = [getattr(found.steps[k].solution.power, part) for k in (0, -1)]
+            ends = [getattr(found.steps[k].budget, part) for k in (0, -1)]
             assert_allclose(total, ends[1] - ends[0], rtol=1e-12, atol=1e-6)
 
     def test_each_alone_is_the_full_model_less_one(self):
         design = small(0.3)
         found = waterfall(with_switches(design, ("fuselage",)))  # The design's own switches do not matter.
         for step in found.alone:
-            assert [off.name for off in switched_off(step.solution.design.models)] == [step.switch.name]
-            assert step.against is found.full
+            assert [off.name for off in switched_off(step.design.models)] == [step.switch.name]
+            assert step.against is found.full.budget
         by_drag = next(step for step in found.alone if step.switch and step.switch.name == "fuselage")
-        assert_allclose(by_drag.change["parasite"], -found.full.power.parasite, rtol=1e-12)
+        assert_allclose(by_drag.change["parasite"], -found.full.budget.parasite, rtol=1e-12)
 
     def test_a_step_that_does_not_trim_is_skipped(self):
         """Hovering at C_T/σ 0.169 the rotor still lifts the weight, and not the download of 3.5 % as well."""
@@ -239,7 +239,7 @@ class TestWaterfall:
         steps = list(waterfall_steps(design, ("download", "tip_loss")))[:3]
         assert [step.power is not None for step in steps] == [True, False, False]
         assert steps[1].change is None
-        assert steps[2].against is steps[0].solution
+        assert steps[2].against is steps[0].budget
 
     def test_command(self, printed: Callable[..., str], answer: Callable[..., Any]):
         first, *steps = answer("waterfall", "--mu", "0.3")["steps"]

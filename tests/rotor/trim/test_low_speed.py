@@ -10,7 +10,7 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design
 from rotor.design.quantities import LowSpeed
 from rotor.files.make_design import make_design
-from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
+from rotor.trim.low_speed import FASTEST, axial_share, inflow_ratio
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 from tests.patched import Patch
@@ -59,10 +59,20 @@ def test_it_changes_slow_flight_alone():
     with_, without = design(), design(low_speed="wake")
     assert watts(without.at(mu=0.002)) < 0.995 * watts(without)
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
+
+
+def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed(patch: Patch):
+    def unasked(design: Design, course: object) -> None:
+        pytest.fail("hover is computed")
+
+    patch("rotor.trim.low_speed.hover_difference", unasked)
     with_, without = design("linear:-12.345"), design("linear:-12.345", low_speed="wake")
-    before = hover_difference.cache_info()
     assert watts(with_.at(mu=0.15)) == watts(without.at(mu=0.15))
-    assert hover_difference.cache_info() == before
+    with pytest.raises(pytest.fail.Exception, match="hover is computed"):
+        watts(with_.at(mu=0.02))
+
+
+def test_linear_inflow_has_no_blend():
     at = design().at(mu=0.05)
     with_ = replace(at, models=replace(at.models, inflow="drees"))
     without = replace(with_, models=replace(with_.models, low_speed="wake"))
