@@ -12,22 +12,15 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, add_output_arguments, check_output, interruptible, print_result
 from rotor.study.chunks import FinishedChunk, StudyFolder, StudyFolderError, evaluate_points
+from rotor.study.cluster import ExecutorLost, dask_client
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
-from rotor.study.run import (
-    ChunkRun,
-    ExecutorLost,
-    check_workers,
-    dask_client,
-    open_study_folder,
-    processes_here,
-    run_chunks,
-)
+from rotor.study.run import ChunkRun, check_workers, open_study_folder, processes_here, run_chunks
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
+from rotor.support.progress import ProgressBar
 from rotor.support.table import table
 from rotor.support.units import power_text
 
@@ -209,7 +202,7 @@ def _run(args: argparse.Namespace, store: StudyFolder) -> int:
         with interruptible() as stop, closing(_Progress(study.count, done)) as progress:
             try:
                 with _executor(args, study) as executor:
-                    ended = run_chunks(executor, store, missing, progress.add, stop)
+                    ended = run_chunks(executor, store, missing, progress.add, stop, progress.say)
             except (ExecutorLost, StudyFolderError) as error:
                 message = str(error)
         if progress.points:
@@ -242,7 +235,7 @@ class _Progress:
         self._seconds = 0.0
         """Processor time of the workers."""
         self._workers: set[str] = set()
-        self._bar: Any = tqdm(
+        self._bar: Any = ProgressBar(
             total=total,
             initial=done,
             unit=" points",
@@ -265,6 +258,11 @@ class _Progress:
             left = _span((self._total - now) / rate)
             words = f"{now:,} of {self._total:,} points, {_rate(rate)}, {left} left, {self._failed:,} failed"
             print(words, file=sys.stderr, flush=True)
+
+    @staticmethod
+    def say(sentence: str) -> None:
+        """A line of its own, also beside the bar."""
+        ProgressBar.write(f"rotor: {sentence}", file=sys.stderr)
 
     def close(self) -> None:
         self._bar.close()
