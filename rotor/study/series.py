@@ -143,7 +143,10 @@ class SweepTable:
         return frame
 
 
-@takes(SWEPT, after="start")
+_OF_DESIGNS = {"twist": "rotor.sweep([design.with_twist(…), …], mu=[…])"}
+
+
+@takes(SWEPT, after="start", elsewhere=lambda name: _OF_DESIGNS.get(name, ""))
 def sweep(
     design: Design | Iterable[Design],
     mu: Iterable[float] | None = None,
