@@ -16,7 +16,7 @@ from rotor import Design, Solution, hub_loads
 from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Rule
 from rotor.trim import DEFAULT_OPTIONS, Analysis, Guess, analyse, why_no_hub_loads
-from rotor.trim.hub_loads import SLOWEST
+from rotor.trim.no_hub_loads import SLOWEST
 
 SPEEDS = tuple(mu for mu in SWEEP if mu >= SLOWEST)
 """Advance ratios of the index over speed."""

@@ -22,6 +22,7 @@ from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 from rotor.support.progress import ProgressBar
 from rotor.support.table import table
+from rotor.support.terminal import wrapped
 from rotor.support.units import power_text
 
 _SENTENCES = 3
@@ -36,12 +37,15 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
     row = best_row(results, least)
     messages: list[str] = results.columns["message"][~results.good].tolist()
     robust = robust_best(results, least, uncertain) if uncertain else None
+    lists: list[str | None] = results.columns["caveats"].tolist()
+    caveats = Counter(name for names in lists if names for name in names.split(", "))
     return {
         "title": results.about.get("title", ""),
         "points": results.points,
         "done": results.rows,
         "failed": int((~results.good).sum()),
         "sentences": dict(Counter(messages).most_common(_SENTENCES)),
+        "caveats": dict(caveats.most_common()),
         "least": least,
         "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
@@ -87,7 +91,12 @@ def report(results: Results, shown: dict[str, Any]) -> str:
             )
             lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
         if results.sampled and results.good.sum() < _ENOUGH:
-            lines.append(f"  rough: shares of a sample need {_ENOUGH} points or more")
+            points = _count(int(results.good.sum()), "point")
+            lines.append(f"  rough: {points} of a sample; with fewer than {_ENOUGH}, chance decides the shares")
+    if shown["caveats"]:
+        each = ", ".join(f"{name} at {count:,}" for name, count in shown["caveats"].items())
+        one = "DIR:N" if best is None else f"DIR:{best['point']:.0f}"
+        lines += ["", wrapped(f"caveats of points: {each}; python -m rotor solve --row {one} says more", "  ")]
     if shown["failed"]:
         lines += ["", f"{shown['failed']:,} failed, for example:"]
         lines += [f"  {count:,} × {sentence}" for sentence, count in shown["sentences"].items()]

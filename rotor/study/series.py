@@ -25,8 +25,9 @@ from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
-from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
