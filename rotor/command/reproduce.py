@@ -51,6 +51,7 @@ def run(args: argparse.Namespace) -> int:
                 write_report(report, folder)
             reports.append((entry, report))
             ProgressBar.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
+            ProgressBar.write(f"{'':<14}{'the document:':<14}{typographic(report.statement)}")
 
     fast = [entry for entry in entries if not entry.slow]
     groups = searches_of(entries)
