@@ -9,7 +9,7 @@ page beside it: the guess, its answer, the control, the handle between A and B. 
 import argparse
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -129,7 +129,8 @@ def story_html(
     """
     view, points = view or ViewState(), _Points()
     told = list[dict[str, Any]]()
-    for step in ProgressBar(steps, disable=quiet, leave=False):
+    shown: Iterable[LectureStep] = ProgressBar(steps, disable=quiet, leave=False)
+    for step in shown:
         told.append(_step(step, facts_of(step), replace(view_of(step, view), wake=False), points))
         tell(len(told))
     first = points.solutions[told[0]["stops"][0]["b"]]

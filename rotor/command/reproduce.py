@@ -3,6 +3,7 @@
 import argparse
 import sys
 import time
+from collections.abc import Iterable
 from typing import Any
 
 from rotor.command.common import STOPPED, add_command, add_processes_argument, bar, interruptible, processes_from
@@ -44,7 +45,10 @@ def run(args: argparse.Namespace) -> int:
     reports: list[tuple[CatalogueEntry, Report]] = []
 
     def make(wanted: list[CatalogueEntry]) -> None:
-        for entry in ProgressBar(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
+        counted: Iterable[CatalogueEntry] = ProgressBar(
+            wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"
+        )
+        for entry in counted:
             report = written.known.pop((entry.number, folder), None)
             if report is None:
                 report = entry.make()

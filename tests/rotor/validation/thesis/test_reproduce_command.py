@@ -47,10 +47,11 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
     assert find_entry("Figure 3.11") is find_entry("3.11")
     asked = ["--figure", "table 5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
     assert main(["reproduce", str(tmp_path), *asked]) == 0
-    capsys.readouterr()
+    said = capsys.readouterr().out
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     assert [one["title"] for one in results] == ["Table 3.1", "Table 3.2", "Table 5.1"]
     assert [one["verdict"] for one in results] == ["input reproduced", "input reproduced", "no reference"]
+    assert all(one["statement"] in said for one in results)
 
 
 def test_results_of_other_processes_are_not_computed_again():
