@@ -23,7 +23,7 @@ from importlib import import_module
 from explorer.hosting.request_filter import host_name, is_loopback, warning
 from explorer.hosting.server_limits import SESSIONS
 from rotor import __version__
-from rotor.support.compiled import compiling
+from rotor.support.compiled import compiling, why_not_kept
 from rotor.support.terminal import OneLineParser, StopSignal, command_words, run_command
 from rotor.support.user_input import did_you_mean, shorten
 
@@ -82,6 +82,8 @@ def _run(options: argparse.Namespace) -> int:
             _open_browser(app.address)
         stop = StopSignal()
         app.wait_until_warm()
+        if unkept := why_not_kept():
+            print(unkept, file=sys.stderr, flush=True)
         stop.wait()
     finally:
         app.stop()

@@ -68,7 +68,11 @@ def main(argv: list[str] | None = None) -> int:
             return 0
         args = parser.parse_args(argv)
         keep_one_blas_thread()
-        return args.run(args)
+        code = args.run(args)
+        compiled = sys.modules.get("rotor.support.compiled")  # Not every command reads it.
+        if compiled is not None and first != "warm" and (unkept := compiled.why_not_kept()):
+            print(f"rotor: {unkept}", file=sys.stderr)
+        return code
 
     return run_command("rotor", run)
 

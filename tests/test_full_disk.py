@@ -30,6 +30,7 @@ COMMANDS = {
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
     "story": ("explorer", "story", "OUT/out.file"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
+    "reproduce": ("rotor", "reproduce", "OUT/blade", "--figure", "table 5.1"),
     "save": ("save", "OUT/out.json"),
 }
 

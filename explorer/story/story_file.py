@@ -9,12 +9,10 @@ page beside it: the guess, its answer, the control, the handle between A and B. 
 import argparse
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-from tqdm import tqdm
 
 from explorer import web
 from explorer.colours import colour_map, css
@@ -33,6 +31,7 @@ from explorer.story.steps import STEPS, LectureStep, angle_words, compared_quant
 from rotor import Solution, solve
 from rotor.support.chart import Axis, Band, Chart, Line, Series, bar_ticks, drawn_chart
 from rotor.support.markup import end_of, with_title
+from rotor.support.progress import ProgressBar
 from rotor.support.terminal import OneLineParser, command_words, run_command
 from rotor.support.user_input import check_writable, write_whole
 
@@ -130,7 +129,8 @@ def story_html(
     """
     view, points = view or ViewState(), _Points()
     told = list[dict[str, Any]]()
-    for step in tqdm(steps, disable=quiet, leave=False):
+    shown: Iterable[LectureStep] = ProgressBar(steps, disable=quiet, leave=False)
+    for step in shown:
         told.append(_step(step, facts_of(step), replace(view_of(step, view), wake=False), points))
         tell(len(told))
     first = points.solutions[told[0]["stops"][0]["b"]]

@@ -14,7 +14,8 @@ from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
 from rotor.optimisation.doubt import mean_doubt
-from rotor.trim.hub_loads import band_inflows, hub_index, why_no_hub_loads
+from rotor.trim.hub_loads import band_inflows, hub_index
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 

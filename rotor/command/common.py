@@ -13,8 +13,6 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-from tqdm import tqdm
-
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import change_limit, install
 from rotor.actuator.section import HostBlade, default_placement
@@ -32,6 +30,7 @@ from rotor.optimisation.limits import ChangeLimit, Limits
 from rotor.optimisation.objective import MISSION_COLUMNS
 from rotor.study.results import design_at
 from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.progress import ProgressBar
 from rotor.support.user_input import check_writable, parse_range
 
 Run = Callable[[argparse.Namespace], int]
@@ -326,7 +325,7 @@ STOPPED = 130
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
     """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
     hidden = not sys.stderr.isatty()
-    shown: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
+    shown: Any = ProgressBar(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
 
     def advance(words: str) -> None:
         shown.set_postfix_str(words, refresh=False)

@@ -3,11 +3,11 @@
 import argparse
 import sys
 import time
+from collections.abc import Iterable
 from typing import Any
 
-from tqdm import tqdm
-
 from rotor.command.common import STOPPED, add_command, add_processes_argument, bar, interruptible, processes_from
+from rotor.support.progress import ProgressBar
 from rotor.support.user_input import make_folder
 
 
@@ -45,13 +45,17 @@ def run(args: argparse.Namespace) -> int:
     reports: list[tuple[CatalogueEntry, Report]] = []
 
     def make(wanted: list[CatalogueEntry]) -> None:
-        for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
+        counted: Iterable[CatalogueEntry] = ProgressBar(
+            wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"
+        )
+        for entry in counted:
             report = written.known.pop((entry.number, folder), None)
             if report is None:
                 report = entry.make()
                 write_report(report, folder)
             reports.append((entry, report))
-            tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
+            ProgressBar.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
+            ProgressBar.write(f"{'':<14}{'the document:':<14}{typographic(report.statement)}")
 
     fast = [entry for entry in entries if not entry.slow]
     groups = searches_of(entries)

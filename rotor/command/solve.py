@@ -17,7 +17,8 @@ from rotor.support.user_input import check_writable
 from rotor.trim.distribution import distribution
 from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.export import solution_record
-from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -188,9 +189,7 @@ def report(solution: Solution) -> str:
             f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
             f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust"
         ]
-    if design.models.bending and (reason := why_no_hub_loads(design)) is not None:
-        lines.append(wrapped(reason.sentence))
-    elif design.models.bending and solution.converged and (loads := hub_loads(solution)) is not None:
+    if design.models.bending and solution.converged and (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [
             f"hub loads at {loads.per_rev}/rev: "

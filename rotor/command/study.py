@@ -12,23 +12,17 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, add_output_arguments, check_output, interruptible, print_result
 from rotor.study.chunks import FinishedChunk, StudyFolder, StudyFolderError, evaluate_points
+from rotor.study.cluster import ExecutorLost, dask_client
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
-from rotor.study.run import (
-    ChunkRun,
-    ExecutorLost,
-    check_workers,
-    dask_client,
-    open_study_folder,
-    processes_here,
-    run_chunks,
-)
+from rotor.study.run import ChunkRun, check_workers, open_study_folder, processes_here, run_chunks
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
+from rotor.support.progress import ProgressBar
 from rotor.support.table import table
+from rotor.support.terminal import wrapped
 from rotor.support.units import power_text
 
 _SENTENCES = 3
@@ -43,12 +37,15 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
     row = best_row(results, least)
     messages: list[str] = results.columns["message"][~results.good].tolist()
     robust = robust_best(results, least, uncertain) if uncertain else None
+    lists: list[str | None] = results.columns["caveats"].tolist()
+    caveats = Counter(name for names in lists if names for name in names.split(", "))
     return {
         "title": results.about.get("title", ""),
         "points": results.points,
         "done": results.rows,
         "failed": int((~results.good).sum()),
         "sentences": dict(Counter(messages).most_common(_SENTENCES)),
+        "caveats": dict(caveats.most_common()),
         "least": least,
         "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
@@ -94,7 +91,12 @@ def report(results: Results, shown: dict[str, Any]) -> str:
             )
             lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
         if results.sampled and results.good.sum() < _ENOUGH:
-            lines.append(f"  rough: shares of a sample need {_ENOUGH} points or more")
+            points = _count(int(results.good.sum()), "point")
+            lines.append(f"  rough: {points} of a sample; with fewer than {_ENOUGH}, chance decides the shares")
+    if shown["caveats"]:
+        each = ", ".join(f"{name} at {count:,}" for name, count in shown["caveats"].items())
+        one = "DIR:N" if best is None else f"DIR:{best['point']:.0f}"
+        lines += ["", wrapped(f"caveats of points: {each}; python -m rotor solve --row {one} says more", "  ")]
     if shown["failed"]:
         lines += ["", f"{shown['failed']:,} failed, for example:"]
         lines += [f"  {count:,} × {sentence}" for sentence, count in shown["sentences"].items()]
@@ -209,7 +211,7 @@ def _run(args: argparse.Namespace, store: StudyFolder) -> int:
         with interruptible() as stop, closing(_Progress(study.count, done)) as progress:
             try:
                 with _executor(args, study) as executor:
-                    ended = run_chunks(executor, store, missing, progress.add, stop)
+                    ended = run_chunks(executor, store, missing, progress.add, stop, progress.say)
             except (ExecutorLost, StudyFolderError) as error:
                 message = str(error)
         if progress.points:
@@ -242,7 +244,7 @@ class _Progress:
         self._seconds = 0.0
         """Processor time of the workers."""
         self._workers: set[str] = set()
-        self._bar: Any = tqdm(
+        self._bar: Any = ProgressBar(
             total=total,
             initial=done,
             unit=" points",
@@ -265,6 +267,11 @@ class _Progress:
             left = _span((self._total - now) / rate)
             words = f"{now:,} of {self._total:,} points, {_rate(rate)}, {left} left, {self._failed:,} failed"
             print(words, file=sys.stderr, flush=True)
+
+    @staticmethod
+    def say(sentence: str) -> None:
+        """A line of its own, also beside the bar."""
+        ProgressBar.write(f"rotor: {sentence}", file=sys.stderr)
 
     def close(self) -> None:
         self._bar.close()

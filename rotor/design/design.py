@@ -215,12 +215,11 @@ class Design:
 
         def __getattr__(self, name: str) -> Any:
             row = quantities.QUANTITIES.get(name)
-            remedy = (
-                did_you_mean(name, dir(type(self))) if row is None or not row.place else f": read design.{row.place}"
-            )
+            public = (other for other in dir(type(self)) if other[0] != "_")
+            remedy = did_you_mean(name, public) if row is None or not row.place else f": read design.{row.place}"
             raise AttributeError(f"a design has no {name!r}{remedy}", name=name, obj=self)
 
-    @takes(quantities.SWEPT, after="hover")
+    @takes(quantities.SWEPT, after="hover", elsewhere=lambda name: how_to_change(name) if name in _GIVEN else "")
     def at(
         self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
     ) -> "Design":
@@ -435,12 +434,31 @@ THESIS_MODELS = Models(
 )
 
 
-def _no_change(_: Design, name: str, value: object) -> None:
-    how = f"design.at({name}={value!r:.40})" if name in quantities.SWEPT else f"dataclasses.replace(design, {name}=…)"
+def how_to_change(name: str, value: object = ...) -> str:
+    """The code that makes a design with another value of a quantity."""
+    words = "…" if value is ... else f"{value!r:.40}"
+    if name in quantities.SWEPT or name == "hover":
+        return f"design.at({name}={words})"
+    if name == "twist":
+        return f"design.with_twist({words})"
+    return f"rotor.make_design(case=design, {name}={words})" if name in _GIVEN else "rotor.make_design(case=design, …)"
+
+
+_GIVEN = quantities.ARGUMENTS.keys() - {"case", "models"}
+
+
+def _no_change(_: object, name: str, value: object) -> None:
+    how = how_to_change(name, value)
     raise FrozenInstanceError(f"a design cannot be changed: make a new one with {how}")
 
 
-type.__setattr__(Design, "__setattr__", _no_change)
+def _no_change_of_condition(_: object, field: str, value: object) -> None:
+    name = next((name for name, row in quantities.CONDITION.items() if row.field == field), "stand")
+    _no_change(_, name, value)
+
+
+for _fixed, _refuse in ((Design, _no_change), (Models, _no_change), (FlightCondition, _no_change_of_condition)):
+    type.__setattr__(_fixed, "__setattr__", _refuse)
 
 
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:

@@ -174,7 +174,9 @@ class Quantity:
         slack = 1e-9 if self.unit == "°" else 0.0  # Of an angle that was radians.
         if not (math.isfinite(value) and self.low - slack <= value <= high + slack):
             words, unit = (self.what, self.unit and f" {self.unit}") if self.what else (self.name, "")
-            raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: choose a value inside")
+            tonnes = self.unit == "kg" and self.low <= 1e3 * value <= high
+            remedy = f"{value:g} t is {1e3 * value:g} kg" if tonnes else "choose a value inside"
+            raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: {remedy}")
 
     def check_choice(self, value: Any) -> None:
         """ValueError with one sentence for what is none of the choices."""
@@ -195,10 +197,13 @@ class Quantity:
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def takes(names: Iterable[str], after: str) -> Callable[[Function], Function]:
+def takes(
+    names: Iterable[str], after: str, elsewhere: Callable[[str], str] = lambda name: ""
+) -> Callable[[Function], Function]:
     """Give a function a keyword for each name, None by default, in place of its `**` parameter.
 
-    They follow `after` in its signature. Another keyword, or a value without one, is a TypeError with one sentence.
+    They follow `after` in its signature. Another keyword, or a value without one, is a TypeError with one sentence,
+    with the code that `elsewhere` names for what another function takes.
     """
 
     def with_keywords(function: Function) -> Function:
@@ -219,7 +224,9 @@ def takes(names: Iterable[str], after: str) -> Callable[[Function], Function]:
             call = f"{function.__name__}()"
             if (wrong := next((name for name in asked if name not in signed.parameters), None)) is not None:
                 keywords = [name for name in signed.parameters if name != "self"]
-                remedy = did_you_mean(wrong, keywords) or f": it takes {', '.join(keywords)}"
+                code = elsewhere(wrong)
+                remedy = f": write {code}" if code else did_you_mean(wrong, keywords)
+                remedy = remedy or f": it takes {', '.join(keywords)}"
                 raise TypeError(f"{call} has no argument {wrong!r}{remedy}")
             if len(given) > nameless:
                 raise TypeError(f"{call} got {given[nameless]!r:.40} without a name: name it, as in mu=0.3")

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from rotor.support.arrays import Array
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
-from rotor.support.user_input import read_text, refusing
+from rotor.support.user_input import did_you_mean, read_text, refusing
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
@@ -288,9 +288,9 @@ def parse_twist(
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     number = _NUMBER.fullmatch(spec.strip())
-    bare = f"write linear:{number[1].replace('−', '-')} for a linear twist, or " if number else ""
+    bare = f": write linear:{number[1].replace('−', '-')} for a linear twist, or" if number else ""
     raise ValueError(
-        f"twist {spec!r} is not known: {bare}"
+        f"twist {spec!r} is not known{bare or did_you_mean(kind, _LAWS) or ':'} "
         "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, "
         "points:ANGLES@STATIONS, ideal, builtin, uh60a or table:FILE"
     )

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from inspect import cleandoc, signature
+from numbers import Integral
 from typing import Any, Unpack
 
 from rotor.aero.inflow import INFLOW_MODELS
@@ -84,8 +85,16 @@ def make_design(
         (1500.0, True)
     """
     asked = {"mu": mu, "hover": hover, "bending": bending, **flight}
+    _check_type(str, "a text", preset=preset, inflow=inflow, low_speed=low_speed, loss_on=loss_on, trim=trim)
+    _check_type(str, "a text", airfoils=airfoils, off=off)
+    _check_type(Integral, "a whole number", elements=elements, azimuths=azimuths)
+    _check_type(Design, "a design: give what rotor.load_design or make_design returns", case=case)
+    _check_type(Models, "rotor.Models", models=models)
+    _check_type((Stand, Mapping), "a dictionary of what the test gives, or a Stand", stand=stand)
     name = preset or (case.preset if case else PRESETS[0])
     check_preset(name)
+    if bending not in (True, False):
+        raise TypeError(f"bending is {bending!r:.40}: write bending=True or leave it out")
     aircraft = _aircraft(rotor, case)
     same = case if case and name == case.preset else None
     blade = same if rotor is None else None  # Another rotor has its own blade, and another preset.
@@ -126,6 +135,13 @@ if make_design.__doc__:  # Python drops docstrings when it is asked to.
     listed = ((name, row, row.choices if name != "inflow" else (*INFLOW_MODELS, *HOVER_INFLOWS)) for name, row in rows)
     words = (f"{name}: {row.help_with(choices)}." for name, row, choices in listed)
     make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))
+
+
+def _check_type(kind: type | tuple[type, ...], words: str, **given: object) -> None:
+    """TypeError with one sentence for an argument of another kind; None is an argument that is left out."""
+    for name, value in given.items():
+        if value is not None and not isinstance(value, kind):
+            raise TypeError(f"{name} is {value!r:.40}, not {words}")
 
 
 def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:

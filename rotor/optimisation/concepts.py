@@ -284,6 +284,8 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
 
     Raises ValueError with one sentence that names the value and the remedy.
     """
+    if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+        raise TypeError(f'concept is {name!r:.40}, not a text: write for example "linear"')
     if name not in CONCEPTS:
         hint = did_you_mean(name, CONCEPTS) or ":"
         raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")

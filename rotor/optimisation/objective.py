@@ -20,9 +20,10 @@ from rotor.support.user_input import read_text, refusing
 from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.adjoint import power_along
 from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import hub_index, index_along, why_no_hub_loads
+from rotor.trim.hub_loads import hub_index, index_along
 from rotor.trim.many import analyse_many
 from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
 from rotor.trim.solve import Start, analyse
 

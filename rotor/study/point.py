@@ -37,7 +37,7 @@ from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim.analysis import Analysis
 from rotor.trim.export import solution_record
 from rotor.trim.forward import as_built
-from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import analyse_in_step
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
@@ -248,7 +248,7 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
         if solution.converged:
             row |= _answer(solution)
             if solution.design.models.bending:
-                row |= _vibration(trim, row["caveats"])
+                row |= _vibration(trim)
             warm.keep(values, solution)
     except ValueError as error:
         row |= {"status": "bad-input", "message": str(error)}
@@ -349,15 +349,14 @@ def _answer(solution: Solution) -> Row:
     return row | {"caveats": ", ".join(caveat.name for caveat in solution.caveats), "passes": solution.passes}
 
 
-def _vibration(trim: Analysis, caveats: str) -> Row:
-    """Blade frequencies, and hub loads, or among the caveats that there are none."""
+def _vibration(trim: Analysis) -> Row:
+    """Blade frequencies, and hub loads where the design has them."""
     row, solution = Row(), trim.solution
     if (frequencies := solution.blade_frequencies) is not None:
         for name in FREQUENCIES:
             kind, _, number = name.rpartition("_")
             row[f"{name}_per_rev"] = getattr(frequencies, kind)[int(number) - 1]
-    if (reason := why_no_hub_loads(solution.design)) is not None:
-        return row | {"caveats": ", ".join(name for name in (caveats, reason.name) if name)}
     loads = hub_loads(trim, band=False)
-    assert loads is not None
+    if loads is None:  # A caveat says why.
+        return row
     return row | {"index_percent": loads.index, **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True))}

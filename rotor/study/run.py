@@ -5,7 +5,6 @@ By default the executor is processes of this machine. That of a Dask client (`cl
 """
 
 import hashlib
-import logging
 import os
 from collections import Counter
 from collections.abc import Callable, Generator, Sequence
@@ -14,7 +13,6 @@ from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Any
 
 from rotor.study.chunks import (
     FinishedChunk,
@@ -25,26 +23,17 @@ from rotor.study.chunks import (
     evaluate_chunk,
     evaluate_points,
 )
+from rotor.study.cluster import ClusterWatch, ExecutorLost
 from rotor.study.results import Results, read_results
 from rotor.study.study import Study
 from rotor.study.study_file import StudyFile, read_study
 from rotor.support.assets import commit, package_version
 from rotor.support.processes import Processes
-from rotor.support.user_input import extra_module
 
 _LOOK = 0.1
 """[s] between the questions whether to stop."""
 _TRIES = 3
 """Workers that a chunk may cost."""
-
-
-class ExecutorLost(RuntimeError):
-    """The executor takes no more work; finished chunks are kept."""
-
-    def __init__(self, reason: object) -> None:
-        super().__init__(
-            f"the workers are gone ({reason}): finished chunks are kept; run the same study again to continue"
-        )
 
 
 @dataclass
@@ -150,40 +139,21 @@ def processes_here(study: Study, workers: int | None) -> Generator[Executor]:
         pool.shutdown(cancel_futures=True)
 
 
-@contextmanager
-def dask_client(address: str) -> Generator[Any]:
-    """A client of the Dask scheduler at `address`. ValueError with one sentence where none answers.
-
-    A scheduler at a tls:// address is reached with the certificates of Dask's own configuration.
-    """
-    distributed = extra_module("distributed", "cluster", "a study on a Dask cluster")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
-    try:
-        client = distributed.Client(address, timeout="10s")
-    except (OSError, ValueError, TimeoutError) as error:
-        raise ValueError(
-            f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
-            "and give the tcp://host:port that it prints"
-        ) from None
-    try:
-        yield client
-    finally:
-        client.close(timeout=5)
-
-
 def run_chunks(
     executor: Executor,
     store: StudyFolder,
     chunks: Sequence[int],
     notify: Callable[[FinishedChunk], None],
     stop: Callable[[], bool] = lambda: False,
+    tell: Callable[[str], None] = lambda sentence: None,
 ) -> ChunkRun:
     """Compute chunks in any order and store them; `notify` is called with each, in this thread.
 
-    A chunk whose worker was lost is computed again. `stop` is called several times a second; True ends the run. Raises
-    ExecutorLost where the executor takes no more work, VersionMismatch where a worker has another version.
+    A chunk whose worker was lost is computed again. `stop` is called several times a second; True ends the run. `tell`
+    hears a sentence where a cluster has no workers left. Raises ExecutorLost where the executor takes no more work,
+    VersionMismatch where a worker has another version.
     """
-    ended, tries = ChunkRun(), Counter[int]()
+    ended, tries, watch = ChunkRun(), Counter[int](), ClusterWatch(executor, tell)
     under_way: dict[Future[FinishedChunk], int] = {}
     finished: SimpleQueue[Future[FinishedChunk]] = SimpleQueue()
 
@@ -206,13 +176,15 @@ def run_chunks(
             try:
                 future = finished.get(timeout=_LOOK)
             except Empty:
+                watch.look()
                 continue
             chunk = under_way.pop(future)
             if future.cancelled():  # By Dask, when its scheduler is gone.
-                raise ExecutorLost("they were cancelled")
+                raise ExecutorLost("their scheduler ended, or cancelled the work")
             match future.exception():
                 case None:
                     done = future.result()
+                    watch.came()
                     store.keep(done.chunk, done.content)
                     notify(done)
                 case BrokenExecutor() if tries[chunk] < _TRIES:

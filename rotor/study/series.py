@@ -25,8 +25,9 @@ from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
-from rotor.trim.hub_loads import hub_loads, why_no_hub_loads
+from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -144,7 +145,10 @@ class SweepTable:
         return frame
 
 
-@takes(SWEPT, after="start")
+_OF_DESIGNS = {"twist": "rotor.sweep([design.with_twist(…), …], mu=[…])"}
+
+
+@takes(SWEPT, after="start", elsewhere=lambda name: _OF_DESIGNS.get(name, ""))
 def sweep(
     design: Design | Iterable[Design],
     mu: Iterable[float] | None = None,

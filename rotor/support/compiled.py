@@ -120,7 +120,9 @@ class _Watch(event.Listener):
         self.told = True
         """Whether a stderr that is no terminal has its line, or is to have none."""
         self.unkept = False
-        """Whether something that was compiled could not be kept."""
+        """Whether something that is compiled cannot be kept."""
+        self.began = False
+        """Whether this process has compiled anything."""
         self._kept: dict[int, bool] = {}
         self._width = 0
 
@@ -130,8 +132,11 @@ class _Watch(event.Listener):
         if not self.open:
             return ""
         ready, all_of_them = sum(bool(one.overloads) or self._is_kept(one) for one in self.kernels), len(self.kernels)
-        often = "in each run" if self.unkept else "once"
-        return f"Compiling, {often}: {min(ready + 1, all_of_them)} of {all_of_them}"
+        return f"Compiling, {self._often}: {min(ready + 1, all_of_them)} of {all_of_them}"
+
+    @property
+    def _often(self) -> str:
+        return "in each run" if self.unkept else "once"
 
     def _is_kept(self, kernel: Any) -> bool:
         """Whether a run before has compiled it: the count goes on where that one ended. Looked up once."""
@@ -144,6 +149,7 @@ class _Watch(event.Listener):
     def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         kernel = event.data["dispatcher"]
         if any(kernel is known for known in self.kernels):  # Others are numba's own.
+            self.began = True
             self.open.append(kernel)
             self._show()
 
@@ -160,7 +166,8 @@ class _Watch(event.Listener):
                 self._width = len(words)
             elif not self.told:
                 self.told = True
-                print("Compiling kernels, once: about half a minute of processor time", file=stream, flush=True)
+                words = f"Compiling kernels, {self._often}: about half a minute of processor time"
+                print(words, file=stream, flush=True)
 
 
 _watch = _Watch()
@@ -173,9 +180,9 @@ def compiling() -> str:
 
 
 def why_not_kept() -> str:
-    """One sentence on why compiled kernels could not be kept on disk; empty where they were."""
+    """One sentence on why what was compiled could not be kept on disk; empty where it was, or nothing was compiled."""
     sentence = "Compiled kernels cannot be kept, so each run compiles anew: set NUMBA_CACHE_DIR to another folder"
-    return sentence if _watch.unkept else ""
+    return sentence if _watch.unkept and _watch.began else ""
 
 
 def log_compiling() -> None:

@@ -14,8 +14,16 @@ _MARKERS = {"dot": "o", "cross": "x", "ring": "o"}
 
 
 def drawing_module(name: str = "matplotlib.figure") -> Any:
-    """A module of matplotlib; MissingExtra, one sentence with the remedy, where that is not installed."""
-    return extra_module(name, "plot", "a picture")
+    """A module of matplotlib; MissingExtra, one sentence with the remedy, where that is not installed.
+
+    ValueError where matplotlib finds no folder for its own files, without which it cannot be imported.
+    """
+    try:
+        return extra_module(name, "plot", "a picture")
+    except OSError:
+        raise ValueError(
+            "a picture needs a folder that matplotlib can write its own files to: set MPLCONFIGDIR to one"
+        ) from None
 
 
 def new_axes(**options: Any) -> Any:

@@ -179,6 +179,8 @@ def _in_ascii(error: UnicodeError) -> tuple[str, int]:
 
 
 def _sentence(error: OSError) -> str:
+    if error.strerror is None:  # Raised by a library, with a sentence of its own.
+        return f"{error or type(error).__name__}"
     if error.filename is None:
         return f"the output cannot be written ({error.strerror}): free the disk, or write elsewhere"
     return f"{str(error.filename)!r} cannot be used ({error.strerror}): check the path"

@@ -40,10 +40,15 @@ _SENTENCE, _WORD = 400, 60
 _SKIPPED = " … "
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """`; did you mean 'optimise'?`, or nothing where no known name is close."""
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+def did_you_mean(name: object, known: Iterable[str]) -> str:
+    """`; did you mean 'optimise'?`, or nothing where no known name is close. Capitals and hyphens do not matter."""
+    plain = {_plain(one): one for one in known}
+    close = difflib.get_close_matches(_plain(name), list(plain), n=1)
+    return f"; did you mean {plain[close[0]]!r}?" if close else ""
+
+
+def _plain(name: object) -> str:
+    return re.sub(r"[-_ ]", "", str(name)).casefold()
 
 
 def shorten(text: str, most: int = _WORD) -> str:

@@ -2,9 +2,10 @@
 
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.analysis import Analysis, power_gradient
-from rotor.trim.hub_loads import HubLoads, why_no_hub_loads
+from rotor.trim.hub_loads import HubLoads
 from rotor.trim.many import analyse_many
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import analyse
 from rotor.trim.stability import stability_boundary

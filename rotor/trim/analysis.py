@@ -12,7 +12,7 @@ from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import LinearisedTrim, first_point
 from rotor.trim.power_changes import power_changes
-from rotor.trim.solution import Solution
+from rotor.trim.solution import Solution, require_solution
 
 
 class Analysis:
@@ -61,7 +61,7 @@ class Analysis:
 
 def analysed(given: Solution | Analysis) -> Analysis:
     """The analysis itself, or that of a solution."""
-    return given if isinstance(given, Analysis) else Analysis(given)
+    return given if isinstance(given, Analysis) else Analysis(require_solution(given))
 
 
 def power_gradient(given: Solution | Analysis, objective: Objective = "total") -> PitchGradient:

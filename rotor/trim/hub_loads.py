@@ -17,20 +17,18 @@ from typing import Any
 
 import numpy as np
 
-from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.columns.bending import LOADS, has_hub_loads, hub_load_terms
+from rotor.columns.bending import LOADS, hub_load_terms
 from rotor.design.design import Design
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.newton import Guess
-from rotor.trim.solution import Caveat, Solution
+from rotor.trim.no_hub_loads import why_no_hub_loads
+from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
-SLOWEST = 0.2
-"""Advance ratio below which the wake model decides the loads."""
 _AFT, _SIDE = 0.5, 0.67
 """Weights of the in-plane forces in the index."""
 
@@ -59,27 +57,6 @@ class HubLoads:
             "index_percent": self.index,
             "band_percent": None if self.band is None else list(self.band),
         }
-
-
-def why_no_hub_loads(design: Design) -> Caveat | None:
-    """Why a design has none, None where it has them."""
-    structure, rotor = design.rotor.blade.structure, design.rotor
-    if structure is not None and structure.bends and not can_bend(rotor):
-        sentence = "No hub loads: blades hinged at the shaft flap as rigid blades here; give flap_hinge_m."
-    elif structure is None or not structure.bends:
-        sentence = (
-            f"No hub loads: the stiffness of the {design.aircraft.name} blade in flap and lag is not known, so it "
-            "flaps as a rigid blade."
-        )
-    elif not design.flaps:
-        sentence = "No hub loads: the blades are rigid, or flapping is switched off."
-    elif not has_hub_loads(rotor.blades):
-        sentence = f"No hub loads: those of {rotor.blades} blades are at harmonics that are not solved for."
-    elif design.hovering or design.condition.advance_ratio < SLOWEST:
-        sentence = f"Hub loads are not shown below µ {SLOWEST:g}, where they depend on the wake model."
-    else:
-        return None
-    return Caveat("no-hub-loads", sentence)
 
 
 Solve = Callable[[Design, Solution | Guess | None], Analysis]

@@ -20,6 +20,7 @@ from rotor.support.arrays import Array
 from rotor.support.units import power_text
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
+from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import HubMoment
 from rotor.trim.solution import Caveat, Solution
 
@@ -138,6 +139,8 @@ def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
             said["rigid-blades-linear-inflow"] = (
                 "Linear inflow does not respond to unequal lift, so the induced power of rigid blades is too low."
             )
+    if models.bending and (reason := why_no_hub_loads(design)) is not None:
+        said[reason.name] = reason.sentence
     if design.active_twist and design.hovering:
         said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
     if design.pitch_per_rev and design.hovering:

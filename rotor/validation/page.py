@@ -15,7 +15,7 @@ from pathlib import Path
 
 from rotor.support.chart_svg import small_svg, svg
 from rotor.support.markup import tag
-from rotor.support.user_input import csv_text
+from rotor.support.user_input import csv_text, write_whole
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.compare import SETS as MEASURED
@@ -87,13 +87,11 @@ def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
     """Write the CSV file, the summary and every page below a folder; the path of the summary."""
     order = list(KINDS)
     sets = sorted(sets, key=lambda data: order.index(data.rows[0].kind))
-    (folder / "trust.csv").write_text(
-        trust_csv(row for data in sets for row in data.rows), encoding="utf-8", newline=""
-    )
+    write_whole(folder / "trust.csv", trust_csv(row for data in sets for row in data.rows))
     for data in sets:
         write_set(data, folder)
     path = folder / "validation.md"
-    path.write_text(summary(sets), encoding="utf-8")
+    write_whole(path, summary(sets))
     return path
 
 
@@ -108,13 +106,13 @@ def write_set(data: TrustSet, folder: Path) -> Path:
     folder = folder / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     for k, chart in enumerate(data.charts):
-        (folder / _picture(data, k)).write_text(svg(chart), encoding="utf-8")
-    (folder / f"{data.name}-small.svg").write_text(small_svg(data.charts[0]), encoding="utf-8")
+        write_whole(folder / _picture(data, k), svg(chart))
+    write_whole(folder / f"{data.name}-small.svg", small_svg(data.charts[0]))
     for file, _, rows in _tables(data):
         text = csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n")
-        (folder / file).write_text(text, encoding="utf-8", newline="")
+        write_whole(folder / file, text)
     path = folder / f"{data.name}.md"
-    path.write_text(set_page(data), encoding="utf-8")
+    write_whole(path, set_page(data))
     return path
 
 

@@ -12,7 +12,8 @@ import pytest
 from numba.core import caching, config
 
 import rotor
-from rotor.support.compiled import _watch, compiling, why_not_kept
+from rotor.__main__ import main
+from rotor.support.compiled import _watch, compiling, log_compiling, why_not_kept
 
 SOURCE = """
 import numba
@@ -41,6 +42,7 @@ def _kept_beside_the_source(monkeypatch: pytest.MonkeyPatch):
     """Also where `NUMBA_CACHE_DIR` names a folder for all."""
     monkeypatch.setattr(config, "CACHE_DIR", "")
     monkeypatch.setattr(_watch, "unkept", False)
+    monkeypatch.setattr(_watch, "began", False)
 
 
 @pytest.fixture
@@ -105,6 +107,19 @@ def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch:
     assert "NUMBA_CACHE_DIR" in why_not_kept()
 
 
+def test_a_command_that_keeps_nothing_says_so_in_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    monkeypatch.setattr(_watch, "unkept", True)
+    assert main(["actuator", "--table", "5.1"]) == 0
+    assert capsys.readouterr().err == ""  # It has compiled nothing.
+    monkeypatch.setattr(_watch, "began", True)
+    assert main(["actuator", "--table", "5.1"]) == 0
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "NUMBA_CACHE_DIR" in said
+
+
 @pytest.mark.parametrize("method", ["_save_data", "_save_index"])
 def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch, method: str):
     def full(*_: object) -> None:
@@ -146,3 +161,12 @@ def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monk
     said.truncate(0)
     assert module(source).kernel(1.0) == 2.0
     assert said.getvalue() == ""  # Kept code.
+
+
+def test_a_line_does_not_say_once_where_nothing_can_be_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
+    said = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", said)
+    monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
+    log_compiling()
+    assert module(source).kernel(1.0) == 2.0
+    assert "Compiling kernels, in each run" in said.getvalue()

@@ -1,5 +1,6 @@
 """Reports as files: a CSV file per table, a picture of each, and `results.json` with statement, numbers and verdict."""
 
+import io
 import json
 import math
 from collections.abc import Sequence
@@ -9,7 +10,7 @@ from typing import Any
 from rotor.support.chart import Chart
 from rotor.support.plots import draw_chart, drawing_module
 from rotor.support.units import typographic
-from rotor.support.user_input import csv_text
+from rotor.support.user_input import csv_text, write_whole
 from rotor.validation.thesis.catalogue import CatalogueEntry, find_entry
 from rotor.validation.thesis.misprints import misprint_table
 from rotor.validation.thesis.report import Report, ReportTable
@@ -71,8 +72,10 @@ def draw(report: Report, folder: Path) -> None:
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         # Transparent: the page has a dark form.
-        figure.savefig(folder / f"{report.stem}.svg", metadata={"Date": None}, transparent=True)
-        figure.savefig(folder / f"{report.stem}.png", dpi=130)
+        for kind, how in (("svg", {"metadata": {"Date": None}, "transparent": True}), ("png", {"dpi": 130})):
+            content = io.BytesIO()
+            figure.savefig(content, format=kind, **how)
+            write_whole(folder / f"{report.stem}.{kind}", content.getvalue())
 
 
 @CachedFunction
@@ -100,17 +103,17 @@ def write_csv(path: Path, report: Report, table: ReportTable) -> None:
     heading = f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n"
     # Six significant digits are more than the accuracy of any.
     rows = ([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)
-    path.write_text(csv_text([table.columns, *rows], heading), encoding="utf-8", newline="")
+    write_whole(path, csv_text([table.columns, *rows], heading))
 
 
 def write_results(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
     """`results.json`: what the thesis says of each, our numbers and the verdict; `misprints.csv` beside it."""
     found = misprint_table()
     text = csv_text([found.columns, *found.rows], "# What the thesis omits or misprints\n")
-    (folder / "misprints.csv").write_text(text, encoding="utf-8", newline="")
+    write_whole(folder / "misprints.csv", text)
     path = folder / "results.json"
     records = [_record(entry.chapter, report) for entry, report in reports]
-    path.write_text(json.dumps(records, indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+    write_whole(path, json.dumps(records, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
     return path
 
 

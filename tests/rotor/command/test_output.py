@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import build_parser, main
+from rotor.design.quantities import CONDITION
 from rotor.trim.export import SCHEMA
 
 QUICK = ("--inflow", "uniform", "--elements", "12", "--azimuths", "24")
@@ -57,6 +58,12 @@ def test_keys_of_the_json_are_documented(capsys: pytest.CaptureFixture[str]):
     assert answer["version"]
     documented = set(re.findall(r"`([a-z][a-z0-9_]*)`", FORMATS[FORMATS.index("(solve-json)=") :]))
     assert set(answer) <= documented
+
+
+def test_the_ranges_of_the_flight_condition_are_documented():
+    for name, row in CONDITION.items():
+        stand = f" (on a test stand {row.high_on_stand:g})" if row.high_on_stand else ""
+        assert f"`{name}` {row.low:g}…{row.high:g}{stand}" in FORMATS
 
 
 def test_hub_loads_without_bending_say_whose_they_are(capsys: pytest.CaptureFixture[str]):

@@ -279,3 +279,49 @@ def test_a_missing_extra_is_one_sentence(missing: str, words: str, tmp_path: Pat
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert f"needs {missing}: pip install 'rotor-explorer[" in done.stderr
     assert words in done.stderr
+
+
+class KillsAtThird:
+    """Hears of finished chunks, and kills processes at the third."""
+
+    def __init__(self, processes: list["subprocess.Popen[bytes]"]) -> None:
+        self.processes, self.left = processes, 3
+
+    def __call__(self, done: int, total: int) -> None:
+        del done, total
+        self.left -= 1
+        if self.left == 0:
+            for process in self.processes:
+                process.kill()
+
+
+def test_a_cluster_without_workers_ends_the_study_and_what_is_done_is_kept(
+    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Dask itself waits for new workers without end."""
+    monkeypatch.setattr("rotor.study.cluster._ASK", 1.0)
+    monkeypatch.setattr("rotor.study.cluster._PATIENCE", 2.0)
+    file, out = study_file(tmp_path), tmp_path / "out"
+    distributed: Any = importlib.import_module("distributed")
+    with distributed.Client(cluster.address) as client, pytest.raises(RuntimeError, match="no worker is left"):
+        run_study(file, client.get_executor(), out=out, notify=KillsAtThird(cluster.workers))
+    kept = files(out)
+    assert 3 <= len(kept) < 75
+    run_study(file, out=out, workers=1)
+    assert {name: at for name, at in files(out).items() if name in kept} == kept
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
+def test_a_run_whose_scheduler_ends_says_so_in_one_line(
+    how: signal.Signals, cluster: Cluster, tmp_path: Path, start: Callable[..., Any]
+):
+    file, out = study_file(tmp_path), tmp_path / "out"
+    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    until(lambda: len(files(out)) >= 3, run)
+    cluster.scheduler.send_signal(how)
+    assert run.wait(PATIENCE) == 1
+    warning, *said = run.stderr.read().decode().splitlines()
+    assert "has no encryption" in warning
+    assert len(said) == 1, said
+    assert said[0].startswith("rotor: the workers are gone (")
+    assert len(files(out)) >= 3

@@ -19,6 +19,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from rotor import Design, hub_loads
 from rotor.__main__ import main
 from rotor.command.common import interruptible
+from rotor.command.study import record, report
 from rotor.files.make_design import make_design
 from rotor.study import point as study_point
 from rotor.study.chunks import FinishedChunk, StudyFolder, StudyProvenance, evaluate_chunk, evaluate_points
@@ -367,6 +368,22 @@ def test_a_small_sample_is_not_reported_as_an_effect():
     found = {one.axis: one.share for one in main_effects(results, "power_total_w")}
     assert found["x"] > 0.5
     assert found["y"] < 0.2
+    words = {"message": None, "twist": "linear:-8", "caveats": None}
+    results.columns.update({name: np.full(16, word, dtype=object) for name, word in words.items()})
+    assert "rough: 16 points of a sample; with fewer than 100, chance" in report(results, record(results))
+
+
+def test_show_counts_the_caveats_of_points():
+    """Those of the points by name, the most frequent first, and where their sentences are."""
+    results = results_of(mu=[0.1, 0.2, 0.3, 0.4], power_total_w=[4.0, 1.0, 2.0, 3.0])
+    caveats = ["stall", None, "", "controls, stall"]
+    results.columns.update(
+        message=np.full(4, None), twist=np.full(4, "linear:-8"), caveats=np.array(caveats, dtype=object)
+    )
+    shown = record(results)
+    assert list(shown["caveats"].items()) == [("stall", 2), ("controls", 1)]
+    said = " ".join(report(results, shown).split())
+    assert "caveats of points: stall at 2, controls at 1; python -m rotor solve --row DIR:1 says more" in said
 
 
 def test_one_ctrl_c_received_twice_counts_once():
@@ -382,6 +399,9 @@ def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
     rows = evaluate_points(study, 0, study.count)
     slow, fast = (next(row for row in rows if row["mu"] == mu and row["rate_deg"] == -8) for mu in (0.1, 0.3))
     assert "index_percent" not in slow
+    for row in (slow, fast):
+        alone = solve(make_design(twist="linear:-8", mu=row["mu"], inflow="pitt-peters", bending=True))
+        assert row["caveats"] == ", ".join(caveat.name for caveat in alone.caveats)
     assert "no-hub-loads" in slow["caveats"]
     design = make_design(twist="linear:-8", mu=0.3, inflow="pitt-peters", bending=True)
     loads = hub_loads(solve(design))

@@ -45,11 +45,12 @@ def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
 def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path, printed: Callable[..., str]):
     assert find_entry("Figure 3.11") is find_entry("3.11")
     asked = ["--figure", "table 5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
-    assert printed("reproduce", str(tmp_path), *asked)
+    said = printed("reproduce", str(tmp_path), *asked)
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     found = [(one["title"], one["verdict"]) for one in results]
     reproduced = [(f"Table 3.{k}", "input reproduced") for k in (1, 2)]
     assert found == [*reproduced, ("Table 5.1", "no reference")]
+    assert all(one["statement"] in said for one in results)
 
 
 @pytest.mark.parametrize(
