@@ -71,4 +71,4 @@ def patch_sections(name: str, amount: float, patch: Patch) -> None:
         return replace(table, coefficients=np.ascontiguousarray(cells), moment_coefficients=moment)
 
     patch("rotor.airfoil.sections.load_section", load)
-    disk.build_disk.cache_clear()
+    disk.build_disk.__dict__["cache_clear"]()

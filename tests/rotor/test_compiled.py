@@ -19,9 +19,6 @@ SOURCE = """
 import numba
 from rotor.support.compiled import compiled
 
-def plain(x):
-    return x + 1.0
-
 @compiled(error_model="numpy")
 def kernel(x):
     return x + 1.0

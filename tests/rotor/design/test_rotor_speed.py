@@ -64,6 +64,7 @@ def test_torsion_frequency_per_revolution_rises_as_the_rotor_slows():
     """ω² = ω_0² + k Ω²: the elastic part stays in rad/s, the centrifugal part stays per revolution."""
     design = rotor.make_design(**SMALL)
     structure = design.rotor.blade.structure
+    assert structure is not None
 
     def per_rev(percent: float) -> float:
         speed = design.at(rotor_speed_percent=percent).rotor.angular_speed

@@ -135,6 +135,7 @@ def test_first_torsion_frequency_of_hart2():
     """β tan β = K L/GJ, ω² = (β/L)² GJ/I_θ + Ω² of a uniform rod on a spring; published 3.85/rev."""
     rotor = shipped_aircraft("hart2").rotor
     structure = rotor.blade.structure
+    assert structure is not None
     length, stiffness = rotor.radius - structure.clamp, structure.torsional_stiffness[0]
     held = structure.control_stiffness * length / stiffness
     beta = float(brentq(lambda b: b * math.tan(b) - held, 0.1, 1.57))
