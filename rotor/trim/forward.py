@@ -291,5 +291,5 @@ def _continue(
         else:
             step *= 0.4
     if t >= 1.0:
-        return replace(result, passes=passes)
+        return replace(result, passes=passes, led=True)
     return replace(best, passes=passes, reached=t, nearest=latest[1] if t > 0.0 else None)

@@ -83,7 +83,7 @@ def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms:
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
     found = assemble(result, begin)
-    if design.condition.stand is not None or not (result.converged and is_suspect_branch(found)):
+    if design.condition.stand is not None or result.led or not (result.converged and is_suspect_branch(found)):
         return found
     return _least_of_branches(found, stall_limit(problem), options)
 

@@ -90,5 +90,16 @@ def test_every_design_has_an_answer_soon(name: str, count: int):
     assert name != "largest-grids" or {said for _, _, said in result["slowest"]} == {"Trimmed."}
 
 
+def test_a_trim_found_by_continuation_is_not_sought_by_it_again(monkeypatch: pytest.MonkeyPatch):
+    """It took half of the time of the slowest refusals."""
+
+    def sought(*_: object) -> None:
+        pytest.fail("sought again")
+
+    monkeypatch.setattr("rotor.trim.solve.trim_along", sought)
+    solution = solve(make_design(twist="linear:-23.8683", mu=0.43756926966961485, mass_kg=811.99, climb_m_s=-8.0))
+    assert "collective" in solution.message
+
+
 if __name__ == "__main__":
     work(sys.argv[1], int(sys.argv[2]))
