@@ -312,7 +312,7 @@ def test_a_cluster_without_workers_ends_the_study_and_what_is_done_is_kept(
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
-def test_a_run_whose_scheduler_ends_says_so_in_one_line(
+def test_a_run_whose_scheduler_ends_says_so_in_its_last_line(
     how: signal.Signals, cluster: Cluster, tmp_path: Path, start: Callable[..., Any]
 ):
     file, out = study_file(tmp_path), tmp_path / "out"
@@ -320,8 +320,9 @@ def test_a_run_whose_scheduler_ends_says_so_in_one_line(
     until(lambda: len(files(out)) >= 3, run)
     cluster.scheduler.send_signal(how)
     assert run.wait(PATIENCE) == 1
-    warning, *said = run.stderr.read().decode().splitlines()
+    said = run.stderr.read().decode()
+    assert "Traceback" not in said
+    warning, *_, last = said.splitlines()  # Between them a busy machine may say that it waits.
     assert "has no encryption" in warning
-    assert len(said) == 1, said
-    assert said[0].startswith("rotor: the workers are gone (")
+    assert last.startswith("rotor: the workers are gone (")
     assert len(files(out)) >= 3
