@@ -34,7 +34,7 @@ def dask_client(address: str) -> Generator[Any]:
     """
     distributed = extra_module("distributed", "cluster", "a study on a Dask cluster")
     for name in tuple(logging.root.manager.loggerDict):  # Dask gives a level to more than the first of them.
-        if name.partition(".")[0] == "distributed":
+        if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL)  # Errors are reported by this package.
     try:
         client = distributed.Client(address, timeout="10s")
