@@ -150,9 +150,11 @@ def _weights(steps: Array) -> Array:
 
 
 _GRID = ("elements", "azimuths")
-_MODELS = ("inflow", *SWITCHES, *OPTIONS, *_GRID)
+_MODELS = ("inflow", *SWITCHES, *OPTIONS)
 """Quantities that are fields of `Models`."""
-_ARGUMENTS = tuple(name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS))
+_ARGUMENTS = tuple(
+    name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS, *_GRID)
+)
 """Quantities that are arguments of `make_design`."""
 
 Row = dict[str, Any]
@@ -170,12 +172,12 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     changed: dict[str, Any] = {name: values[name] for name in _MODELS if name in values}
     if "inflow" in changed:
         inflow_model(str(changed["inflow"]))
-    changed |= {name: int(changed[name]) for name in _GRID if name in changed}
     stand = {key: values[f"stand_{key}"] for key in STAND if f"stand_{key}" in values}
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
     if "mu" in values and "speed_kt" in values:
         raise ValueError("mu and speed_kt are both given: omit one")
     arguments: dict[str, Any] = {name: values[name] for name in _ARGUMENTS if name in values}
+    arguments |= {name: int(values[name]) for name in _GRID if name in values}
     return make_design(
         preset=preset,
         rotor=aircraft.get(rotor) or shipped_aircraft(rotor),  # No path: results may come from others.

@@ -124,6 +124,12 @@ def test_rows_agree_with_single_trims():
         assert_allclose(row["collective_deg"], math.degrees(alone.controls.collective), rtol=1e-7)
 
 
+@pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
+def test_a_point_is_the_design_of_the_same_arguments(inflow: str):
+    given = {"mu": 0.2, "inflow": inflow, "elements": 12, "azimuths": 24, "mass_kg": 8000.0}
+    assert study_point.design_of(given, {}) == make_design(**given)
+
+
 def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(monkeypatch: pytest.MonkeyPatch):
     """One that does not trim, or that fails, leaves the others."""
     text = '[axes]\nmu = [0.2, 0.3]\nrate_deg = [-18, -8, 90, -14]\n[fixed]\nconcept = "linear"\n'
