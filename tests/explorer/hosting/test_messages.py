@@ -139,7 +139,7 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
         ("FileTransferStartUpload", {**UPLOAD, "source_component_uuid": [1]}, "source_component_uuid is [1]", "`str`"),
         ("ViewerCameraMessage", {**_CAMERA, "position": ()}, "position is []", "length 3"),
         ("ViewerCameraMessage", {**_CAMERA, "wxyz": (1.0, 0.0, 0.0, math.nan)}, "wxyz is [1.0, 0.0, 0.0, nan]", "[3]"),
-        ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 0"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 1"),
         ("GuiUpdateMessage", edit([math.nan]), "updates is {'value': [nan]}", "at updates.value[0]"),
         ("GuiUpdateMessage", edit("x" * (LONGEST_TEXT + 1)), "updates is 20011 bytes", "length <= 20000"),
         ("GuiUpdateMessage", edit([0.0] * 20_000), "bytes", "length <= 1000"),
@@ -148,6 +148,14 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
         ("GuiUpdateMessage", edit(1.0, "x" * 1000), "uuid is 1003 bytes", "length <= 300"),
         ("FileTransferPart", {**PART, "content": "text"}, "content is 'text'", "Expected `bytes`, got `str`"),
         ("ScenePointerMessage", {**CLICK, "screen_pos": []}, "screen_pos is []", "length >= 1"),
+        # Each value fits, and they do not fit together.
+        ("ScenePointerMessage", {**CLICK, "event_type": "rect-select"}, "'rect-select'", "expected one of click"),
+        ("ScenePointerMessage", {**CLICK, "ray_origin": None}, "ray_origin is None", "Expected `array`"),
+        ("ScenePointerMessage", {**CLICK, "ray_direction": [0, 0, 0]}, "ray_direction", "unit vector"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_height": 0}, "image_height is 0", ">= 1"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_height": 10**14}, f"image_height is {10**14}", "<= 32768"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_width": 1}, "a canvas of 1 × 940", "ratio of 32"),
+        ("FileTransferStartUpload", {**UPLOAD, "part_count": 0}, "9 bytes in 0 parts", "parts"),
     ],
 )
 def test_what_no_client_of_ours_sends_is_named(kind: str, fields: dict[str, Any], field: str, said: str):
@@ -211,7 +219,15 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
     async def visit() -> tuple[str, str]:
         visitor = await arrived(app.address)
         power = visitor.text("total-power")
-        # These three once gave tracebacks.
+        # These once gave tracebacks: values that fit one by one, and a file for a menu, whose value it became.
+        await visitor.press("pull", 0.3)
+        for wrong in ({"event_type": "rect-select"}, {"ray_origin": None}, {"ray_direction": (0, 0, 0)}):
+            await visitor.send("ScenePointerMessage", **{**CLICK, **wrong})
+        for size in (0, 10**14):
+            await visitor.send("ViewerCameraMessage", **{**_CAMERA, "image_height": size})
+        menu = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("options"))
+        await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": menu})
+        await visitor.send("FileTransferPart", **{**PART, "source_component_uuid": menu, "content": b"x" * 9})
         await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))
         await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": [1]})
         await visitor.send("ViewerCameraMessage", **{**_CAMERA, "position": ()})
@@ -236,8 +252,9 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         app.stop()
     assert before == after
     assert not [record for record in caplog.records if record.exc_info]
-    kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:3]]
-    assert kinds == ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
+    kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:8]]
+    wrong = ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
+    assert kinds == [*["ScenePointerMessage"] * 3, *["ViewerCameraMessage"] * 2, *wrong]
 
 
 def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch):
