@@ -1,13 +1,15 @@
 """What a page says: each name is known, and each value finite, in range and short, or it is dropped with a line."""
 
+import asyncio
 import dataclasses
 import json
 import logging
 import math
 import random
 import re
+from collections.abc import AsyncIterator
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 import msgspec
 import pytest
@@ -255,6 +257,23 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
     kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:8]]
     wrong = ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
     assert kinds == [*["ScenePointerMessage"] * 3, *["ViewerCameraMessage"] * 2, *wrong]
+
+
+def test_a_visitor_that_cannot_read_a_message_ends_the_wait():
+    """It waited for its whole patience."""
+
+    async def visit() -> None:
+        async def frames() -> AsyncIterator[bytes]:
+            yield wire.encode("GuiUpdateMessage")
+
+        visitor = Visitor()
+        visitor._reading = asyncio.create_task(visitor._read(cast("Any", frames())))
+        with pytest.raises(ConnectionError, match="could not be read"):
+            await visitor.until(lambda: False, 20.0)
+        with pytest.raises(Exception, match=r"\w"):
+            await visitor.close()
+
+    ran(visit)
 
 
 def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch):
