@@ -191,15 +191,10 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         connection.queue_message(_messages.RemoveNotificationMessage(f"upload-{transfer}"))
         tell(sentence)
 
-    def button_of(message: _messages.FileTransferStartUpload | _messages.FileTransferPart) -> Any:
-        """None where the file is for another widget, whose value it would become."""
-        handle: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid or "")
-        return handle if isinstance(handle, viser.GuiUploadButtonHandle) else None
-
     def started(client_id: Any, message: _messages.FileTransferStartUpload) -> None:
-        button = button_of(message)
-        if button is None:
-            return
+        button: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid)
+        if not isinstance(button, viser.GuiUploadButtonHandle):
+            return  # The file would become the value of another widget.
         accepts = getattr(button._impl.props, "mime_type", "")
         sentence = refuse_upload(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
         if sentence is None:
@@ -209,7 +204,8 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
 
     def continued(client_id: Any, message: _messages.FileTransferPart) -> None:
         state = under_way.get(message.transfer_uuid)
-        if state is None or button_of(message) is None:
+        button: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid or "")
+        if state is None or not isinstance(button, viser.GuiUploadButtonHandle):
             return  # Refused, or never begun: dropped.
         left = state["total_bytes"] - state["transferred_bytes"] - len(message.content)
         if left < 0 or (left and len(state["parts"]) + 1 == state["part_count"]):

@@ -34,12 +34,9 @@ def extra_module(name: str, extra: str, what: str) -> Any:
         raise MissingExtra(f"{what} needs {name.partition('.')[0]}: pip install 'rotor-explorer[{extra}]'") from None
 
 
-def causes(error: BaseException) -> list[BaseException]:
-    """An exception and all that led to it."""
-    found = [error]
-    for one in found:
-        found += [each for each in (one.__cause__, one.__context__) if each is not None and each not in found]
-    return found
+def causes(error: BaseException | None) -> list[BaseException]:
+    """An exception and those that led to it."""
+    return [] if error is None else [error, *causes(error.__cause__ or error.__context__)]
 
 
 def raise_interrupt(error: BaseException) -> None:

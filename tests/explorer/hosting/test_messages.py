@@ -13,6 +13,7 @@ from typing import Any, cast, get_args
 
 import msgspec
 import pytest
+from msgspec import inspect
 from viser import _messages
 
 from explorer.app import App
@@ -213,6 +214,31 @@ def test_facts_of_a_page_are_read():
     assert read_facts("{}") == PageFacts()
 
 
+def fitting(kind: inspect.Type, names: list[str], chance: random.Random) -> Any:
+    """A value that fits by itself: nought, empty, at an end of its range, or a name that means something else."""
+    match kind:
+        case inspect.UnionType(types=types):
+            return fitting(chance.choice(types), names, chance)
+        case inspect.StructType(fields=fields):
+            return {field.encode_name: fitting(field.type, names, chance) for field in fields}
+        case inspect.TupleType(item_types=items):
+            return [fitting(item, names, chance) for item in items]
+        case inspect.ListType(item_type=item, min_length=least):
+            return [fitting(item, names, chance) for _ in range(least or 0)]
+        case inspect.LiteralType(values=values):
+            return chance.choice(values)
+        case inspect.IntType(ge=low, le=high):
+            return chance.choice([low or 0, 1, high or 10**14])
+        case inspect.FloatType():
+            return chance.choice([0.0, 1.0, 1e-300, -1e14, 1e14])
+        case inspect.StrType():
+            return chance.choice(names)
+        case inspect.MemoryViewType():
+            return chance.choice([b"", b"x"])
+        case _:
+            return None
+
+
 def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.LogCaptureFixture):
     """2,500 such presses once gave a thousand tracebacks, and NaN as the azimuth ended the page for good."""
     app, chance = App("127.0.0.1", 0), random.Random(54)
@@ -237,6 +263,11 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         for k in range(1500):
             name, value = chance.choice([*names, "constructor", 7]), chance.choice(HOSTILE)
             await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": press(name, value, k)})
+            if k % 3 == 0:  # Fields that fit one by one, seldom together.
+                kind, ids = chance.choice(get_args(Sent)), list(visitor.widgets)
+                if kind.__name__ != "GuiUpdateMessage":
+                    fields = fitting(inspect.type_info(kind), ["", "a.json", "/rotor/blade_0", *ids], chance)
+                    await visitor.send(kind.__name__, **fields)
             if k % 10 == 0:
                 field, bad = chance.choice(FLOATS), chance.choice([math.nan, math.inf])
                 value = [bad] * len(field[1]) if isinstance(field[1], tuple) else bad
