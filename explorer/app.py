@@ -28,6 +28,7 @@ from explorer.tabs.context import SharedServices
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
 from explorer.workers import solver
+from explorer.workers.newest_wins import UPDATES, NewestWins, UpdatePool
 from rotor import solve
 from rotor.support.bytes_cache import limit_caches
 from rotor.support.compiled import compiling
@@ -122,30 +123,33 @@ def show_dialogue(client: viser.ClientHandle, content: str) -> None:
 class FirstAnswers:
     """The power of the design in a page's address, for its loading screen: solved while the page's parts arrive."""
 
-    def __init__(self, start: Callable[[], Inputs]) -> None:
-        """`start`: where an address holds no design."""
+    def __init__(self, start: Callable[[], Inputs], pool: UpdatePool = UPDATES) -> None:
+        """`start`: where an address holds no design. `pool`: where it takes its turn among the pages."""
         self._start = start
         self._known: dict[tuple[str, Inputs], str] = {}
-        self._solving = threading.Lock()
+        self._asked: tuple[str, Inputs] | None = None
+        """What is being solved: one at a time."""
+        self._worker = NewestWins(self._solve, lambda error: _log.error("a first answer failed", exc_info=error), pool)
 
     def __call__(self, query: str) -> str:
         """Power, design and flight in three lines; empty until it is solved, and where there is no answer."""
-        start = self._start()
-        words = self._known.get((query, start))
-        if words is None and not compiling() and self._solving.acquire(blocking=False):
-            _in_thread("first-answer", partial(self._solve, query, start))
+        asked = query, self._start()
+        words = self._known.get(asked)
+        if words is None and self._asked is None and not compiling():
+            self._asked = asked
+            self._worker.wake()
         return words or ""
 
-    def _solve(self, query: str, start: Inputs) -> None:
-        words = ""
+    def _solve(self) -> None:
+        words, asked = "", self._asked
+        assert asked is not None
         try:
             with contextlib.suppress(ValueError):  # The page says what is wrong with its address.
-                words = _first_words(query, start)
+                words = _first_words(*asked)
         finally:
             if len(self._known) >= _FIRST_ANSWERS:
                 self._known.clear()
-            self._known[query, start] = words
-            self._solving.release()
+            self._known[asked], self._asked = words, None
 
 
 def _first_words(query: str, start: Inputs) -> str:

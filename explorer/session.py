@@ -10,8 +10,8 @@ A slider step takes these steps; `_update` is the path:
 6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
 7. draw: `picture.make_picture` and `disk_numbers` make poses, the twist of the blades and the field on the disk.
 8. draw: `scene` sends them and flushes. The frame is on its way.
-9. draw: the baseline and A are solved and complete the `SessionState`; where other pages wait for their frames,
-   `page.show_power_number` keeps the number up to date.
+9. draw: the baseline and A are solved and complete the `SessionState`; where other pages are at work,
+   `page.show_power_number` sends the number with the frame.
 10. follow, step by step, given up when a newer update comes: `page.show_results` updates the panels that are functions
    and those of long work.
 11. follow: `page.follow` updates all other tabs.
@@ -110,7 +110,7 @@ class Session:
             self.page.show_azimuth(state)
             return None
         self.page.take(reading, state)
-        if UPDATES.waiting:  # Half of a step's time are charts: in a crowd frames come first.
+        if UPDATES.busy:  # The number goes with the frame: charts wait for those of other pages, and for their sweeps.
             self.page.show_power_number()
         return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
 

@@ -11,7 +11,7 @@ from typing import Any, Unpack
 import msgspec
 import viser
 
-from explorer.hosting.messages import PageFacts, checked_press, read_facts
+from explorer.hosting.messages import NoDesign, PageFacts, checked_press, log_dropped, read_facts
 from explorer.hosting.viser_compat import run_in_page, widget_id
 from explorer.parts import Parts
 from explorer.parts.presses import PRESSES
@@ -116,5 +116,7 @@ class Bridge:
     def _act(self, action: Callable[[Any], None], name: str, value: Any) -> None:
         try:
             action(value)
+        except NoDesign as error:  # The page shows the sentence.
+            log_dropped(f"press {name}: {error}")
         except Exception:  # One press that fails must not end the others.
             _log.exception("%s failed", name)

@@ -6,6 +6,7 @@ it is, what it holds and what is allowed. What is no message of the page ends it
 """
 
 import logging
+import math
 import re
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal, get_args, get_type_hints
@@ -31,6 +32,10 @@ _log = logging.getLogger(__name__)
 Number = Annotated[float, Meta(gt=-1e15, lt=1e15)]
 """Neither endless nor NaN."""
 Count = Annotated[int, Meta(ge=0, lt=10**15)]
+Side = Annotated[int, Meta(ge=1, le=2**15)]
+"""[px] of the canvas."""
+_SLIMMEST = 32.0
+"""Ratio of the sides of a canvas, at most."""
 Name = Annotated[str, Meta(max_length=300)]
 Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
 Pixel = tuple[Number, Number]
@@ -43,6 +48,10 @@ WidgetValue = bool | Number | Text | Annotated[list[Number], Meta(max_length=100
 class _Sent(Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
     """A message of viser's client. Classes and fields have viser's names."""
 
+    def fault(self) -> str:
+        """What is wrong with its values together, each of which fits; empty where nothing is."""
+        return ""
+
 
 class ViewerCameraMessage(_Sent):
     wxyz: Turn
@@ -50,18 +59,29 @@ class ViewerCameraMessage(_Sent):
     fov: Number
     near: Number
     far: Number
-    image_height: Count
-    image_width: Count
+    image_height: Side
+    image_width: Side
     look_at: Point
     up_direction: Point
 
+    def fault(self) -> str:
+        fits = 1.0 / _SLIMMEST <= self.image_width / self.image_height <= _SLIMMEST
+        return (
+            "" if fits else f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_SLIMMEST:g}"
+        )
+
 
 class ScenePointerMessage(_Sent):
-    event_type: Literal["click", "rect-select"]
-    ray_origin: Point | None
-    ray_direction: Point | None
-    screen_pos: Annotated[list[Pixel], Meta(min_length=1, max_length=2)]
+    event_type: Literal["click"]
+    """No part of the page selects rectangles."""
+    ray_origin: Point
+    ray_direction: Point
+    screen_pos: Annotated[list[Pixel], Meta(min_length=1, max_length=1)]
     modifier: Keys | None
+
+    def fault(self) -> str:
+        length = math.hypot(*self.ray_direction)
+        return "" if 0.5 < length < 2.0 else f"ray_direction is {list(self.ray_direction)}, expected a unit vector"
 
 
 class SceneNodeDragMessage(_Sent):
@@ -97,6 +117,10 @@ class FileTransferStartUpload(_Sent):
     mime_type: Name
     part_count: Count
     size_bytes: Count
+
+    def fault(self) -> str:
+        fits = bool(self.part_count) == bool(self.size_bytes)
+        return "" if fits else f"{self.size_bytes} bytes in {self.part_count} parts"
 
 
 class FileTransferPart(_Sent):
@@ -136,7 +160,7 @@ def message_fault(message: bytes) -> str:
     """What is wrong with a value of a message; empty where it fits. ValueError for what is no message of the page: of
     no known kind, or with other fields."""
     try:
-        _sent.decode(message)
+        sent = _sent.decode(message)
     except msgspec.ValidationError as error:
         reason, _, place = str(error).removesuffix("`").partition(" - at `$.")
         field = re.match(r"\w*", place)
@@ -148,7 +172,12 @@ def message_fault(message: bytes) -> str:
         shown = _shown(msgspec.msgpack.decode(part)) if size <= _READABLE else f"{size} bytes"
         (fields,) = (get_type_hints(one) for one in get_args(Sent) if one.__name__ == kind)
         return f"{kind}: {field[0]} is {shown}: {reason}{_choices(reason, fields[field[0]])} at {place}"
-    return ""
+    fault = sent.fault()
+    return fault and f"{type(sent).__name__}: {fault}"
+
+
+class NoDesign(ValueError):
+    """What the widgets say is no design; one sentence, which the page shows."""
 
 
 def log_dropped(what: str) -> None:

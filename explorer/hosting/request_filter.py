@@ -18,7 +18,7 @@ from urllib.parse import urlsplit
 
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers, MultipleValuesError
-from websockets.exceptions import ConnectionClosed
+from websockets.exceptions import ConnectionClosed, InvalidMessage, SecurityError
 from websockets.frames import CloseCode, Frame
 from websockets.http11 import Request, Response
 from websockets.protocol import Event
@@ -302,6 +302,16 @@ class GuardedConnection(ServerConnection):
         if not self.transport.is_closing():
             self.transport.write(response.serialize())
             self.transport.close()
+
+    def send_data(self) -> None:
+        """What the server below has to send; in place of its silence, why a request cannot be read."""
+        fault = self.protocol.handshake_exc
+        if self.request is None and isinstance(fault, InvalidMessage):
+            long = isinstance(fault.__cause__, SecurityError)
+            status = http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE if long else http.HTTPStatus.BAD_REQUEST
+            remedy = "send fewer headers, in lines that end with CR LF, and no body"
+            return self._refuse(_plain(status, f"This request cannot be read ({fault.__cause__}): {remedy}."))
+        super().send_data()
 
     def process_event(self, event: Event) -> None:
         """A frame, counted: parts of a message that never ends fill the memory before any limit of messages."""

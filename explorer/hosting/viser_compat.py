@@ -38,7 +38,7 @@ from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from explorer.hosting.messages import LONGEST_HEAD, accepted_value
+from explorer.hosting.messages import LONGEST_HEAD, NoDesign, accepted_value, log_dropped
 from explorer.hosting.request_filter import RequestFilter
 from explorer.hosting.server_limits import refuse_upload
 from rotor.support.arrays import Array
@@ -155,7 +155,10 @@ def log_failed_callbacks() -> None:
 
 
 def _log_failure(done: Any) -> None:
-    if not done.cancelled() and (error := done.exception()) is not None:
+    error = None if done.cancelled() else done.exception()
+    if isinstance(error, NoDesign):  # The page shows the sentence.
+        log_dropped(str(error))
+    elif error is not None:
         _log.error("a callback failed", exc_info=error)
 
 
@@ -189,9 +192,9 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         tell(sentence)
 
     def started(client_id: Any, message: _messages.FileTransferStartUpload) -> None:
-        button = gui._gui_input_handle_from_uuid.get(message.source_component_uuid)
-        if button is None:
-            return
+        button: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid)
+        if not isinstance(button, viser.GuiUploadButtonHandle):
+            return  # The file would become the value of another widget.
         accepts = getattr(button._impl.props, "mime_type", "")
         sentence = refuse_upload(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
         if sentence is None:
@@ -201,10 +204,12 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
 
     def continued(client_id: Any, message: _messages.FileTransferPart) -> None:
         state = under_way.get(message.transfer_uuid)
-        if state is None:
+        button: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid or "")
+        if state is None or not isinstance(button, viser.GuiUploadButtonHandle):
             return  # Refused, or never begun: dropped.
-        if state["transferred_bytes"] + len(message.content) > state["total_bytes"]:
-            refuse(message.source_component_uuid, message.transfer_uuid, "A file was longer than announced.")
+        left = state["total_bytes"] - state["transferred_bytes"] - len(message.content)
+        if left < 0 or (left and len(state["parts"]) + 1 == state["part_count"]):
+            refuse(message.source_component_uuid, message.transfer_uuid, "A file was not as long as announced.")
         else:
             more(client_id, message)
 

@@ -11,6 +11,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from explorer.hosting.messages import NoDesign
 from explorer.model.stand import StandInputs, stand_of, tested
 from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
@@ -169,8 +170,11 @@ class Inputs(_Quantities):
         return LAWS[self.law].make(self)
 
     def design(self) -> Design:
-        """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
-        return self._design
+        """The design these inputs mean; NoDesign with one sentence for inputs that mean none."""
+        try:
+            return self._design
+        except ValueError as error:
+            raise NoDesign(str(error)) from None
 
     @cached_property
     def _design(self) -> Design:

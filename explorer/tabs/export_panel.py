@@ -95,6 +95,10 @@ class ExportPanel(Tab):
         self._actuator.show_leaders(False)  # To labels, which are not in the scene.
         try:
             pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
+            if pixels.shape[:2] != (height, _WIDTH):
+                raise RuntimeError("The picture has another size.")
+        except RuntimeError as error:  # The browser has left, or cannot draw.
+            raise ValueError(f"The page sent no picture ({error}): press again.") from None
         finally:
             self._actuator.show_leaders(True)
         above, below = self._scene.camera.covered
@@ -149,6 +153,7 @@ class ExportPanel(Tab):
             size = f"{max(len(content) / 1e3, 1.0):,.0f} kB".replace(",", "\u2009")
             self._say("done", f"{name}, {size} ({time.perf_counter() - begin:.1f} s).{stale}")
         except (ValueError, TimeoutError) as error:
+            _log.warning("export of %s: %s", what, error)
             self._say("problem", str(error))
         except Exception as error:  # The session goes on whatever a file meets.
             _log.exception("export of %s failed", what)

@@ -25,16 +25,14 @@ _DIVERGENCE = 0.1
 """∂C_d/∂M at drag divergence."""
 
 
-def lift_centroid(solution: Solution) -> tuple[float, float]:
-    """Centroid of the lift over the disk: mean r/R, and mean sin ψ, positive towards the advancing side.
-
-    ValueError where the rotor does not lift.
-    """
+def lift_centroid(solution: Solution) -> tuple[float, float] | None:
+    """Centroid of the lift over the disk: mean r/R, and mean sin ψ, positive towards the advancing side. None where the
+    rotor does not lift."""
     disk = solution.disk
     lift = disk.dr[:, None] * disk.dct
     total = float(lift.sum())
     if not total > 0.0:
-        raise ValueError("the rotor carries no lift: its centroid is not defined")
+        return None
     return float((lift * disk.r[:, None]).sum()) / total, float((lift * np.sin(disk.psi)).sum()) / total
 
 
@@ -55,7 +53,9 @@ def why(before: Solution, after: Solution, units: Units = SI) -> str:
 
 def lift_movement(before: Solution, after: Solution) -> str:
     """Where the lift moved, for example `Lift moved inboard`; `Lift hardly moved` below 0.0003 R."""
-    outboard, across = (new - old for old, new in zip(lift_centroid(before), lift_centroid(after), strict=True))
+    if (old := lift_centroid(before)) is None or (new := lift_centroid(after)) is None:
+        return "a new twist"
+    outboard, across = new[0] - old[0], new[1] - old[1]
     places: list[str] = []
     if abs(outboard) >= max(_MOVED, 0.5 * abs(across)):
         places.append("outboard" if outboard > 0.0 else "inboard")

@@ -108,6 +108,8 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
         nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed)
         return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
     start, whole = now.hand.pulled
+    if not start:  # It was not taken.
+        return ()
     drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
     return (SetHand(BY_HAND, {"drives": drives}),)
 

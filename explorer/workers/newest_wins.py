@@ -45,6 +45,11 @@ class UpdatePool:
         """How many frames wait for a thread."""
         return len(self._frames)
 
+    @property
+    def busy(self) -> bool:
+        """Whether what can wait of a page would wait for others now."""
+        return bool(self._frames or self._steps or self._step_runs)
+
     def queue(self, worker: "NewestWins", due: float | None) -> int:
         """Put a worker in line, for a frame or for a step at `due` [s]; the caller holds `change`. Returns a ticket."""
         number = next(self._numbers)

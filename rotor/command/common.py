@@ -318,7 +318,7 @@ def _finite_numbers(text: str, by: str) -> tuple[float, ...]:
 _TWICE = 0.5
 """[s]"""
 STOPPED = 130
-"""Exit code after Ctrl-C; results so far are printed."""
+"""Exit code after Ctrl-C or SIGTERM; results so far are printed."""
 
 
 @contextmanager
@@ -337,7 +337,7 @@ def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
 
 @contextmanager
 def interruptible() -> Generator[Callable[[], bool]]:
-    """A `stop` that returns True after the first Ctrl-C; a second one interrupts at once.
+    """A `stop` that returns True after the first Ctrl-C or SIGTERM; a second one interrupts at once.
 
     Some programs send one Ctrl-C twice, to a process and to its group: two within half a second count as one.
     """
@@ -350,8 +350,9 @@ def interruptible() -> Generator[Callable[[], bool]]:
         if not asked:
             asked.append(now)
 
-    before = signal.signal(signal.SIGINT, ask)
+    before = [(number, signal.signal(number, ask)) for number in (signal.SIGINT, signal.SIGTERM)]
     try:
         yield lambda: bool(asked)
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before:
+            signal.signal(number, handler)

@@ -184,7 +184,7 @@ def add_parser(commands: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C; finished chunks are kept."""
+    """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C or SIGTERM; finished chunks are kept."""
     if args.file == "show":
         return _show(args)
     for flag in ("folder", "least", "uncertain", "csv", "json"):
@@ -203,7 +203,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _run(args: argparse.Namespace, store: StudyFolder) -> int:
     study = store.study
-    missing = store.missing()
+    missing = store.missing(_Progress.say)
     done = study.count - study.points_of(missing)
     print(f"{study.title}: {study.count:,} points, {done:,} done → {store.folder}", flush=True)
     message, ended = "", ChunkRun()

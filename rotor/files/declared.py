@@ -138,16 +138,19 @@ def _says(place: Place, value: str) -> str:
     return f"{' '.join(_key(place))} {shorten(value)}"
 
 
-def check_bounds(value: float, low: float, high: float, *place: str | int) -> None:
-    """Refusal for a number outside its bounds. The unit is the end of its key's name."""
+def check_bounds(value: float, low: float, high: float, *place: str | int, given: str) -> None:
+    """Refusal for a number outside bounds that follow from another key, `given` with its value: either may be wrong.
+    The unit is the end of its key's name."""
     if not low <= value <= high:
-        raise _out_of_bounds(place, value, low, high)
+        raise _out_of_bounds(place, value, low, high, f" with {given}: check values and units")
 
 
-def _out_of_bounds(place: Place, value: float, low: float | None, high: float | None) -> Refusal:
+def _out_of_bounds(
+    place: Place, value: float, low: float | None, high: float | None, remedy: str = ": check value and unit"
+) -> Refusal:
     bounds = f"{low:g}…{high:g} {unit_of(_key(place)[0])}".rstrip()
     number = f"{value:g}" if isinstance(value, float) else str(value)
-    return Refusal(f"{_says(place, number)}, outside {bounds}: check value and unit", *place)
+    return Refusal(f"{_says(place, number)}, outside {bounds}{remedy}", *place)
 
 
 def one_of(table: FileTable, *keys: str) -> str:

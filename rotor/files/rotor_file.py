@@ -174,7 +174,7 @@ def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], tw
 
 def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[OwnSection, ...]) -> Blade:
     radius, hinge, spring = main.radius_m, given.flap_hinge_m, given.flap_spring_nm_rad
-    check_bounds(hinge, 0.0, 0.3 * radius, *at, "flap_hinge_m")
+    check_bounds(hinge, 0.0, 0.3 * radius, *at, "flap_hinge_m", given=f"radius_m = {radius:g}")
     sprung = main.hub in ("articulated", "hingeless")
     if hinge and not sprung:
         says = f"flap_hinge_m is {hinge:g} on a {main.hub} hub"
@@ -216,7 +216,7 @@ def _structure(given: BladeTable, at: Place, radius: float) -> BladeStructure | 
     if not isinstance(table, StructureTable):
         return uh60a_torsion(radius) if table else None
     clamp = given.flap_hinge_m if table.clamp is None else table.clamp
-    check_bounds(clamp, 0.0, 0.5 * radius, *at, "structure", "clamp_m")
+    check_bounds(clamp, 0.0, 0.5 * radius, *at, "structure", "clamp_m", given=f"radius_m = {radius:g}")
     given_fields: dict[str, Any] = msgspec.structs.asdict(table) | {"clamp": clamp}
     return BladeStructure(radius=radius, **given_fields)
 

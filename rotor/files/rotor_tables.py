@@ -240,8 +240,8 @@ class AirframeTable(FileTable, frozen=True, kw_only=True):
             raise Refusal(
                 "only one of drag_area_low_m2 and drag_area_high_m2 is given: give both, or neither", "airframe"
             )
-        check_bounds(low, 0.0, self.drag_area_m2, "airframe", "drag_area_low_m2")
-        check_bounds(high, self.drag_area_m2, 50.0, "airframe", "drag_area_high_m2")
+        given = f"drag_area_low_m2 = {low:g} and drag_area_high_m2 = {high:g}"
+        check_bounds(self.drag_area_m2, low, high, "airframe", "drag_area_m2", given=given)
         return low, high
 
 

@@ -1,16 +1,20 @@
 """Chunks of a study: the points of one in order, its Parquet file, and the folder of all.
 
 A folder has one file per chunk, each written completely or not at all. `pandas.read_parquet(FOLDER)` reads them as one
-table. All other names begin with `_` or a dot, which Parquet readers ignore.
+table. All other names begin with `_` or a dot, which Parquet readers ignore. Each file holds a digest of all its other
+bytes before its footer, where Parquet readers do not look.
 """
 
 import ctypes
+import hashlib
 import io
 import json
+import logging
 import os
 import random
 import socket
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
@@ -29,6 +33,9 @@ from rotor.trim.many import BESIDE
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
 """The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
+_log = logging.getLogger(__name__)
+_DIGEST = 32
+"""[bytes]"""
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 CONVERGED = "converged"
@@ -108,7 +115,7 @@ def describe(study: Study, provenance: StudyProvenance) -> dict[str, Any]:
     given = dict(study.given)
     return {
         "format": "rotor-explorer study",
-        "format_version": "1",
+        "format_version": "2",
         "title": study.title,
         "package_version": provenance.version,
         "commit": provenance.commit or "",
@@ -150,11 +157,24 @@ def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     table = arrow.Table.from_pylist(rows, schema=arrow.schema(fields, metadata=texts))
     out = io.BytesIO()
     parquet.write_table(table, out, compression="zstd")
-    return out.getvalue()
+    content, footer = out.getvalue(), _footer(out.getvalue())
+    return content[:footer] + hashlib.sha256(content).digest() + content[footer:]
+
+
+def _footer(content: bytes) -> int:
+    """Where the footer of a Parquet file begins: its length and four letters end the file."""
+    return len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+
+
+def is_undamaged(content: bytes) -> bool:
+    """Whether a chunk is as it was written. Not every damage is an error of its reader: some change a number."""
+    footer = _footer(content)
+    start = footer - _DIGEST
+    return start > 0 and hashlib.sha256(content[:start] + content[footer:]).digest() == content[start:footer]
 
 
 class StudyFolderError(RuntimeError):
-    """A chunk could not be written; earlier chunks are kept."""
+    """A chunk could not be written, which leaves earlier ones as they were, or is not of this study."""
 
 
 class StudyFolder:
@@ -185,20 +205,21 @@ class StudyFolder:
             os.close(self._lock)
             self._lock = None
 
-    def missing(self) -> list[int]:
+    def missing(self, tell: Callable[[str], None] = _log.warning) -> list[int]:
         """Missing chunks in random order, so that an interrupted run covers the whole study.
 
-        A file of another study, or one that cannot be read, counts as missing.
+        A file that is damaged, or of another study, version or commit, is set aside, and `tell` hears a sentence.
         """
-        _, parquet = arrow_modules()
         present: set[int] = set()
-        for path in self.folder.glob("chunk-*.parquet"):
-            with suppress(Exception):  # A damaged file counts as missing.
-                about = parquet.read_metadata(path)
-                number = int(about.metadata[b"chunk"])
-                first, last = self.study.span(number)
-                if about.metadata[b"study"].decode() == self.study.fingerprint and about.num_rows == last - first:
-                    present.add(number)
+        for path in sorted(self.folder.glob("chunk-*.parquet")):
+            try:
+                present.add(self._chunk_in(path))
+            except MemoryError:
+                raise
+            except Exception as error:
+                fault = error if isinstance(error, StudyFolderError) else "is damaged"
+                path.replace(aside := path.with_name(f"_{path.name}"))
+                tell(f"{path.name} {fault}: it is now {aside.name}, and its points are computed again")
         left = [chunk for chunk in range(self.study.chunks) if chunk not in present]
         random.Random(0).shuffle(left)
         return left
@@ -213,17 +234,37 @@ class StudyFolder:
                 "run the same command again; finished chunks are kept"
             ) from None
 
+    def _chunk_in(self, path: Path) -> int:
+        """The number of a chunk whose file can be used; StudyFolderError for another's, any error for a damaged one."""
+        content = path.read_bytes()
+        if not is_undamaged(content):
+            raise ValueError
+        arrow, parquet = arrow_modules()
+        metadata = parquet.read_metadata(arrow.BufferReader(content))
+        about = {key.decode(): value.decode() for key, value in metadata.metadata.items()}
+        if about["study"] != self.study.fingerprint:
+            raise StudyFolderError("is of another study")
+        if (by := _computed_by(about)) != (here := _computed_by(describe(self.study, self.provenance))):
+            raise StudyFolderError(f"was computed by {by}, this is {here}")
+        return int(about["chunk"])
+
     def _check(self, known: dict[str, Any], provenance: StudyProvenance) -> None:
         if known.get("study") != self.study.fingerprint:
             raise ValueError(
                 f"folder {str(self.folder)!r} holds another study ({known.get('title')}): give another --out DIR, "
                 "or the study file as it was"
             )
-        if known.get("package_version") != provenance.version:
+        if (by := _computed_by(known)) != (here := _computed_by(describe(self.study, provenance))):
             raise ValueError(
-                f"folder {str(self.folder)!r} was computed by rotor-explorer {known.get('package_version')}, this is "
-                f"{provenance.version}: give another --out DIR, or install that version"
+                f"folder {str(self.folder)!r} was computed by {by}, this is {here}: give another --out DIR, or install "
+                "what it was computed by"
             )
+
+
+def _computed_by(about: dict[str, Any]) -> str:
+    """Version and, of a checkout, commit."""
+    at = f" at commit {about['commit']}" if about.get("commit") else ""
+    return f"rotor-explorer {about.get('package_version')}{at}"
 
 
 def read_about(folder: str | Path) -> dict[str, Any]:

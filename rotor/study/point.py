@@ -1,7 +1,7 @@
 """One point of a study: from its values to a design, its trim or its optimum, and the row of results.
 
-A point always gives a row. If it does not trim, if no design can be made of it, or if an unexpected error occurs, the
-row has its status and a message.
+A point gives a row. If it does not trim, if no design can be made of it, or if an unexpected error occurs, the row has
+its status and a message. A lack of memory is no result: MemoryError ends the chunk, which is computed again.
 
 `WarmStarts` makes first guesses for the trims and searches of a chunk from the points computed before. Every trim
 unknown and the induced velocity vary smoothly with speed, mass and twist. The guess is a local quadratic model of
@@ -34,6 +34,7 @@ from rotor.study.series import HUB_COLUMNS
 from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
 from rotor.support.arrays import Array
 from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.user_input import lacks_means, raise_interrupt
 from rotor.trim.analysis import Analysis
 from rotor.trim.export import solution_record
 from rotor.trim.forward import as_built
@@ -252,10 +253,12 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
             if solution.design.models.bending:
                 row |= _vibration(trim)
             warm.keep(values, solution)
-    except ValueError as error:
-        row |= {"status": "bad-input", "message": str(error)}
     except Exception as error:  # An unexpected error of one point must not stop its chunk.
-        row |= {"status": "error", "message": f"{type(error).__name__}: {error}"}
+        raise_interrupt(error)
+        if lacks_means(error):  # No result: another worker, or the next run, has the row.
+            raise MemoryError(str(error)) from error
+        bad, told = isinstance(error, ValueError), f"{type(error).__name__}: {error}"
+        row |= {"status": "bad-input", "message": str(error)} if bad else {"status": "error", "message": told}
     together = 0.0 if in_step is None else in_step.solution.elapsed
     row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin + together)
     return row

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.design.design import Design
-from rotor.study.chunks import CONVERGED, arrow_modules, read_about
+from rotor.study.chunks import CONVERGED, arrow_modules, is_undamaged, read_about
 from rotor.study.point import design_of
 from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.support.arrays import Array, Booleans, Integers
@@ -81,41 +81,39 @@ def read_results(folder: str | Path) -> Results:
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
-    arrow, parquet = arrow_modules()
-    try:
-        table = parquet.read_table([str(path) for path in paths])
-    except MemoryError:  # One of Arrow's exceptions too.
-        raise
-    except (OSError, ValueError, arrow.ArrowException):
-        raise _damaged(paths) from None
-    return Results(about, tuple(map(str, about["axes"])), columns_from(table))
-
-
-def _damaged(paths: list[Path]) -> ValueError:
-    """The first chunk that cannot be read by itself, and what to do."""
-    arrow, parquet = arrow_modules()
-    schema = None
+    arrow, _ = arrow_modules()
+    tables = list[Any]()
     for path in paths:
         try:
-            table = parquet.read_table(str(path))
+            tables.append(_read_chunk(path))
+        except MemoryError:  # One of Arrow's exceptions too.
+            raise
         except (OSError, ValueError, arrow.ArrowException) as error:
-            return ValueError(
-                f"{path.name} of {str(path.parent)!r} is damaged ({shorten(str(error))}): delete it and run the study "
-                "again, which computes what is missing"
-            )
-        if schema is not None and table.schema.names != schema.names:
-            return ValueError(f"{path.name} of {str(path.parent)!r} is of another study: move it elsewhere")
-        schema = table.schema
-    return ValueError(
-        f"the chunks of {str(paths[0].parent)!r} do not fit together: delete them and run the study again"
-    )
+            raise ValueError(
+                f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again, which "
+                "computes its points again"
+            ) from None
+        if tables[-1].schema != tables[0].schema:
+            raise ValueError(f"{path.name} of {str(folder)!r} is of another study: move it elsewhere")
+    return Results(about, tuple(map(str, about["axes"])), columns_from(arrow.concat_tables(tables)))
+
+
+def _read_chunk(path: Path) -> Any:
+    """The table of a chunk; an error for one that is not as it was written."""
+    arrow, parquet = arrow_modules()
+    content = path.read_bytes()
+    metadata: dict[bytes, bytes] = parquet.read_schema(arrow.BufferReader(content)).metadata or {}
+    if metadata.get(b"format_version") != b"1" and not is_undamaged(content):
+        raise ValueError("its digest is another")
+    return parquet.read_table(arrow.BufferReader(content))
 
 
 def read_file(path: str | Path) -> Results:
     """The results in one Parquet file of a study, or in several that were joined; ValueError for any other file."""
     arrow, parquet = arrow_modules()
     try:
-        table = parquet.read_table(str(path))
+        of_study = Path(path).name.startswith("chunk-")  # Joined files have no digest.
+        table = _read_chunk(Path(path)) if of_study else parquet.read_table(str(path))
         metadata: dict[bytes, bytes] = table.schema.metadata or {}
         said: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items()}
         about: dict[str, Any] = said | {key: json.loads(said[key]) for key in ("axes", "given", "units")}

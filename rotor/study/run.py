@@ -149,9 +149,9 @@ def run_chunks(
 ) -> ChunkRun:
     """Compute chunks in any order and store them; `notify` is called with each, in this thread.
 
-    A chunk whose worker was lost is computed again. `stop` is called several times a second; True ends the run. `tell`
-    hears a sentence where a cluster has no workers left. Raises ExecutorLost where the executor takes no more work,
-    VersionMismatch where a worker has another version.
+    A chunk whose worker was lost, or had too little memory, is computed again. `stop` is called several times a second;
+    True ends the run. `tell` hears a sentence where a cluster has no workers left. Raises ExecutorLost where the
+    executor takes no more work, VersionMismatch where a worker has another version.
     """
     ended, tries, watch = ChunkRun(), Counter[int](), ClusterWatch(executor, tell)
     under_way: dict[Future[FinishedChunk], int] = {}
@@ -187,9 +187,9 @@ def run_chunks(
                     watch.came()
                     store.keep(done.chunk, done.content)
                     notify(done)
-                case BrokenExecutor() if tries[chunk] < _TRIES:
+                case BrokenExecutor() | MemoryError() if tries[chunk] < _TRIES:
                     submit(chunk)
-                case BrokenExecutor():
+                case BrokenExecutor() | MemoryError():
                     ended.lost.append(chunk)
                 case error if type(error).__name__ == "KilledWorker":  # Of Dask, which has tried several workers.
                     ended.lost.append(chunk)

@@ -1,4 +1,4 @@
-"""One BLAS thread while a rotor is solved.
+"""One BLAS thread while a rotor is solved, and Ctrl-C within a kernel as the KeyboardInterrupt that it is.
 
 The linear systems have six to a few hundred unknowns, where BLAS threads cost ten times what they save. The limit holds
 only inside the context, so importing or using `rotor` leaves the caller's setting as it was.
@@ -12,6 +12,8 @@ from functools import cache
 from typing import Any
 
 from threadpoolctl import ThreadpoolController  # pyright: ignore[reportMissingTypeStubs]
+
+from rotor.support.user_input import raise_interrupt
 
 _lock = threading.Lock()
 _users = 0
@@ -38,6 +40,9 @@ def one_blas_thread() -> Generator[None]:
         _users += 1
     try:
         yield
+    except SystemError as error:
+        raise_interrupt(error)
+        raise
     finally:
         with _lock:
             _users -= 1

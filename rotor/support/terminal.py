@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, cast
 
-from rotor.support.user_input import brief, did_you_mean
+from rotor.support.user_input import brief, did_you_mean, raise_interrupt
 
 _ASCII = {
     "−": "-", "–": "-", "…": "...", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "×": "x", "·": "*", "±": "+/-",
@@ -138,11 +138,20 @@ def wrapped(text: str, indent: str = "") -> str:
 
 def run_command(program: str, run: Callable[[], int]) -> int:
     """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr."""
+    # Python has None for a stream that is closed, as by `2>&-`: whoever closes stderr wants no messages.
+    sys.stderr = sys.stderr or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - until the process ends
+    if sys.stdout is None:
+        _say(f"{program}: the output is closed: write it to a file, or to {os.devnull}")
+        return 2
     make_encodable()
     if signal.getsignal(signal.SIGINT) is _leave:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        code = run()
+        try:
+            code = run()
+        except Exception as error:
+            raise_interrupt(error)
+            raise
         sys.stdout.flush()
         return code
     except BrokenPipeError:  # The reader of a pipe has seen enough.

@@ -12,6 +12,7 @@ import re
 import stat
 import tempfile
 from collections.abc import Generator, Iterable
+from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,26 @@ def extra_module(name: str, extra: str, what: str) -> Any:
         raise MissingExtra(f"{what} needs {name.partition('.')[0]}: pip install 'rotor-explorer[{extra}]'") from None
 
 
+def causes(error: BaseException | None) -> list[BaseException]:
+    """An exception and those that led to it."""
+    return [] if error is None else [error, *causes(error.__cause__ or error.__context__)]
+
+
+def raise_interrupt(error: BaseException) -> None:
+    """KeyboardInterrupt where Ctrl-C led to this error: in compiled code it comes up as a SystemError."""
+    if any(isinstance(one, KeyboardInterrupt) for one in causes(error)):
+        raise KeyboardInterrupt from None
+
+
+def lacks_means(error: BaseException) -> bool:
+    """Whether memory, disk, files or processes of this machine ran out: with more of them the work may succeed."""
+    return any(
+        isinstance(one, (MemoryError, BrokenExecutor)) or (isinstance(one, OSError) and one.errno in _MEANS)
+        for one in causes(error)
+    )
+
+
+_MEANS = (errno.ENOMEM, errno.ENOSPC, errno.EAGAIN, errno.EMFILE, errno.ENFILE)
 LARGEST = 4 * 2**20
 """[bytes] of a file that is read unless its reader allows another size; a deck has about 40 000."""
 _SENTENCE, _WORD = 400, 60

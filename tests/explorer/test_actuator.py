@@ -361,6 +361,7 @@ def test_the_form_has_what_the_actuator_has(actuator: ActuatorInputs, label: str
 def test_the_lifted_blade_is_pulled_from_where_it_was_taken():
     """Trailing edge up is nose down: less voltage, but not beyond the range."""
     now = actuate(INPUTS, actuator=ActuatorInputs(drives=(20.0,) * MOST_SEGMENTS), flown=1.5)
+    assert pull(now, 0.5) == ()
     (taken,) = pull(now, None)
     assert isinstance(taken, SetHand)
     held = replace(now, hand=replace(now.hand, **taken.changes))

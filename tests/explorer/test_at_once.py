@@ -5,6 +5,7 @@ How long frames took is printed, with the memory of the process. A hundred pages
 
 import asyncio
 import os
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,11 +15,12 @@ import pytest
 from explorer.app import App
 from explorer.hosting.server_limits import ServerLimits, release_memory
 from explorer.session import Session
+from explorer.workers.newest_wins import NewestWins
 from rotor.support.bytes_cache import CACHE_BYTES, bytes_kept, limit_caches
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 from tests.explorer.test_leaving import searching
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 PATIENCE = 900.0
 """[s]"""
@@ -77,6 +79,34 @@ def answers(session: Session) -> tuple[float, float]:
     here, there = power_gradient(state.solution).by_element, power_gradient(alone).by_element
     power = abs(state.solution.power.total / alone.power.total - 1.0)
     return power, float(abs(here - there).max() / abs(there).max())
+
+
+def test_a_power_comes_with_its_frame_while_another_page_draws_charts(app: App):
+    """It waited for them, and for the sweep of a blade that bends: once 187 s."""
+    begun, go = threading.Event(), threading.Event()
+
+    def charts() -> Iterator[float]:
+        yield 0.0
+        begun.set()
+        assert go.wait(PATIENCE)
+
+    other = NewestWins(charts, lambda _: None)
+
+    async def visit() -> None:
+        visitor = await arrived(app.address)
+        await visitor.idle()
+        other.wake()
+        assert await asyncio.to_thread(begun.wait, PATIENCE)
+        before = visitor.text("total-power")
+        await visitor.move("Δ outboard [°/R]", -6.0)
+        await visitor.until(lambda: visitor.text("total-power") != before, 60.0)
+        await visitor.close()
+
+    try:
+        ran(visit)
+    finally:
+        go.set()
+        other.stop()
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import logging
 import threading
 import time
 import weakref
@@ -14,7 +15,7 @@ from explorer.app import App
 from explorer.hosting.server_limits import ServerLimits
 from explorer.session import Session
 from explorer.sharing.presentation import PRESENT, follow_name
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, arrived, ran
 
 Act = Callable[[Visitor], Awaitable[None]]
 SECRET = "a-secret"
@@ -131,6 +132,28 @@ def what_is_left(app: App, seen: list["weakref.ref[Session]"], threads: set[str]
     new = {one.name for one in threading.enumerate()} - threads
     left += [name for name in new if name.startswith(("frame-", "welcome-", "goodbye-", "seat-"))]
     return left + ["worker"] * (len(app.pool._workers) - app.pool._idle)
+
+
+def test_who_leaves_during_an_export_is_a_line_at_most(app: App, caplog: pytest.LogCaptureFixture):
+    """*Picture* asks the page, which had gone: eleven lines of traceback."""
+
+    async def export(name: str) -> None:
+        visitor = await arrived(app.address)
+        await visitor.press("drawer", "share")
+        await visitor.idle(wholly=False)
+        await visitor.move(name, True)
+        await visitor.until(lambda: visitor.text("export") in ("busy", "done"))
+        await visitor.close()
+
+    async def visit() -> None:
+        await asyncio.gather(*map(export, ("Picture", "Report", "Tables", "Jig STL")))
+        while app.sessions or any(one.name == "export" for one in threading.enumerate()):
+            await asyncio.sleep(0.05)
+
+    ran(visit)
+    (line,) = [record for record in caplog.records if record.levelno >= logging.WARNING]
+    assert line.exc_info is None
+    assert "export of Picture: The page sent no picture" in line.getMessage()
 
 
 @pytest.mark.slow

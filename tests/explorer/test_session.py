@@ -177,7 +177,7 @@ def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: 
 
 def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
     """What follows a frame waits 1.7 s with six pages; one that is loaded anew meanwhile would lose its edit."""
-    monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3))
+    monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3, busy=True))
     page: Any = session.page
     session._update()
     assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "take", "show_power_number"]

@@ -41,8 +41,9 @@ class TestWhereTheLiftIs:
         assert_allclose(lift_centroid(lifting(solution, np.ones(()))), (middle, 0.0), atol=1e-12)
         swayed = lift_centroid(lifting(solution, 1.0 + np.sin(solution.disk.psi)))
         assert_allclose(swayed, (middle, 0.5), atol=1e-12)
-        with pytest.raises(ValueError, match="no lift"):
-            lift_centroid(lifting(solution, np.zeros(())))
+        still = lifting(replace(solution, design=solution.design.with_twist("linear:-3")), np.zeros(()))
+        assert lift_centroid(still) is None
+        assert why(solution, still).startswith("A new twist: ")
 
 
 def test_another_test_or_flight_is_named():

@@ -2,16 +2,20 @@
 
 import contextlib
 import io
+import random
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from explorer.__main__ import main as explorer
 from rotor.__main__ import main
+from rotor.files.make_design import make_design
 from rotor.support.terminal import StopSignal, run_command
+from rotor.trim.solve import solve
 
 
 def piped(monkeypatch: pytest.MonkeyPatch, encoding: str) -> tuple[io.BytesIO, io.BytesIO]:
@@ -56,6 +60,11 @@ def test_a_full_disk_is_one_line(
     )
 
 
+def caused(error: BaseException, by: BaseException) -> BaseException:
+    error.__cause__ = by
+    return error
+
+
 @pytest.mark.parametrize(
     ("error", "code", "says"),
     [
@@ -65,6 +74,7 @@ def test_a_full_disk_is_one_line(
         (MemoryError(), 2, "rotor: there is not enough memory: ask for less at once\n"),
         (PermissionError(13, "Permission denied", "a.csv"), 2, "rotor: 'a.csv' cannot be used (Permission denied)"),
         (KeyboardInterrupt(), 130, "rotor: stopped\n"),
+        (caused(SystemError("kernel"), caused(SystemError("kernel"), KeyboardInterrupt())), 130, "rotor: stopped\n"),
     ],
 )
 def test_failures_are_one_line(error: BaseException, code: int, says: str, capsys: pytest.CaptureFixture[str]):
@@ -75,6 +85,35 @@ def test_failures_are_one_line(error: BaseException, code: int, says: str, capsy
     err = capsys.readouterr().err
     assert err.startswith(says)
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("run", [lambda: main(["solve", "--hover"]), lambda: explorer(["--port", "0"])])
+def test_a_closed_output_is_one_line(
+    run: Callable[[], int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    monkeypatch.setattr(sys, "stdout", None)  # As Python has it after `>&-`.
+    assert run() == 2
+    error = capsys.readouterr().err
+    assert "the output is closed: write it to a file" in error
+    assert error.count("\n") == 1
+    monkeypatch.setattr(sys, "stderr", None)
+    assert run() == 2
+    sys.stderr.close()
+
+
+def test_ctrl_c_within_a_kernel_is_a_keyboard_interrupt():
+    """Every sixth was a SystemError of numba."""
+    solve(make_design())
+    delays, before = random.Random(1), signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        for _ in range(60):
+            with contextlib.suppress(KeyboardInterrupt):
+                signal.setitimer(signal.ITIMER_REAL, delays.uniform(0.0005, 0.02))
+                while True:
+                    solve(make_design(mu=delays.uniform(0.15, 0.3)))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def test_a_stop_whose_exception_is_lost_still_ends_the_program():

@@ -1,6 +1,7 @@
 """Sweeps of one slider in fine steps, drawn at random or given.
 
-Power may bend along a sweep, but it may not jump, and no refusal may lie between trims that were accepted.
+Power may bend along a sweep, but it may not jump, and no refusal may lie between trims that were accepted. There is no
+command: `pytest tests/rotor/trim/test_smooth.py -m slow` runs them.
 """
 
 import math

@@ -142,7 +142,11 @@ class Visitor:
             self.gone = "closed"
         except ConnectionClosed as closed:
             self._lost(closed)
-        self._news.set()
+        except Exception as error:  # Whoever waits hears of it, and `close` raises it.
+            self.gone = f"a message could not be read ({error!r})"
+            raise
+        finally:
+            self._news.set()
 
     def _keep(self, what: str, *texts: str) -> None:
         if what == "keep":
@@ -180,7 +184,7 @@ class Visitor:
                 if state := _FRAME.fullmatch(message["source"]):
                     self.frame.update(json.loads(state[1]))
                 elif forms := _FORMS.fullmatch(message["source"]):
-                    self.blade = json.loads(forms[1])[BLADE][0]
+                    self.blade = json.loads(forms[1]).get(BLADE, [self.blade])[0]
                 elif message["source"].startswith("rotorDisk.paint("):
                     self.pictures += 1
                 elif told := _TOLD.fullmatch(message["source"]):

@@ -1,16 +1,19 @@
 """What a page says: each name is known, and each value finite, in range and short, or it is dropped with a line."""
 
+import asyncio
 import dataclasses
 import json
 import logging
 import math
 import random
 import re
+from collections.abc import AsyncIterator
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 import msgspec
 import pytest
+from msgspec import inspect
 from viser import _messages
 
 from explorer.app import App
@@ -139,7 +142,7 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
         ("FileTransferStartUpload", {**UPLOAD, "source_component_uuid": [1]}, "source_component_uuid is [1]", "`str`"),
         ("ViewerCameraMessage", {**_CAMERA, "position": ()}, "position is []", "length 3"),
         ("ViewerCameraMessage", {**_CAMERA, "wxyz": (1.0, 0.0, 0.0, math.nan)}, "wxyz is [1.0, 0.0, 0.0, nan]", "[3]"),
-        ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 0"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 1"),
         ("GuiUpdateMessage", edit([math.nan]), "updates is {'value': [nan]}", "at updates.value[0]"),
         ("GuiUpdateMessage", edit("x" * (LONGEST_TEXT + 1)), "updates is 20011 bytes", "length <= 20000"),
         ("GuiUpdateMessage", edit([0.0] * 20_000), "bytes", "length <= 1000"),
@@ -148,6 +151,14 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
         ("GuiUpdateMessage", edit(1.0, "x" * 1000), "uuid is 1003 bytes", "length <= 300"),
         ("FileTransferPart", {**PART, "content": "text"}, "content is 'text'", "Expected `bytes`, got `str`"),
         ("ScenePointerMessage", {**CLICK, "screen_pos": []}, "screen_pos is []", "length >= 1"),
+        # Each value fits, and they do not fit together.
+        ("ScenePointerMessage", {**CLICK, "event_type": "rect-select"}, "'rect-select'", "expected one of click"),
+        ("ScenePointerMessage", {**CLICK, "ray_origin": None}, "ray_origin is None", "Expected `array`"),
+        ("ScenePointerMessage", {**CLICK, "ray_direction": [0, 0, 0]}, "ray_direction", "unit vector"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_height": 0}, "image_height is 0", ">= 1"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_height": 10**14}, f"image_height is {10**14}", "<= 32768"),
+        ("ViewerCameraMessage", {**_CAMERA, "image_width": 1}, "a canvas of 1 × 940", "ratio of 32"),
+        ("FileTransferStartUpload", {**UPLOAD, "part_count": 0}, "9 bytes in 0 parts", "parts"),
     ],
 )
 def test_what_no_client_of_ours_sends_is_named(kind: str, fields: dict[str, Any], field: str, said: str):
@@ -203,6 +214,31 @@ def test_facts_of_a_page_are_read():
     assert read_facts("{}") == PageFacts()
 
 
+def fitting(kind: inspect.Type, names: list[str], chance: random.Random) -> Any:
+    """A value that fits by itself: nought, empty, at an end of its range, or a name that means something else."""
+    match kind:
+        case inspect.UnionType(types=types):
+            return fitting(chance.choice(types), names, chance)
+        case inspect.StructType(fields=fields):
+            return {field.encode_name: fitting(field.type, names, chance) for field in fields}
+        case inspect.TupleType(item_types=items):
+            return [fitting(item, names, chance) for item in items]
+        case inspect.ListType(item_type=item, min_length=least):
+            return [fitting(item, names, chance) for _ in range(least or 0)]
+        case inspect.LiteralType(values=values):
+            return chance.choice(values)
+        case inspect.IntType(ge=low, le=high):
+            return chance.choice([low or 0, 1, high or 10**14])
+        case inspect.FloatType():
+            return chance.choice([0.0, 1.0, 1e-300, -1e14, 1e14])
+        case inspect.StrType():
+            return chance.choice(names)
+        case inspect.MemoryViewType():
+            return chance.choice([b"", b"x"])
+        case _:
+            return None
+
+
 def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.LogCaptureFixture):
     """2,500 such presses once gave a thousand tracebacks, and NaN as the azimuth ended the page for good."""
     app, chance = App("127.0.0.1", 0), random.Random(54)
@@ -211,7 +247,15 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
     async def visit() -> tuple[str, str]:
         visitor = await arrived(app.address)
         power = visitor.text("total-power")
-        # These three once gave tracebacks.
+        # These once gave tracebacks: values that fit one by one, and a file for a menu, whose value it became.
+        await visitor.press("pull", 0.3)
+        for wrong in ({"event_type": "rect-select"}, {"ray_origin": None}, {"ray_direction": (0, 0, 0)}):
+            await visitor.send("ScenePointerMessage", **{**CLICK, **wrong})
+        for size in (0, 10**14):
+            await visitor.send("ViewerCameraMessage", **{**_CAMERA, "image_height": size})
+        menu = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("options"))
+        await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": menu})
+        await visitor.send("FileTransferPart", **{**PART, "source_component_uuid": menu, "content": b"x" * 9})
         await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))
         await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": [1]})
         await visitor.send("ViewerCameraMessage", **{**_CAMERA, "position": ()})
@@ -219,6 +263,11 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         for k in range(1500):
             name, value = chance.choice([*names, "constructor", 7]), chance.choice(HOSTILE)
             await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": press(name, value, k)})
+            if k % 3 == 0:  # Fields that fit one by one, seldom together.
+                kind, ids = chance.choice(get_args(Sent)), list(visitor.widgets)
+                if kind.__name__ != "GuiUpdateMessage":
+                    fields = fitting(inspect.type_info(kind), ["", "a.json", "/rotor/blade_0", *ids], chance)
+                    await visitor.send(kind.__name__, **fields)
             if k % 10 == 0:
                 field, bad = chance.choice(FLOATS), chance.choice([math.nan, math.inf])
                 value = [bad] * len(field[1]) if isinstance(field[1], tuple) else bad
@@ -236,8 +285,26 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         app.stop()
     assert before == after
     assert not [record for record in caplog.records if record.exc_info]
-    kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:3]]
-    assert kinds == ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
+    kinds = [record.getMessage().split(": ")[1] for record in caplog.records[:8]]
+    wrong = ["GuiUpdateMessage", "FileTransferStartUpload", "ViewerCameraMessage"]
+    assert kinds == [*["ScenePointerMessage"] * 3, *["ViewerCameraMessage"] * 2, *wrong]
+
+
+def test_a_visitor_that_cannot_read_a_message_ends_the_wait():
+    """It waited for its whole patience."""
+
+    async def visit() -> None:
+        async def frames() -> AsyncIterator[bytes]:
+            yield wire.encode("GuiUpdateMessage")
+
+        visitor = Visitor()
+        visitor._reading = asyncio.create_task(visitor._read(cast("Any", frames())))
+        with pytest.raises(ConnectionError, match="could not be read"):
+            await visitor.until(lambda: False, 20.0)
+        with pytest.raises(Exception, match=r"\w"):
+            await visitor.close()
+
+    ran(visit)
 
 
 def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch):

@@ -3,6 +3,7 @@
 import asyncio
 import json
 import socket
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -23,6 +24,7 @@ from explorer.hosting.request_filter import AllowedHosts, RequestFilter, with_lo
 from explorer.hosting.server_limits import ServerLimits
 from explorer.model.inputs import OPENING
 from explorer.model.units import number
+from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import make_design, solve
 from tests.tools import wire
 from tests.tools.visitor import Visitor, arrived, ran
@@ -117,13 +119,25 @@ class TestFirstAnswer:
         assert (design, flight.split(" · ")[0]) == ("UH-60A · linear −12\u00a0°/R", "µ 0.330")
 
     def test_another_address_waits_its_turn_and_a_bad_one_has_no_words(self):
-        first = FirstAnswers(lambda: OPENING)
-        with first._solving:
-            assert first("d=1;linear:-8") == ""
+        pool, begun, go = UpdatePool(1), threading.Event(), threading.Event()
+        NewestWins(lambda: begun.set() or iter([0.0] if go.wait(60.0) else []), lambda _: None, pool).wake()
+        assert begun.wait(60.0)
+        first = FirstAnswers(lambda: OPENING, pool)
+
+        def answered(query: str) -> str:
+            deadline = time.monotonic() + 60.0
+            while (query, OPENING) not in first._known and time.monotonic() < deadline:
+                first(query)
+                time.sleep(0.01)
+            return first._known[query, OPENING]
+
+        assert first("d=1;linear:-8") == first("d=1;linear:-9") == ""
+        assert pool.waiting == 1  # Behind the page, and the other behind it.
+        assert not first._known
+        go.set()
+        assert "kW" in answered("d=1;linear:-8")
         for query in ("d=nonsense", "d=1;linear:-12;mu=0.44;mass=11000;altitude=4000", "follow=somebody"):
-            first._solving.acquire()
-            first._solve(query, OPENING)
-            assert first(query) == ""
+            assert answered(query) == ""
 
 
 OWN = b"Host: 127.0.0.1\r\n"
@@ -138,6 +152,11 @@ UPGRADE = b"Upgrade: websocket\r\n"
         (b"POST / HTTP/1.1", OWN, 405, b"only GET and HEAD"),
         (b"OPTIONS / HTTP/1.1", OWN, 405, b"Allow: GET, HEAD"),
         (b"GET / HTTP/1.0", OWN, 505, b"only HTTP/1.1"),
+        (b"GET / HTTP/1.1", OWN + b"".join(b"A%d: b\r\n" % k for k in range(300)), 431, b"too many HTTP headers"),
+        (b"GET / HTTP/1.1", OWN + b"Transfer-Encoding: chunked\r\n", 400, b"cannot be read"),
+        (b"GET / HTTP/1.1", OWN + b"Expect: 100-continue\r\nContent-Length: 5\r\n", 400, b"cannot be read"),
+        (b"GET / HTTP/1.1\nHost: 127.0.0.1\n", OWN, 400, b"end with CR LF"),
+        (b"nonsense", OWN, 400, b"cannot be read"),
         (b"GET / HTTP/1.1", b"Host: caf\xc3\xa9.example\r\n", 403, b"--allow-host"),
         (b"GET / HTTP/1.1", OWN + 2 * UPGRADE, 400, b"Upgrade"),
         (b"GET /first-answer?d=1;linear:-8 HTTP/1.1", OWN + b"Sec-Fetch-Site: cross-site\r\n", 403, b"other sites"),
@@ -237,7 +256,7 @@ class TestUploads:
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
                 ("large.json", server_limits.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
                 ("film.mp4", 10, [b"x" * 10], "choose a .json"),
-                ("liar.json", 10, [b"x" * 5, b"x" * 600], "longer than announced"),
+                ("liar.json", 10, [b"x" * 5, b"x" * 600], "not as long as announced"),
                 ("again.json", len(design), [design], "Loaded: again.json is on the sliders"),
             ):
                 visitor.notices.clear()

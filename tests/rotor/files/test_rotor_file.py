@@ -119,6 +119,12 @@ BAD = [
     ('name = "Test rotor"', 'name = "<b>"', "my.toml, line 1: name is '<b>': use 1 to 40 letters"),
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
+    ("radius_m = 5.0", "radius_m = 0.5", "line 13: flap_hinge_m is 0.2, outside 0…0.15 m with radius_m = 0.5: check"),
+    (
+        "drag_area_m2 = 1.0",
+        "drag_area_m2 = 0.1\ndrag_area_low_m2 = 0.8\ndrag_area_high_m2 = 1.2",
+        "line 17: drag_area_m2 is 0.1, outside 0.8…1.2 with drag_area_low_m2 = 0.8 and drag_area_high_m2 = 1.2: check",
+    ),
     ("radius_m = 5.0", "radius = 5.0", "my.toml, line 5: unknown key 'radius'; did you mean 'radius_m'?"),
     ("blades = 3", "blades = 3.5", "my.toml, line 4: blades is 3.5, not a whole number"),
     ("blades = 3", 'blades = 3\nhub = "teetering"', "my.toml, line 5: hub is 'teetering' with 3 blades"),
@@ -164,16 +170,21 @@ ODD = (
 
 
 def test_any_value_of_any_key_is_read_or_refused_in_one_sentence():
-    """The shipped rotors have nearly all keys between them, lists of numbers and of tables too."""
-    refused: list[str] = []
+    """The shipped rotors have nearly all keys between them, lists of numbers and of tables too. A number that does not
+    fit another key is named, not that key alone."""
+    refused, unnamed = list[str](), list[str]()
     for name in ("uh60a", "bo105", "rotors/hart2"):
         text = asset_path(f"{name}.toml").read_text(encoding="utf-8")
         for key in re.finditer(r"^(\w+) = (?:\[[^]]*\](?:, *\])?|[^#\n]+)", text, re.MULTILINE):
-            for odd in ODD:
+            number = re.fullmatch(r"-?[\d.]+", key[0].partition(" = ")[2].strip())
+            scaled = [f"{float(number[0]) * scale:g}" for scale in (0.1, 10.0)] if number else []
+            for odd in (*ODD, *scaled):
                 try:
                     read(f"{text[: key.start()]}{key[1]} = {odd}{text[key.end() :]}")
                 except ValueError as error:
                     refused.append(str(error))
+                    unnamed += [refused[-1]] if odd in scaled and key[1] not in refused[-1] else []
+    assert unnamed == []
     assert len(refused) > 800
     assert [one for one in refused if not re.fullmatch(r"my\.toml(, line \d+|: an integer).*[:?] ?.*", one)] == []
 

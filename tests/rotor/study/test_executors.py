@@ -173,12 +173,13 @@ def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[
     same_as_serial(file, read_results(out))
 
 
-def test_ctrl_c_leaves_usable_results(tmp_path: Path, start: Callable[..., Any]):
-    """Sent to the process group, as from a terminal; results so far are shown, and no process is left."""
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_a_stop_leaves_usable_results(how: signal.Signals, tmp_path: Path, start: Callable[..., Any]):
+    """SIGINT to the process group, as from a terminal; results so far are shown, and no process is left."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     until(lambda: len(files(out)) >= 5, run)
-    os.killpg(run.pid, signal.SIGINT)
+    (os.killpg if how is signal.SIGINT else os.kill)(run.pid, how)
     printed, complained = run.communicate(timeout=PATIENCE)
     assert run.returncode == 130
     assert complained.decode().startswith("rotor: stopped with ")

@@ -1,12 +1,14 @@
 """Studies: the file, the order of points, rows, the folder, and reading its results."""
 
 import csv
+import errno
 import importlib
 import io
 import json
 import math
 import signal
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -22,9 +24,17 @@ from rotor.command.common import interruptible
 from rotor.command.study import record, report
 from rotor.files.make_design import make_design
 from rotor.study import point as study_point
-from rotor.study.chunks import FinishedChunk, StudyFolder, StudyProvenance, evaluate_chunk, evaluate_points
+from rotor.study.chunks import (
+    FinishedChunk,
+    StudyFolder,
+    StudyProvenance,
+    evaluate_chunk,
+    evaluate_points,
+    is_undamaged,
+)
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
+from rotor.study.run import run_study
 from rotor.study.study import QUANTITIES, StudyAxis, StudyPoints, StudySample, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.support.assets import asset_path
@@ -264,28 +274,66 @@ def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Study
     again.close()
     with pytest.raises(ValueError, match="holds another study"):
         stored(tmp_path / "out", SMALL.replace("0.3]", "0.31]"))
-    with pytest.raises(ValueError, match=r"computed by rotor-explorer 0\.0"):
-        stored(tmp_path / "out", whence=replace(WHENCE, version="0.1"))
+    for other in (replace(WHENCE, version="0.1"), replace(WHENCE, commit="abc")):
+        with pytest.raises(ValueError, match=r"computed by rotor-explorer 0\.0, this is .*: give another --out DIR"):
+            stored(tmp_path / "out", whence=other)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(ValueError, match="holds other files"):
         stored(tmp_path / "mine")
 
 
-def test_a_damaged_chunk_is_named_with_the_remedy(
+def test_a_damaged_chunk_is_refused_and_computed_again(
     tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk], refused: Callable[..., str]
 ):
+    """Of 400 flipped bits 25 were read as other numbers."""
     store = stored(tmp_path / "out")
     for chunk in (0, 1):
         store.keep(chunk, done(store, chunk).content)
     store.close()
     damaged = store.folder / "chunk-000001.parquet"
     whole = damaged.read_bytes()
-    for content in (whole[:-3], whole[: len(whole) // 2], b"", bytes(reversed(whole))):
+    flipped = [bytes((*whole[:k], whole[k] ^ 1 << k % 8, *whole[k + 1 :])) for k in range(0, len(whole), 11)]
+    assert is_undamaged(whole)
+    assert not any(map(is_undamaged, flipped))
+    for content in (whole[:-3], whole[: len(whole) // 2], b"", bytes(reversed(whole)), *flipped[::40]):
         damaged.write_bytes(content)
         sentence = refused("study", "show", str(store.folder))
         assert "chunk-000001.parquet" in sentence
-        assert "delete it and run the study again" in sentence
+        assert "run the study again" in sentence
+    said: list[str] = []
+    again = stored(tmp_path / "out")
+    assert again.missing(said.append) == [1]
+    assert said == [
+        "chunk-000001.parquet is damaged: it is now _chunk-000001.parquet, and its points are computed again"
+    ]
+    again.keep(1, whole)
+    assert again.missing(said.append) == []
+    assert read_results(again.folder).rows == 6
+    again.keep(1, evaluate_chunk(again.study, 1, replace(WHENCE, commit="abc")).content)
+    assert again.missing(said.append) == [1]
+    assert "was computed by rotor-explorer 0.0 at commit abc, this is rotor-explorer 0.0" in said[1]
+
+
+@pytest.mark.parametrize("error", [MemoryError("no more"), OSError(errno.ENOMEM, "no more"), SystemError("kernel")])
+def test_a_lack_of_memory_is_no_result(error: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    if isinstance(error, SystemError):
+        error.__cause__ = MemoryError()
+    (file := tmp_path / "small.toml").write_text(SMALL)
+    failures = [error] * 2
+
+    def starved(*arguments: Any) -> Analysis:
+        if failures:
+            raise failures.pop()
+        return analyse(*arguments)
+
+    monkeypatch.setattr("rotor.study.point.analyse", starved)
+    with ThreadPoolExecutor(1) as worker:
+        assert run_study(file, worker, out=tmp_path / "out").good.all()
+        failures.extend([error] * 5)
+        with pytest.raises(RuntimeError, match="1 chunk stopped their workers, perhaps for lack of memory"):
+            run_study(file, worker, out=tmp_path / "again")
+        assert run_study(file, worker, out=tmp_path / "again").good.all()
 
 
 def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]):
