@@ -134,7 +134,7 @@ def _models(study: Study) -> dict[str, Value]:
 def arrow_modules() -> tuple[Any, Any]:
     """`pyarrow` and `pyarrow.parquet`; MissingExtra with one sentence where they are not installed."""
     what = "the results of a study are Parquet files, which"
-    return extra_module("pyarrow", "study", what), extra_module("pyarrow.parquet", "study", what)
+    return extra_module("pyarrow", what), extra_module("pyarrow.parquet", what)
 
 
 def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:

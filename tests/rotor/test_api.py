@@ -269,7 +269,7 @@ class TestSweep:
         assert known.items() <= units.items()
         assert not {"rotor", "mu", "pitch_per_rev", "message"} & units.keys()
         monkeypatch.setitem(sys.modules, "pandas", None)
-        with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install 'rotor-explorer\[pandas\]'"):
+        with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install pandas"):
             table.to_dataframe()
 
 
@@ -387,7 +387,7 @@ def test_import_does_not_change_blas_threads_and_solve_restores_them():
 # Pictures without matplotlib, and numbers of results
 
 
-WANTS = "a picture needs matplotlib: pip install 'rotor-explorer[plot]'"
+WANTS = "a picture needs matplotlib: pip install matplotlib"
 QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}
 
 
