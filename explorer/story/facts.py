@@ -1,6 +1,6 @@
 """What a step of the lecture tells in numbers: designs along its control, a chart, the numbers of its text, the answer.
 
-Nothing is stored: all of it is computed, a second or two for a step, in a worker process or when a file is written.
+Nothing is stored: all of it is computed, in a worker process or when a file is written.
 """
 
 import math

@@ -94,8 +94,8 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
 def keep_freed_memory() -> None:
     """Keep up to 64 MB of freed memory in this process (glibc only).
 
-    Workers of Dask return freed memory above 64 kB at once. A trim allocates arrays of 38 kB to 1 MB all the time, and
-    spent a third of its processor time on page faults.
+    Workers of Dask return freed memory above 64 kB at once. A trim allocates larger arrays all the time, and lost
+    much of its processor time to page faults.
     """
     with suppress(OSError, AttributeError, TypeError):
         libc = ctypes.CDLL(None)

@@ -55,7 +55,7 @@ def test_caveats_are_in_the_comments():
 def test_the_blade_is_what_the_charts_show():
     _, columns = read(blade_csv(SOLUTION, BASELINE, 270.0))
     design = SOLUTION.design
-    assert_allclose(columns["jig twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7)
+    assert_allclose(columns["built-in twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7)
     reverse = SOLUTION.disk.u_t[:, 90] <= 0.0  # 270° of 120 azimuths.
     assert reverse.any()
     assert_allclose(np.isnan(columns["alpha [deg]"]), reverse)
