@@ -298,6 +298,7 @@ WRONG = {
     "rotor.make_design(stand='wind')": (TypeError, "stand is 'wind', not a dictionary"),
     "rotor.make_design('uh60a')": (TypeError, "got 'uh60a' without a name: name it"),
     "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
+    "rotor.make_design(delta_isa=20)": (TypeError, "no argument 'delta_isa': write isa_offset_c=20"),
     "rotor.sweep(design, mass_kg=['heavy'])": (TypeError, "heavy"),
     "design.at(mass=8000)": (TypeError, "no argument 'mass'; did you mean 'mass_kg'?"),
     "rotor.sweep(design, twist=['linear:-8'])": (

@@ -64,8 +64,8 @@ def section() -> str:
     )
     return (
         "## How far to trust it\n\n"
-        "No model was tuned to these data; the uncertainty in hover was sized with points known. Of the measured sets\n"
-        f"{met} of {len(measured)} meet their target. [All comparisons](docs/validation.md), "
+        "No model was tuned to these data; the uncertainty in hover was sized with points known. "
+        f"{met} of {len(measured)} measured\nsets meet their target. [All comparisons](docs/validation.md), "
         "[what is not modelled](docs/validation.md#not-modelled).\n\n"
         + "\n".join(lines)
         + f"\n\nSections, theory and grid: {others}.\n\n"
