@@ -126,6 +126,7 @@ class TestReport:
         band, size = doubt(NOW, BASELINE), UNITS[units].power[0].size
         for (_, rows), known in zip(tables, (band.band, band.change_band), strict=True):
             first, *causes = [float(value) for value in re.findall(r"± ([\d.]+) \w+</td></tr>", rows)]
+            assert known is not None
             assert first == pytest.approx(known / size, rel=0.06)
             assert math.hypot(*causes) == pytest.approx(first, rel=0.1)
             assert causes[0] > 0.3 * first

@@ -48,7 +48,7 @@ _ROWS = {
 
 def write(timed: Callable[[], dict[str, Any]]) -> None:
     """Measure, and write data and page; `timed`: figures of the solver."""
-    data = {**about(), **timed(), "kernels_s": round(compile_seconds(), 1), "pages": loads()}
+    data = {**about(), "pages": loads(), "kernels_s": round(compile_seconds(), 1), **timed()}
     DATA.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     PAGE.write_text(page(data), encoding="utf-8")
 
@@ -115,7 +115,7 @@ async def drag(visitor: Visitor, k: int, seconds: float) -> list[float]:
 async def visit(address: str, process: int, pages: int) -> dict[str, float]:
     """So many pages of different flights that drag at once."""
     visitors = [
-        await arrived(address, query=f"?d=1;linear:-{4 + 0.5 * k:g};mu=0.2;alt={100 * k}") for k in range(pages)
+        await arrived(address, query=f"?d=1;linear:-{4 + 0.5 * k:g};mu=0.31;alt={100 * k}") for k in range(pages)
     ]
     each = await asyncio.gather(*(drag(one, k, SECONDS) for k, one in enumerate(visitors)))
     took = sorted(time for times in each for time in times)

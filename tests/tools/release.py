@@ -192,7 +192,8 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
         name: (ROOT / name).read_text(encoding="utf-8")
         for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", "rotor/__init__.py", "explorer/__init__.py")
     }
-    faults = version_faults(*(texts.pop(name) for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff")), texts)
+    project, changelog, citation = (texts.pop(name) for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff"))
+    faults = version_faults(project, changelog, citation, texts)
     yield "version in one place, changelog", "; ".join(faults)
     pins = re.findall(r"^([\w.-]+)==", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.MULTILINE)
     yield f"licences of {len(pins)} pinned packages", "; ".join(licence_faults(pins))

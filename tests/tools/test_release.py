@@ -17,10 +17,9 @@ def test_a_finished_changelog_has_no_faults():
 
 
 def test_the_citation_has_the_version_of_the_last_release():
-    read = [
-        (release.ROOT / name).read_text(encoding="utf-8") for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff")
-    ]
-    assert not [fault for fault in version_faults(*read, {}) if "CITATION" in fault]
+    files = ("pyproject.toml", "CHANGELOG.md", "CITATION.cff")
+    project, changelog, citation = ((release.ROOT / name).read_text(encoding="utf-8") for name in files)
+    assert not [fault for fault in version_faults(project, changelog, citation, {}) if "CITATION" in fault]
 
 
 @pytest.mark.parametrize(
