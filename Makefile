@@ -74,7 +74,7 @@ format: setup-dev     ## repair formatting and lint
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too
+bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too; --page writes docs/measured.md
 	$(BIN)/python -m tests.tools.bench $(ARGS)
 
 docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk
@@ -82,7 +82,7 @@ docs: setup-dev       ## build the documentation site into dist/docs; it opens f
 	$(BIN)/python -m sphinx -W --keep-going -b html -d dist/.doctrees docs dist/docs
 	@echo "dist/docs/index.html"
 
-trust: setup-dev      ## make the trust page, docs/validation, anew: four minutes
+trust: setup-dev      ## make the trust page, docs/validation, anew
 	rm -rf dist/thesis docs/validation
 	$(BIN)/python -m tests.tools.cross_codes
 	$(BIN)/python -m rotor reproduce dist/thesis --trust
@@ -111,7 +111,7 @@ $(READY): pyproject.toml requirements.txt
 	  || { echo "rotor-explorer needs Python 3.11 or newer as '$(PYTHON)': install it, or say make PYTHON=/path/to/python3.11"; exit 1; }
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null \
 	  || { echo "'$(PYTHON)' cannot make virtual environments: install its venv module (on Debian: apt-get install python3-venv)"; exit 1; }
-	@test -x $(BIN)/python || { echo "Setting up $(VENV), about a minute the first time"; $(PYTHON) -m venv $(VENV); }
+	@test -x $(BIN)/python || { echo "Setting up $(VENV), the first time only"; $(PYTHON) -m venv $(VENV); }
 	@$(PIP) install -r requirements.txt
 	@$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@
@@ -127,12 +127,12 @@ $(TYPESCRIPT)/.ready: $(DEV)
 	@touch $@
 
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
-# A line counts them; about half a minute of processor time.
+# A line counts them.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
 	@$(BIN)/python -c "from rotor.support.compiled import log_compiling; log_compiling(); \
 	  from explorer.picture import picture; from rotor.command.warm import compile_all; \
 	  compile_all(); picture.warm()" && touch $@ \
-	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
+	  || echo "The kernels could not be compiled ahead: the first page will take longer"
 
 # A browser for the tests: an installed one, else Debian's (as root), else Playwright's own download.
 # Without one, tests/conftest.py skips those tests with a banner, and fails them in CI.

@@ -48,7 +48,7 @@ _FIRST_ANSWERS = 32
 _WORKERS = 2
 """Processes for the long work of all pages."""
 _SWITCH = 1e-3
-"""[s] after which a thread that computes lets another run: what sends frames must not wait 5 ms behind it."""
+"""[s] after which a thread that computes lets another run: what sends frames must not wait for its default."""
 
 
 class ClientConnection:

@@ -1,4 +1,4 @@
-"""What `rotor` offers. It takes a second to read, so `rotor` reads it with the first name that is asked for."""
+"""What `rotor` offers. It is slow to read, so `rotor` reads it with the first name that is asked for."""
 
 from rotor import actuator
 from rotor.actuator import failure

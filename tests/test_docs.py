@@ -6,6 +6,7 @@ The site itself is built by `make docs`; here a page with a chart is, and its pi
 import argparse
 import ast
 import inspect
+import json
 import re
 import shlex
 import types
@@ -27,6 +28,7 @@ from rotor.__main__ import build_parser
 from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
 from rotor.support.terminal import OneLineParser
+from tests.tools import measured
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent
@@ -116,6 +118,36 @@ def test_no_link_is_dead(path: Path):
 def test_what_the_page_on_attacks_names_exists():
     tests = {path.name for path in (ROOT / "tests").rglob("test_*.py")}
     assert not {*re.findall(r"test_\w+\.py", text(DOCS / "developers" / "made.md"))} - tests
+
+
+LIMITS = (
+    "at most 2 MB", "limit for rotor files is 2 MB", "file of 2 MB at most", "a design file 1 MB", "2 MB per second",
+    "at most 256 MB", "least 64 MB", "up to 64 MB", "every few seconds", "20 s, own site", "for ten minutes",
+    "set by an hour", "within 50 ms", "every 50 ms", "ends after five minutes",
+)  # fmt: skip
+"""Sizes and times that the code sets, or an attack lasted: no measurements."""
+_SIZE = r"\d ?(?:ms|MB|GB)\b|milliseconds|frames a second"
+_TIME = r"\d s\b|\b(?:[\d.]+|an?|half an?|some|few|two|three|four|five|ten|several|tenths of a) (?:minutes?|hours?)\b"
+STATED = rf"{_SIZE}|{_TIME}|\b(?:[\d.]+|half a|some|few|two|three|several|tenths of a) seconds?\b"
+STATED_IN_CODE = rf"{_SIZE}|\b(?:takes?|took)\b[^.\n]{{0,30}}\b(?:seconds?|minutes?)\b"
+
+
+def test_speed_memory_and_load_are_stated_on_the_page_that_is_measured_alone():
+    assert text(measured.PAGE) == measured.page(json.loads(text(measured.DATA))), "make bench ARGS=--page writes it"
+    pages = {*SITE, *DEVELOPERS, *TOP} - {measured.PAGE, *(DOCS / "validation").glob("*"), DOCS / "changelog.md"}
+    pages |= {
+        *(DOCS / "notebooks").glob("*.py"),
+        *(ROOT / "deploy").glob("*"),
+        *(ROOT / "assets/studies").glob("*.toml"),
+    }
+    pages |= {ROOT / "Makefile"}
+    code = {path for name in ("rotor", "explorer") for path in (ROOT / name).rglob("*.py")}
+    found = dict[str, list[str]]()
+    for paths, pattern in ((pages, STATED), (code, STATED_IN_CODE)):
+        for path in sorted(paths):
+            words = re.sub("|".join(LIMITS), "", text(path))
+            found |= {str(path): said} if (said := re.findall(pattern, words)) else {}
+    assert found == {}
 
 
 OTHERS = {"--find-links", "--no-index", "--tls-ca-file", "--tls-cert", "--tls-key", "--tmpfs"}

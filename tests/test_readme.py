@@ -100,4 +100,7 @@ def test_concepts_and_actuators():
     said(
         f"more segments or a curve save {100 * max(concepts[key] for key in ('two', 'three', 'quadratic')):.1f} % more"
     )
-    said(f"the best of {actuators['rows']:.0f} pairs of actuator and twist loses {-actuators['best_kw']:.0f} kW")
+    said(
+        f"the best of {actuators['rows']:.0f} combinations of actuator and twist law "
+        f"costs {-actuators['best_kw']:.0f} kW"
+    )

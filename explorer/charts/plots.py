@@ -229,7 +229,7 @@ class PowerCurves:
             starts = before if k in before else points
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
-                # Without its derivatives, which would take 10 MB a page.
+                # Without its derivatives, which are large.
                 points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
                 continue
             lost += 1

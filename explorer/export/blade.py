@@ -1,7 +1,7 @@
 """The blade as STL, for printing and CAD: a closed surface in metres.
 
-Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. It is the jig
-shape: the twist law alone. `python -m explorer blade` writes it.
+Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. It is the
+blade as built: the twist law alone. `python -m explorer blade` writes it.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from rotor.support.terminal import OneLineParser, command_words, run_command
 from rotor.support.user_input import write_whole
 
 POINTS, STATIONS = 97, 121
-"""Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
+"""Round a section, and from root cut-out to tip: a chord is met to 0.1 mm."""
 _HEADER = 80
 """Bytes of free text at the head of a binary STL file."""
 
@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     design = load_design(options.design) if options.design else make_design()
     folder, content = Path(options.out), blade_stl(design)
-    path = folder / file_name(design, "-jig.stl")
+    path = folder / file_name(design, "-as-built.stl")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)

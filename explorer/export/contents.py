@@ -80,10 +80,14 @@ class DesignReport:
         """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
         return entry.solution.design.condition == self.reference.solution.design.condition
 
+    def is_reference(self, entry: ReportEntry) -> bool:
+        """Whether it is the reference, or the same design, so that there is nothing to compare."""
+        return entry.solution.design == self.reference.solution.design
+
     @property
     def all(self) -> tuple[ReportEntry, ...]:
-        """All designs, the reference last."""
-        return (*self.entries, self.reference)
+        """All designs, the reference last where it is none of them."""
+        return (*self.entries, *([] if any(map(self.is_reference, self.entries)) else [self.reference]))
 
     @property
     def shown(self) -> tuple[ReportEntry, ...]:
@@ -103,7 +107,7 @@ def on_board(driven: Assessed, units: Units) -> tuple[str, str, str]:
 
 def colours_of(report: DesignReport) -> list[str]:
     """The colour of each entry; grey for the reference."""
-    return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE]
+    return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE][: len(report.all)]
 
 
 def fields_of(report: DesignReport) -> list[Field]:

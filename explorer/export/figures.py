@@ -101,7 +101,7 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
     """Change against the reference over speed, for blades with the same weight and altitude."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
-    if entry is report.reference or not alike:
+    if report.is_reference(entry) or not alike:
         return []
     curve = curves.known(design, reference)
     change = 100.0 * (curve.design / curve.reference - 1.0)

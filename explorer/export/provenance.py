@@ -145,9 +145,9 @@ def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> byte
     columns = [
         ("r/R [-]", disk.r),
         ("chord [m]", design.rotor.blade.chord(disk.r)),
-        ("jig twist [deg]", np.degrees(design.twist(disk.r))),
+        ("built-in twist [deg]", np.degrees(design.twist(disk.r))),
         ("flown twist [deg]", np.degrees(flown_twist(solution, math.radians(azimuth_deg))(disk.r))),
-        ("reference jig twist [deg]", np.degrees(reference.twist(disk.r))),
+        ("reference built-in twist [deg]", np.degrees(reference.twist(disk.r))),
         ("alpha [deg]", alpha),
         ("stall below [deg]", lower),
         ("stall above [deg]", upper),

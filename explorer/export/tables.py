@@ -1,5 +1,6 @@
 """Tables of the report as HTML: the comparison of designs, and condition, power, trim and twist of each."""
 
+import math
 from collections.abc import Callable, Iterable
 
 import numpy as np
@@ -16,7 +17,7 @@ from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of
 from rotor.support.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
-from rotor.trim.doubt import decimals
+from rotor.trim.doubt import DoubtRow, decimals
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""
@@ -26,13 +27,13 @@ Row = tuple[Content, Content]
 def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
     """Change of total power against the reference, where the flight condition is the same."""
     reference = report.reference
-    if entry is reference:
+    if report.comparable(entry) and entry is report.entries[0] and report.driven is not None:
+        words, _, kind = on_board(report.driven, report.units)
+        return tag("span.change", words, class_=kind or None, data_report="on-board")
+    if report.is_reference(entry):
         return tag("span.change.dim", "reference")
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
-    if entry is report.entries[0] and report.driven is not None:
-        words, _, kind = on_board(report.driven, report.units)
-        return tag("span.change", words, class_=kind or None, data_report="on-board")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
     return tag("span.change", f"{number(change, 1, sign=True)} %", class_=kind)
@@ -49,8 +50,9 @@ def comparison(report: DesignReport) -> Markup:
 
     def compared(value: Callable[[Solution], float]) -> list[Content]:
         return [
-            _with_change(entry.solution, reference if report.comparable(entry) else entry.solution, value, report.units)
+            _with_change(entry.solution, reference if changes else entry.solution, value, report.units)
             for entry in report.all
+            for changes in [report.comparable(entry) and not report.is_reference(entry)]
         ]
 
     designs = [entry.solution.design for entry in report.all]
@@ -74,7 +76,7 @@ def comparison(report: DesignReport) -> Markup:
     ]
     return tag(
         "section.comparison",
-        tag("h2", "Side by side"),
+        tag("h2", "Side by side" if len(report.all) > 1 else "Power"),
         tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"width:{width}px")),
         tag("p.note", note) if elsewhere else None,
         tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.") if report.driven else None,
@@ -116,20 +118,27 @@ def trim(solution: Solution) -> Markup:
 
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
-    """How sure power and its change from the reference are, and what that rests on; nothing for a free rotor."""
+    """How sure power is, and its change from the reference, each above its causes; nothing for a free rotor."""
     solution, other = entry.solution, report.reference.solution
     if solution.design.models.trim == "free-rotor" or other.design.models.trim == "free-rotor":
         return Markup()
-    band = doubt(solution, other if entry is not report.reference else None)
-    unit = report.units.power[0]
-    rows: list[Row] = [("Power", f"± {unit.text(band.band, decimals(unit.of(band.band)))}")]
-    if band.change_words:
-        rows.append(("Change", band.change_words))
-    for row in band.rows[:MOST_ROWS]:
-        size = unit.of(abs(row.power if row.change is None else row.change))
-        name = f"{row.words} ± {row.size:g} {row.unit}".rstrip()
-        rows.append((name, f"± {number(size, decimals(size))} {unit.symbol}"))
-    return _table("Uncertainty", rows)
+    compared = report.comparable(entry) and not report.is_reference(entry)
+    band, unit = doubt(solution, other if compared else None), report.units.power[0]
+
+    def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
+        """The largest, and the rest as one: their squares add up to that of the first row."""
+        named = [(f"{row.words} ± {row.size:g} {row.unit}".rstrip(), abs(of(row))) for row in band.rows]
+        named.sort(key=lambda one: -one[1])
+        sizes = [(words, math.hypot(*(size for _, size in named))), *named[:MOST_ROWS]]
+        if rest := named[MOST_ROWS:]:
+            sizes.append((f"{len(rest)} smaller causes", math.hypot(*(size for _, size in rest))))
+        return _table(title, [(name, f"± {unit.text(size, decimals(unit.of(size)))}") for name, size in sizes])
+
+    power = causes("Uncertainty of power", "Power", lambda row: row.power)
+    if not band.change_words:
+        return power
+    words = f"Change, {band.change_words.removeprefix('± ')}"
+    return group(power, causes("Uncertainty of the change", words, lambda row: row.change or 0.0))
 
 
 def vibration(solution: Solution) -> Markup:

@@ -95,4 +95,4 @@ def font_path() -> str:
     for name in (*brought, "DejaVuSans.ttf", "LiberationSans-Regular.ttf", "Arial.ttf", "arial.ttf"):
         with suppress(OSError):
             return str(ImageFont.truetype(name).path)
-    raise ValueError("No font for the words of a picture: install DejaVu Sans, or pip install 'rotor-explorer[plot]'.")
+    raise ValueError("No font for the words of a picture: install DejaVu Sans, or pip install matplotlib.")

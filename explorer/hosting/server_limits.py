@@ -24,7 +24,7 @@ _due: threading.Timer | None = None
 
 
 def exclude_from_collection() -> None:
-    """Exclude what is loaded by now from garbage collection: each pass over it took 90 ms, without a frame."""
+    """Exclude what is loaded by now from garbage collection: each pass over it held up all frames."""
     gc.collect()
     gc.freeze()
 
@@ -61,7 +61,7 @@ def release_memory() -> None:
 
 
 SESSIONS = 24
-"""Pages at work by default: a class. With all of them dragging each gets a frame a second."""
+"""Pages at work by default: a class."""
 _SPARE = 40
 """Connections beyond the pages at work: pages that were turned away, or have only just connected."""
 

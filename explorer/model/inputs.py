@@ -61,12 +61,8 @@ def mass_range(aircraft: Aircraft) -> tuple[float, float, float]:
 
 
 def reference_mass_t(aircraft: Aircraft) -> float:
-    """The reference mass [t], rounded, within the range of the weight slider."""
-    low, high, _ = mass_range(aircraft)
-    tonnes = aircraft.mass / 1e3
-    if aircraft.isolated:
-        return round(tonnes, 9)  # As its slider is read.
-    return min(max(round(tonnes, 2 if tonnes > 1.0 else 3), low), high)
+    """The reference mass [t], not rounded: the page opens with the design of `make_design`."""
+    return FLIGHT["mass_t"].as_input(aircraft.mass)
 
 
 PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
@@ -201,7 +197,7 @@ class Inputs(_Quantities):
     def _flight(self) -> dict[str, Any]:
         """The numbers of the flight condition, in the units of their names."""
         return {
-            row.name: row.input_size * getattr(self, name)
+            row.name: row.of_input(getattr(self, name))
             for name, row in FLIGHT.items()
             if not (self.aircraft.isolated and row.in_flight) and not (row.axial and not self.counts(row))
         }
@@ -316,7 +312,7 @@ def inputs_of(design: Design) -> Inputs:
         pitch_per_rev=design.pitch_per_rev,
         twist_per_rev=() if active is None else active.harmonics,
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
-        **{name: row.of(design) / row.input_size for name, row in FLIGHT.items()},
+        **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
         **grid_asked(design.models),
     )

@@ -132,8 +132,8 @@ class Pinboard:
     def solve(self, present: Design, hurried: bool = False) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.
 
-        A of another rotor keeps its own solution, because its weight differs. A trim that fails takes half a second, so
-        it is not repeated when `hurried`: a newer update waits.
+        A of another rotor keeps its own solution, because its weight differs. A trim that fails is slow, so it
+        is not repeated when `hurried`: a newer update waits.
         """
         along = self.along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
         if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
@@ -162,7 +162,7 @@ class Analyses:
         return self._keep(next((one for one in self._kept if one.solution is solution), None) or Analysis(solution))
 
     def forget_others(self, *shown: Solution | None) -> None:
-        """Keep those of these solutions only: each takes 4 MB."""
+        """Keep those of these solutions only: their derivatives are large."""
         self._kept = tuple(one for one in self._kept if one.solution in shown)
 
     def _keep(self, analysis: Analysis) -> Analysis:

@@ -4,7 +4,7 @@ twisting the blade by hand: from a drag in the scene to the inputs on the slider
 Power sensitivity is the change of total power for one natural step of a slider. Twist sliders: exact. The adjoint gives
 ∂P/∂θ(r) with trim and inflow following, and the concept that belongs to the law gives ∂θ_tw(r)/∂p, so that one step
 costs (∂P/∂θ · ∂θ_tw/∂p) × step. Flight sliders: central differences of two trims each, begun from the present one. They
-take some 50 ms, so they belong after the frame.
+come after the frame.
 
 The stations that can be grabbed are the root, the divisions and the tip. Turning one twists the pieces on both sides of
 it, so the station turns by that angle relative to its neighbours. Sliding a division moves it along the blade.

@@ -67,7 +67,7 @@ def shown(row: Quantity, value: float, units: "Units") -> float:
 
 
 def meant(row: Quantity, place: float, units: "Units") -> float:
-    """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
+    """The input that a place means, to nine decimals: the hand set no more."""
     return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
 
 

@@ -24,7 +24,7 @@ _compile = compiled(error_model="numpy", fastmath={"contract"})
 SIZE = 512
 """Pixels along each edge of a picture for export, where nothing else is asked for."""
 LARGEST = 2400
-"""Pixels along each edge of any picture: enough for the height of a 4K screen, about a second."""
+"""Pixels along each edge of any picture: enough for the height of a 4K screen."""
 
 # Layout of the 256 palette entries.
 _CLEAR = 0

@@ -1,6 +1,6 @@
 """What a step of the lecture tells in numbers: designs along its control, a chart, the numbers of its text, the answer.
 
-Nothing is stored: all of it is computed, a second or two for a step, in a worker process or when a file is written.
+Nothing is stored: all of it is computed, in a worker process or when a file is written.
 """
 
 import math
@@ -26,7 +26,7 @@ from explorer.story.steps import (
 from rotor import Solution, make_design, solve, vibration_front
 from rotor.actuator import try_actuator
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design import LinearTwist
+from rotor.design import Harmonic, LinearTwist
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist, rung_design
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
@@ -305,7 +305,7 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
     stops = list[ControlStop]()
     for k, (point, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
         twist = point.design.active_twist
-        waves = () if twist is None else twist.harmonics
+        waves = () if twist is None else tuple(map(_rounded, twist.harmonics))
         inputs = replace(step.inputs, twist_per_rev=waves)
         stops.append(ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
     last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
@@ -321,6 +321,12 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
     lines, across = (ChartLine("front", "b", indices),), "power, change from A"
     chart = StepChart(across, "vibration index, change from A", "percent", powers, "signed", lines)
     return _answered(step, tuple(stops), numbers, changes[0][1], chart)
+
+
+def _rounded(wave: Harmonic) -> Harmonic:
+    """To 1e-4°: a link of the step holds 1, not 1.0000000000931712."""
+    turn, phase = (math.radians(round(math.degrees(angle), 4)) for angle in (wave.amplitude, wave.phase))
+    return replace(wave, amplitude=turn, phase=phase)
 
 
 def _piezoelectric_ply(step: LectureStep) -> StepFacts:
@@ -419,7 +425,7 @@ def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[st
         numbers |= _of("angle", twist_a=step.against.linear)
     if a is None or b is None:
         return numbers
-    for name in ("total", "induced", "profile"):
+    for name in ("total", "induced", "profile", "tail"):
         of_a, of_b = getattr(a.power, name), getattr(b.power, name)
         numbers |= _of("power", **{f"{name}_a": of_a, f"{name}_b": of_b})
         numbers |= _of("change", **{f"{name}_change": of_b - of_a})

@@ -123,7 +123,7 @@ def all_known() -> dict[Hashable, Any]:
 
 
 class PoolAnswers(BackgroundWork):
-    """Has the newest tasks answered, one at a time. A task under way runs to its end: it takes some seconds at most.
+    """Has the newest tasks answered, one at a time. A task under way runs to its end.
 
     One that is ended after its time is begun again once the others are answered.
     """

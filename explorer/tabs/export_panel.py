@@ -57,7 +57,7 @@ class ExportPanel(Tab):
                 ("Report", "-report.html", self._report),
                 ("Tables", "-tables.zip", self._tables),
                 ("Design file", ".json", _design_file),
-                ("Jig STL", "-jig.stl", lambda state: blade_stl(state.solution.design)),
+                ("As-built STL", "-as-built.stl", lambda state: blade_stl(state.solution.design)),
             ):
                 button = context.gui.add_button(name, color="gray", hint=hint("export"))
                 button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))

@@ -58,6 +58,8 @@ class WidgetForm:
         """Titles of each menu."""
         self._defaults: dict[str, float] = {}
         """Where sliders began."""
+        self._placed: dict[str, tuple[Any, Any]] = {}
+        """By slider its place and the input put there, which it means until a hand moves it."""
         self._below: dict[str, viser.GuiHtmlHandle] = {}
         self._units = SI
 
@@ -66,6 +68,7 @@ class WidgetForm:
     ) -> None:
         """`entry`: of the glossary, where it has another name. `below`: HTML under the slider, shown with it."""
         place = self._defaults[name] = min(max(value, form.low), form.high)
+        self._placed[name] = place, place
         self._add(
             name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
         )
@@ -100,6 +103,8 @@ class WidgetForm:
     def __getitem__(self, name: str) -> Any:
         """The value of a widget, in the unit of the input."""
         place = self._handles[name].value
+        if name in self._placed and place == self._placed[name][0]:
+            return self._placed[name][1]
         if name in self._titles:
             return key_of(self._titles[name], place)
         if isinstance(place, tuple):
@@ -125,7 +130,8 @@ class WidgetForm:
         if name in self._titles:
             value = self._titles[name][value]
         elif name in self._rows:
-            value = shown(self._rows[name], value, self._units)
+            meaning, value = value, shown(self._rows[name], value, self._units)
+            self._placed[name] = value, meaning
         if self._handles[name].value != value:
             self._handles[name].value = value
 

@@ -1,6 +1,6 @@
 """Vibration of blades that bend: the row of the power card.
 
-The index of a solution is a few milliseconds of work and follows every step of a drag, after its frame. Its band over
+The index of a solution is little work and follows every step of a drag, after its frame. Its band over
 wakes is computed while the page rests.
 """
 

@@ -164,7 +164,8 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
-    mass = f"{inputs.mass_t:g} t" if units.mass is TONNE else units.mass.text(1e3 * inputs.mass_t)
+    tonnes = round(inputs.mass_t, 2 if inputs.mass_t > 1.0 else 3)  # As its slider shows it.
+    mass = f"{tonnes:g} t" if units.mass is TONNE else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"
 
 

@@ -90,7 +90,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
 
     legs: None for those of `standard_flight`.
 
-    Everything is trimmed, each leg from the one before. Takes a second or two for four legs. RuntimeError with one
+    Everything is trimmed, each leg from the one before. RuntimeError with one
     sentence that names the leg where nothing trims.
     """
     legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs

@@ -111,7 +111,7 @@ class BreakEven:
 @bytes_cache
 @read_only
 def break_even(pair: ConditionPair) -> BreakEven:
-    """The break-even line of any rotor for a pair of flight conditions; it takes a second or two.
+    """The break-even line of any rotor for a pair of flight conditions, by searches.
 
     Raises RuntimeError with one sentence where nothing trims.
     """
@@ -228,7 +228,7 @@ STROKES = (0.5, 2.0, 4.0)
 
 
 def other_stroke(verdict: Verdict) -> OtherStroke:
-    """The break-even line of a verdict: an optimum over the same flights for each of `STROKES`, a second each.
+    """The break-even line of a verdict: an optimum over the same flights for each of `STROKES`.
 
     ValueError for an actuator that has no mass, RuntimeError where nothing trims.
     """

@@ -229,5 +229,5 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
 @bytes_cache
 @read_only
 def _onset_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
-    """Kept apart from the disks, which share them: 4 MB for two sections."""
+    """Kept apart from the disks, which share them."""
     return np.stack([stall_onset(table).tables for table in _at_mach(sections, only_mach)])

@@ -124,7 +124,7 @@ def moment_table(table: SectionTable, only_mach: float | None) -> Array:
 @bytes_cache
 @read_only
 def _moment_tables(sections: tuple[Section, ...], only_mach: float | None) -> Array:
-    """`BladeTorsion.moment_tables`; kept apart from the blades, which share them: 4 MB for two sections."""
+    """`BladeTorsion.moment_tables`; kept apart from the blades, which share them."""
     return np.stack([moment_table(item.table, only_mach) for item in sections])[:, :, :, None]
 
 

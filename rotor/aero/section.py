@@ -149,7 +149,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
             if slopes:
                 d[_R:, i] = 0.0
         if flow:
-            for j in range(m):  # Rows assigned as a whole take numba two seconds more to compile.
+            for j in range(m):  # Rows assigned as a whole take numba longer to compile.
                 s[ALPHA, i, j], s[MACH, i, j] = alpha[j], mach[j]
                 s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = coeffs[0, j], coeffs[3, j], coeffs[5, j]
         if masked:

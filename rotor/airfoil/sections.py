@@ -35,7 +35,7 @@ _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility
 @bytes_cache
 @read_only
 def load_section(name: str) -> SectionTable:
-    """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached; takes about 20 ms."""
+    """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached."""
     if name.startswith(THESIS_NAME):
         return polynomial_table(parse_reading(name))
     if name not in SECTION_NAMES:
@@ -112,7 +112,7 @@ def load_installed(name: str) -> Section:
 @bytes_cache
 @read_only
 def install_own(section: OwnSection) -> Section:
-    """A user's section; read once per process and cached; takes some 30 ms.
+    """A user's section; read once per process and cached.
 
     Raises ValueError with one sentence that gives line and remedy for a deck or an outline that cannot be used.
     """

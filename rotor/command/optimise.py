@@ -294,6 +294,6 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         lines.append(f"with {name}: {twist}{saving}")
     for other in optimum.minima[1:]:
         lines.append(f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}")
-    lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
+    lines.append(f"{optimum.evaluations} evaluations, {optimum.elapsed:.2g} s")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     stopped = False
     if count:
         print(f"{count} searches, in {processes} processes", file=sys.stderr)
-        # Figures without searches come first: a run that is stopped has them, and each takes a second at most.
+        # Figures without searches come first: a run that is stopped has them, and each is quick.
         figures = [[(written, (entry.number, folder))] for entry in fast]
         with interruptible() as stop, bar(count + len(figures), "step") as advance:
             stopped = compute_ahead([*figures, *groups], processes, advance, stop)

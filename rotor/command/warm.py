@@ -14,12 +14,7 @@ from rotor.trim.solve import analyse, solve
 
 
 def add_parser(commands: Any) -> None:
-    add_command(
-        commands,
-        "warm",
-        run,
-        "Compile and keep all kernels, which takes about half a minute; else each command compiles what it needs.",
-    )
+    add_command(commands, "warm", run, "Compile and keep all kernels; else each command compiles what it needs.")
 
 
 def run(_: argparse.Namespace) -> int:

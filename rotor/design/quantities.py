@@ -194,7 +194,7 @@ _CONDITION = (
 )  # fmt: skip
 
 _BLADE = (
-    Quantity("case", "object", "design to start from, read by `load_design`; the other arguments change it"),
+    Quantity("case", "object", "design file to start from, or what `load_design` read; the other arguments change it"),
     Quantity(
         "rotor", "text", "a rotor file (docs/rotor_file.md) or the name of a rotor",
         choices=(*SHIPPED_ROTORS, *MEASURED_ROTORS), key="rotor", section="fixed", written=True, input="rotor",

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from functools import wraps
 from inspect import Parameter, signature
 from numbers import Real
@@ -110,6 +111,14 @@ class Quantity:
     """The model without it, one sentence."""
     hint: str = ""
     """Hint on the page, where it says more than the help; after a bar the equation or the section of docs/theory.md."""
+
+    def of_input(self, value: float) -> float:
+        """The page's input in the unit of the name, by its decimals: 2.01 t are 2010 kg, not 2009.9999999999998."""
+        return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) * Decimal(self.input_size))
+
+    def as_input(self, value: float) -> float:
+        """The page's input for a value, which `of_input` gives back."""
+        return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) / Decimal(self.input_size))
 
     @property
     def flag(self) -> str:

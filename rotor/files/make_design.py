@@ -38,7 +38,13 @@ def uh60a_rotor(preset: str) -> Rotor:
     return shipped_aircraft("uh60a").rotor_for(preset)
 
 
-@takes(SWEPT, after="hover")
+def _other_way(name: str) -> str:
+    """How to say what is asked for by a name that is not ours."""
+    said = {"isa", "temperature", "temp", "oat"} & set(name.lower().split("_"))
+    return "isa_offset_c=20, the difference from the standard atmosphere in °C" if said else ""
+
+
+@takes(SWEPT, after="hover", elsewhere=_other_way)
 def make_design(
     *,
     case: Design | None = None,

@@ -38,15 +38,15 @@ ISOLATED_LOADING = 0.07
 LARGEST_FILE = 2_000_000
 """[bytes], of a rotor file or of a file it names; a deck has about 40 000."""
 MOST_SECTIONS = 12
-"""Sections of its own that a blade may use: each takes some 0.1 s to build."""
+"""Sections of its own that a blade may use: each takes time to build."""
 MOST_TABLES = 24
-"""Tables that they may have together, one for each Reynolds number: each takes some 10 MB."""
+"""Tables that they may have together, one for each Reynolds number: each is large."""
 MOST_NAMED = 40
 """Files that the sections in use may name."""
 _LONGEST, _LONGEST_LINE = 200_000, 20_000
 """Characters of a rotor file and of a line of it."""
 _MOST_DOTS = 100
-"""A dotted name takes the square of its length to read: 8000 dots on each of eleven lines took 18 s."""
+"""A dotted name takes the square of its length to read."""
 _MAIN = ("main_rotor",)
 
 

@@ -239,9 +239,8 @@ def evaluate_objectives(
     ]
 
 
-MISSION_COLUMNS = (*(name for name, row in CONDITION.items() if row.told), "hours")
-_READ = (*CONDITION, "hours")
-"""Columns of a mission that are read."""
+MISSION_COLUMNS = (*CONDITION, "hours")
+"""Columns of a mission that are read; only mu is needed."""
 
 
 @refusing("mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
@@ -258,14 +257,14 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
     if not rows:
         raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(MISSION_COLUMNS)}")
     heading = [cell.strip() for cell in rows[0][1]]
-    unknown = [name for name in heading if name not in _READ]
+    unknown = [name for name in heading if name not in MISSION_COLUMNS]
     if unknown or "mu" not in heading:
         raise ValueError(
             f"mission {str(path)!r} line {rows[0][0]} reads {','.join(heading)!r}: "
             f"write the heading {','.join(MISSION_COLUMNS)}; only mu is required"
         )
     if len(rows) < 2:
-        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line such as 0.2,8322,0,0,1.5")
+        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line with a number for each column")
     return tuple(
         _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
     )

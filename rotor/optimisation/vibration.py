@@ -122,7 +122,7 @@ def with_harmonics(design: Design, harmonics: tuple[Harmonic, ...]) -> Design:
 def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix:
     """How hub loads and power of a trimmed design respond to twist at n per revolution.
 
-    It takes about a second; `response("2:1:240,3:0.5:60")` of the result then gives loads, index and power at once.
+    `response("2:1:240,3:0.5:60")` of the result gives loads, index and power at once.
 
     Parameters:
         design: a design with hub loads. Only the shape of its active twist along the span is used.
@@ -246,7 +246,7 @@ def vibration_front(
 ) -> VibrationFront:
     """The trade-off between power and vibration: the least power at each of several limits of the vibration index.
 
-    Every point is trimmed; it takes several seconds. Points of active twist are found with `t_matrix`, those of a
+    Every point is trimmed. Points of active twist are found with `t_matrix`, those of a
     concept by searches.
 
     Parameters:

@@ -101,8 +101,8 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
 def keep_freed_memory() -> None:
     """Keep up to 64 MB of freed memory in this process (glibc only).
 
-    Workers of Dask return freed memory above 64 kB at once. A trim allocates arrays of 38 kB to 1 MB all the time, and
-    spent a third of its processor time on page faults.
+    Workers of Dask return freed memory above 64 kB at once. A trim allocates larger arrays all the time, and lost
+    much of its processor time to page faults.
     """
     with suppress(OSError, AttributeError, TypeError):
         libc = ctypes.CDLL(None)
@@ -141,7 +141,7 @@ def _models(study: Study) -> dict[str, Value]:
 def arrow_modules() -> tuple[Any, Any]:
     """`pyarrow` and `pyarrow.parquet`; MissingExtra with one sentence where they are not installed."""
     what = "the results of a study are Parquet files, which"
-    return extra_module("pyarrow", "study", what), extra_module("pyarrow.parquet", "study", what)
+    return extra_module("pyarrow", what), extra_module("pyarrow.parquet", what)
 
 
 def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:

@@ -45,9 +45,9 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 
 _KEPT = 500
-"""Trims kept, 1 kB each."""
+"""Trims kept."""
 _KEPT_FACTORS = 64
-"""How many of the last solutions are kept with their factors, 0.15 MB each."""
+"""How many of the last solutions are kept with their factors, which are large."""
 _AMPLE = 1.8
 """Trims that a quadratic is made of, over the number of its terms."""
 _FIRM = 1e-8

@@ -210,7 +210,7 @@ def _explained(error: BaseException, chunk: int) -> ValueError:
     if isinstance(error, ImportError) or "deserialization" in str(error):
         cause = error.__cause__ or error  # Dask wraps the error of a worker without this package.
         return ValueError(
-            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer[study], "
-            "the same version, on every worker"
+            f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install pyarrow and "
+            "the same version of rotor-explorer on every worker"
         )
     return ValueError(f"chunk {chunk} failed on its worker ({type(error).__name__}: {error})")

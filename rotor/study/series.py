@@ -139,7 +139,7 @@ class SweepTable:
 
         Raises MissingExtra with the remedy where pandas is missing.
         """
-        frame = extra_module("pandas", "pandas", "a data frame").DataFrame(self.to_dict())
+        frame = extra_module("pandas", "a data frame").DataFrame(self.to_dict())
         units = ((name, ARGUMENTS[name].unit if name in ARGUMENTS else unit_of(name)) for name in self.columns)
         frame.attrs["units"] = {name: unit for name, unit in units if unit}
         return frame

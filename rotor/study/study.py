@@ -159,7 +159,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 @read_only
 def _spread(sample: StudySample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
-    from scipy.stats import qmc  # Here, for it takes 0.4 s to import.
+    from scipy.stats import qmc  # Here, for it is slow to import.
 
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":
@@ -289,7 +289,7 @@ def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: 
 def default_chunk(count: int, *, search: bool) -> int:
     """Default number of points per chunk: seconds of work, and not too many files in a folder.
 
-    A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
+    An optimum takes as long as many trims; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
     """
     most = 16 if search else 500
     few = max(count // 32, 4)

@@ -22,7 +22,7 @@ _P = ParamSpec("_P")
 _T = TypeVar("_T")
 
 CACHE_BYTES = 256 * 2**20
-"""By default: tables of the five shipped rotors, 130 MB, and a lifting line in 45 conditions, 2.8 MB each."""
+"""By default: room for tables of the five shipped rotors, and for a lifting line in tens of conditions."""
 LEAST = 64 * 2**20
 """[bytes]; with less, tables would be made anew in each trim."""
 _LONG = 1000

@@ -2,9 +2,9 @@
 
 numba itself ends the program where it has no folder to write to (a read-only installation without a home), where the
 disk is full, and where a kept file was cut short; LLVM ends it where a bit of one is another. The kernels then compile
-anew, in some seconds.
+anew.
 
-The first run compiles for about half a minute. On a terminal and in a notebook a line on stderr counts the kernels.
+The first run compiles them. On a terminal and in a notebook a line on stderr counts the kernels.
 """
 
 import hashlib
@@ -166,7 +166,7 @@ class _Watch(event.Listener):
                 self._width = len(words)
             elif not self.told:
                 self.told = True
-                words = f"Compiling kernels, {self._often}: about half a minute of processor time"
+                words = f"Compiling kernels, {self._often}"
                 print(words, file=stream, flush=True)
 
 

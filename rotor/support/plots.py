@@ -19,7 +19,7 @@ def drawing_module(name: str = "matplotlib.figure") -> Any:
     ValueError where matplotlib finds no folder for its own files, without which it cannot be imported.
     """
     try:
-        return extra_module(name, "plot", "a picture")
+        return extra_module(name, "a picture")
     except OSError:
         raise ValueError(
             "a picture needs a folder that matplotlib can write its own files to: set MPLCONFIGDIR to one"

@@ -2,7 +2,7 @@
 
 `concurrent.futures.ProcessPoolExecutor` (and loky, which is built on it) was tried and does not do: its processes go on
 when their parent is killed, one lost process breaks them all, it cannot end a task that ignores its stop, and the
-interpreter waits for running tasks at exit (8 s measured for a task of 8 s).
+interpreter waits for running tasks at exit.
 
 One file: what is said of a job, the queue and the thread that feeds a process are read together.
 """

@@ -33,7 +33,7 @@ _PROGRAMS = ("-m", "rotor")
 
 
 def stop_while_read() -> None:
-    """Let Ctrl-C end the command without a traceback while its modules are still read, which takes half a second."""
+    """Let Ctrl-C end the command without a traceback while its modules are still read."""
     if Path((sys.argv or [""])[0]).name in _PROGRAMS and threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, _leave)
 

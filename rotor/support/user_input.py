@@ -24,14 +24,15 @@ class MissingExtra(ImportError, ValueError):
     """A package is not installed that only some uses need; one sentence with the remedy."""
 
 
-def extra_module(name: str, extra: str, what: str) -> Any:
-    """A module that an extra of the installation brings. MissingExtra, for example `what` "a DataFrame", without it."""
+def extra_module(name: str, what: str) -> Any:
+    """A module that only some uses need. MissingExtra, for example `what` "a DataFrame", where it is not installed."""
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise  # The module is there, and something else is missing.
-        raise MissingExtra(f"{what} needs {name.partition('.')[0]}: pip install 'rotor-explorer[{extra}]'") from None
+        package = name.partition(".")[0]  # Also its name on the index, which this package is not on.
+        raise MissingExtra(f"{what} needs {package}: pip install {package}") from None
 
 
 def causes(error: BaseException | None) -> list[BaseException]:

@@ -66,7 +66,7 @@ Solve = Callable[[Design, Solution | Guess | None], Analysis]
 def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool = True) -> HubLoads | None:
     """Vibratory loads of all blades on the hub at N_b per revolution.
 
-    It takes a few tenths of a second. A design whose blades do not bend is solved again with blades that bend.
+    A design whose blades do not bend is solved again with blades that bend.
 
     Parameters:
         given: a converged trim, or its `rotor.trim.Analysis`.

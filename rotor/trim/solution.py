@@ -202,7 +202,7 @@ class Solution:
         return {**self.__dict__, "start": replace(self.start, factors=None, structure=None)}
 
     def without_factors(self) -> "Solution":
-        """This solution without what only speeds up trims that start from it, 1.5 MB: for many that are kept."""
+        """This solution without what only speeds up trims that start from it: for many that are kept."""
         return replace(self, start=replace(self.start, factors=None))
 
     def __repr__(self) -> str:

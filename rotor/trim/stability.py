@@ -204,7 +204,7 @@ def stability(
 
 
 def margins(given: Design | Solution | Analysis) -> PitchFlapMargins:
-    """Margins to flutter and divergence with the air's slopes averaged around the azimuth; a few tenths of a second.
+    """Margins to flutter and divergence with the air's slopes averaged around the azimuth.
 
     Raises ValueError for a blade that is rigid in torsion, RuntimeError when the design does not trim.
     """

@@ -105,9 +105,9 @@ def doubt_set() -> TrustSet:
 
 
 def count_by_kind(held: Iterable[PointAndBand]) -> str:
-    """Points inside their band and outside, by kind of flight: many of one rotor in hover do not stand for the rest."""
+    """Points inside their band, by kind of flight: many of one rotor in hover do not stand for the rest."""
     kinds: dict[str, list[bool]] = {}
     for point in held:
         kinds.setdefault(point.kind, []).append(point.inside)
-    each = (f"{kind} {sum(inside)}/{inside.count(False)}" for kind, inside in kinds.items())
-    return f"in/out: {'; '.join(each)}"
+    each = (f"{kind} {sum(inside)} of {len(inside)}" for kind, inside in kinds.items())
+    return f"inside the band: {'; '.join(each)}"

@@ -195,9 +195,9 @@ def tail_pitch(solution: Solution) -> float:
 def flown_set() -> TrustSet:
     """For the trust page."""
     words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
-    shapes = (f"{name} {100 * shape_errors(*_trimmed(powers, rotor))[0]:.1f} %" for rotor, name in TITLES.items())
+    gazelle, bo105 = (100.0 * shape_errors(*_trimmed(powers, rotor))[0] for rotor in ("gazelle", "bo105"))
     return words.page(
-        ", ".join(shapes),
+        f"shape: {TITLES['gazelle']} {gazelle:.1f} %; {TITLES['bo105']}, which has no target, {bo105:.1f} %",
         (*_power_rows(powers), *_gazelle_rows(powers), *map(_angle_row, angles)),
         (*(_power_chart(powers, rotor) for rotor in ("bo105", "gazelle")), _angle_chart(angles)),
         points=_points(powers, angles),

@@ -133,7 +133,8 @@ def summary(sets: Sequence[TrustSet]) -> str:
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        f"Nothing was fitted to these points. {words}. How uncertain a power is, and what "
+        "No model was tuned to these points; the size of the band in hover was chosen with points known "
+        f"([bands](validation/doubt.md)). {words}. How uncertain a power is, and what "
         "moves the best twist: [uncertainty](guide/doubt.md).",
         *parts,
         "## Not modelled",

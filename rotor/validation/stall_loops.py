@@ -122,8 +122,8 @@ def loops_set() -> TrustSet:
     rows_of = {
         name: [
             words.row(
-                f"{words.title}: {name}, {loop.motion}", f"rms {dynamic:.3f}, static {static:.3f}", dynamic, 0.005,
-                note=words.notes.get(name, ""), target="that of static data", met=dynamic <= static,
+                f"{words.title}: {name}, {loop.motion}", f"rms {dynamic:.3f}", dynamic, 0.005,
+                note=words.notes.get(name, ""), target=f"{static:.3f}, that of static data", met=dynamic <= static,
             )
             for loop in loops
             for dynamic, static in [(loop.rms(loop.dynamic)[k], loop.rms(loop.static)[k])]

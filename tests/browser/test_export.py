@@ -142,7 +142,7 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
     watched.drawer("share")
     with zipfile.ZipFile(saved(watched, "Tables", tmp_path)) as tables:
-        assert b"8320 kg, 0 m" in tables.read("power.csv")
+        assert b"8322 kg, 0 m" in tables.read("power.csv")
     assert "the sliders has no trim" in watched.text("export")
 
 

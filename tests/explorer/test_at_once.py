@@ -1,6 +1,6 @@
 """Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone.
 
-How long frames took is printed, with the memory of the process. A hundred pages that come and go do not add to it.
+A hundred pages that come and go do not add to the memory. How long frames take: `tests.tools.measured`.
 """
 
 import asyncio
@@ -42,16 +42,13 @@ def resident() -> float:
     return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6 if STATM.exists() else float("nan")
 
 
-async def work(visitor: Visitor, app: App, k: int, seconds: float) -> list[float]:
-    """Drag, and now and then search, or open what the doubt consists of, which needs the gradient.
-
-    Returns how long each edit took until a picture showed it [s].
-    """
+async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
+    """Drag, and now and then search, or open what the doubt consists of, which needs the gradient."""
     await visitor.open(app.address)
     await visitor.until(lambda: visitor.text("status") == "converged", PATIENCE)
     await visitor.press("more", "on")
     await visitor.until(lambda: visitor.shows("Altitude [m]"), PATIENCE)
-    end, step, took = time.monotonic() + seconds, 0, list[float]()
+    end, step = time.monotonic() + seconds, 0
     while step == 0 or time.monotonic() < end:
         if step % 40 == 0 and k % 5 == 0:
             await searching(visitor, PATIENCE)
@@ -59,17 +56,15 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> list[float
             await visitor.press("discard")
         elif step % 40 == 0 and k % 5 == 1:
             await visitor.press("drawer", "trust")
-        begun, shown = time.monotonic(), visitor.pictures
+        shown = visitor.pictures
         if step % 2:
             await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
         else:
             await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
         await visitor.until(lambda shown=shown: visitor.pictures > shown, PATIENCE)
-        took.append(time.monotonic() - begun)
         await asyncio.sleep(0.15)
         step += 1
     await visitor.idle(PATIENCE, wholly=False)
-    return took
 
 
 def answers(session: Session) -> tuple[float, float]:
@@ -112,21 +107,15 @@ def test_a_power_comes_with_its_frame_while_another_page_draws_charts(app: App):
 @pytest.mark.slow
 @pytest.mark.parametrize(("pages", "seconds"), [(4, 1.0), pytest.param(20, 600.0, marks=pytest.mark.nightly)])
 def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, seconds: float):
-    before = resident()
-
-    async def visit() -> tuple[list[str], list[Session], list[float]]:
+    async def visit() -> tuple[list[str], list[Session]]:
         visitors = [Visitor(query=query(k)) for k in range(pages)]
-        took = await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
+        await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
         sessions, notices = list(app.sessions), [notice for visitor in visitors for notice in visitor.notices]
         for visitor in visitors:
             await visitor.close()
-        return notices, sessions, sorted(time for each in took for time in each)
+        return notices, sessions
 
-    notices, sessions, took = ran(visit, seconds + 4.0 * PATIENCE)
-    p50, p95 = (1e3 * took[int(share * len(took))] for share in (0.5, 0.95))
-    print(
-        f"{pages} pages, {len(took)} edits: p50 {p50:.0f} ms, p95 {p95:.0f} ms; {before:.0f} MB, then {resident():.0f}"
-    )
+    notices, sessions = ran(visit, seconds + 4.0 * PATIENCE)
     assert notices == []
     assert len(sessions) == pages
     designs = {session._state.solution.design for session in sessions if session._state is not None}
@@ -152,7 +141,7 @@ def small_caches() -> Iterator[App]:
 @pytest.mark.nightly
 @pytest.mark.skipif(not STATM.exists(), reason="the system does not tell how much memory a process has")
 def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: App):
-    """A page takes 15 MB, a solution that it leaves behind 2 MB."""
+    """A page and the solutions that it leaves behind are given back."""
     sizes, app = list[float](), small_caches
 
     async def visit() -> None:

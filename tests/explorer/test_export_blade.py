@@ -114,6 +114,6 @@ def test_sections_that_change_at_once_stay_closed():
 def test_the_command_writes_the_jig_shape(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["blade", "--out", str(tmp_path)]) == 0
     (path,) = tmp_path.iterdir()
-    assert path.name.endswith("-jig.stl")
+    assert path.name.endswith("-as-built.stl")
     assert path.read_bytes() == blade_stl(make_design())
     assert capsys.readouterr().out.count("MB") == 1

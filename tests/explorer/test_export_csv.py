@@ -42,7 +42,7 @@ def test_disk_holds_every_field_and_adds_up_to_thrust_and_power():
     assert columns["thrust per blade [N/m]"] @ width == pytest.approx(solution.ct * design.thrust_unit, rel=1e-7)
     assert columns["power per blade [W/m]"] @ width == pytest.approx(solution.power.shaft, rel=1e-7)
     assert f"segments:{-14},{-8}@0.5" in comments[0]
-    assert any("advance ratio 0.3, 8320 kg, 0 m" in line for line in comments)
+    assert any("advance ratio 0.3, 8322 kg, 0 m" in line for line in comments)
     assert any("rotor explorer" in line and "NumPy" in line for line in comments)
 
 
@@ -55,7 +55,7 @@ def test_caveats_are_in_the_comments():
 def test_the_blade_is_what_the_charts_show():
     _, columns = read(blade_csv(SOLUTION, BASELINE, 270.0))
     design = SOLUTION.design
-    assert_allclose(columns["jig twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7)
+    assert_allclose(columns["built-in twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7)
     reverse = SOLUTION.disk.u_t[:, 90] <= 0.0  # 270° of 120 azimuths.
     assert reverse.any()
     assert_allclose(np.isnan(columns["alpha [deg]"]), reverse)

@@ -52,7 +52,7 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
     title = title_words(design)
     assert title.replace("\u2009", " ").startswith(said)
     assert len(title) <= LONGEST_TITLE
-    for ending in ("-report.html", "-tables.zip", "-jig.stl", ".json", ".png"):
+    for ending in ("-report.html", "-tables.zip", "-as-built.stl", ".json", ".png"):
         assert re.fullmatch(r"[a-z0-9][a-z0-9._-]*", file := file_name(design, ending))
         assert file.endswith(f"-mu0.200{ending}")
         assert len(file) <= 60

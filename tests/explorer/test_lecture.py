@@ -15,6 +15,7 @@ import rotor
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import AVIATION, SI, UNITS
 from explorer.picture.fields import FIELDS
+from explorer.sharing import share
 from explorer.story import steps
 from explorer.story.facts import StepFacts, facts_of
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
@@ -101,6 +102,13 @@ def facts() -> dict[str, StepFacts]:
     return {step.name: facts_of(step) for step in STEPS}
 
 
+def _reversed_area(mu: float, cutout: float) -> float:
+    """Of the disk, within r < −µ sin ψ and outside the cut-out: the integral of (µ² sin² ψ − c²)/2π."""
+    start = np.arcsin(cutout / mu)
+    psi = np.linspace(start, np.pi - start, 10_001)
+    return float(np.trapezoid((mu * np.sin(psi)) ** 2 - cutout**2, psi) / (2.0 * np.pi))
+
+
 NAMED = re.compile(r"\{(\w+)\}")
 
 
@@ -176,6 +184,34 @@ class TestAnswers:
         assert {name: found.right for name, found in facts.items()} == right
         (_, weak), (_, strong) = facts["fast_twist"].stops[1].dots
         assert weak < strong
+
+    @pytest.mark.slow
+    def test_numbers_are_those_of_solve(self, facts: dict[str, StepFacts]):
+        """Of designs made without the page; parts that change add up to the total, and circles to their area."""
+        for step in STEPS:
+            numbers = facts[step.name].numbers
+            if "total_b" not in numbers:
+                continue
+            b, a = (
+                rotor.solve(
+                    make_design(
+                        twist=inputs.twist(),
+                        mu=inputs.advance_ratio,
+                        inflow=inputs.inflow,
+                        off=None if inputs.reverse_flow else "reverse-flow",
+                    )
+                )
+                for inputs in (step.begin(), compared_inputs(step.against, step.inputs, step.begin()))
+            )
+            for part in ("total", "induced", "profile", "tail"):
+                for name, solution in (("a", a), ("b", b)):
+                    assert numbers[f"{part}_{name}"].value == pytest.approx(getattr(solution.power, part), rel=1e-6)
+            changes = [numbers[f"{part}_change"].value for part in ("induced", "profile", "tail")]
+            assert sum(changes) == pytest.approx(numbers["total_change"].value, abs=1.0)
+        area, craft = facts["reverse_flow"].numbers["area"].value, make_design().rotor.blade
+        assert area == pytest.approx(_reversed_area(0.37, craft.root_cutout), rel=0.03)
+        for stop in facts["power_or_vibration"].stops:
+            assert not re.search(r"\.\d{5}", share.code_of(stop.inputs.design()))
 
     @pytest.mark.slow
     def test_the_moving_twist_is_that_of_the_ladder(self, facts: dict[str, StepFacts]):

@@ -138,7 +138,7 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
 def test_the_changed_twist_as_built_is_again_on_its_sliders():
     inputs = replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25)
     code = code_of(inputs.design())
-    assert code == "1;uh60a~segments:-2,1.5@0.6;mu=0.25;mass=8320"
+    assert code == "1;uh60a~segments:-2,1.5@0.6;mu=0.25"
     assert inputs_from(code) == inputs
 
 

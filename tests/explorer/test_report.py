@@ -20,15 +20,16 @@ from explorer.export import report as document
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import versions
 from explorer.export.report import report_html
-from explorer.export.tables import vibration
+from explorer.export.tables import doubts, vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
+from explorer.model.units import UNITS
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.web import json_block
-from rotor import hub_loads
+from rotor import doubt, hub_loads
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Status
@@ -114,6 +115,30 @@ class TestReport:
         assert "other flight condition" in page
         change = f"{100 * (FAST.power.total / BASELINE.power.total - 1):+.1f} %"
         assert change not in page
+
+    @pytest.mark.parametrize("units", UNITS)
+    def test_causes_add_up_to_the_band_above_them(self, units: str):
+        """As squares, for power and for the change apart, within the digits printed."""
+        near = ReportEntry("Now", NOW)
+        report = DesignReport(ReportEntry("A", BASELINE), [near], replace(VIEW, units=units))
+        tables = re.findall(r"<h3>(Uncertainty of .+?)</h3><table>(.+?)</table>", doubts(report, near))
+        assert [title for title, _ in tables] == ["Uncertainty of power", "Uncertainty of the change"]
+        band, size = doubt(NOW, BASELINE), UNITS[units].power[0].size
+        for (_, rows), known in zip(tables, (band.band, band.change_band), strict=True):
+            first, *causes = [float(value) for value in re.findall(r"± ([\d.]+) \w+</td></tr>", rows)]
+            assert known is not None
+            assert first == pytest.approx(known / size, rel=0.06)
+            assert math.hypot(*causes) == pytest.approx(first, rel=0.1)
+            assert causes[0] > 0.3 * first
+
+    def test_a_blade_as_built_is_compared_with_nothing(self):
+        alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", solve(BASELINE.design))], VIEW)
+        page = report_html(alone, None, Swept())
+        assert page.count('data-report="total-power"') == page.count("reference</span>") == 1
+        assert "Side by side" not in page
+        assert "Change of power" not in page
+        assert "Uncertainty of the change" not in page
+        assert "Uncertainty of power" in page
 
     def test_aviation_units_are_those_of_the_page(self, report: DesignReport):
         page = report_html(replace(report, view=replace(VIEW, units="Aviation")), None, Swept())

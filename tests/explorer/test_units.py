@@ -43,9 +43,9 @@ def test_the_chosen_unit_comes_first(cruise: Solution):
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
     assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no root loss"
-    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
+    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009348 lb, 5\u2009000 ft"
     assert flight_name(Inputs(climb_m_s=5.0)) == "µ 0.2, climb 5.0 m/s, 8.32 t"
-    assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009342 lb"
+    assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009348 lb"
     assert flight_name(Inputs(climb_m_s=5.0, preset="thesis")) == "µ 0.2, 8.32 t"
 
 
@@ -118,6 +118,16 @@ def test_values_are_those_of_the_inputs(form: WidgetForm, moved: list[tuple[str,
     assert moved == [("preset", False)]
     form.offer("preset", {"flight": "As flown"}, "flight")
     assert (form._handles["preset"].value, form["preset"]) == ("As flown", "flight")
+
+
+@pytest.mark.parametrize("value", [1234.567890123456, 500.0, 3000.1])
+def test_a_value_that_no_hand_moved_is_kept_in_all_digits(form: WidgetForm, value: float):
+    form.place("altitude_m", value)
+    for units in (AVIATION, SI):
+        form.translate(units, lambda name, units=units: form_of(ROWS[name], units))
+        assert form["altitude_m"] == value
+    form._handles["altitude_m"].value = 1250.0
+    assert form["altitude_m"] == 1250.0
 
 
 @pytest.mark.parametrize(

@@ -269,7 +269,7 @@ class TestSweep:
         assert known.items() <= units.items()
         assert not {"rotor", "mu", "pitch_per_rev", "message"} & units.keys()
         monkeypatch.setitem(sys.modules, "pandas", None)
-        with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install 'rotor-explorer\[pandas\]'"):
+        with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install pandas"):
             table.to_dataframe()
 
 
@@ -298,6 +298,7 @@ WRONG = {
     "rotor.make_design(stand='wind')": (TypeError, "stand is 'wind', not a dictionary"),
     "rotor.make_design('uh60a')": (TypeError, "got 'uh60a' without a name: name it"),
     "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
+    "rotor.make_design(delta_isa=20)": (TypeError, "no argument 'delta_isa': write isa_offset_c=20"),
     "rotor.sweep(design, mass_kg=['heavy'])": (TypeError, "heavy"),
     "design.at(mass=8000)": (TypeError, "no argument 'mass'; did you mean 'mass_kg'?"),
     "rotor.sweep(design, twist=['linear:-8'])": (
@@ -387,7 +388,7 @@ def test_import_does_not_change_blas_threads_and_solve_restores_them():
 # Pictures without matplotlib, and numbers of results
 
 
-WANTS = "a picture needs matplotlib: pip install 'rotor-explorer[plot]'"
+WANTS = "a picture needs matplotlib: pip install matplotlib"
 QUICK: dict[str, Any] = {"inflow": "uniform", "elements": 12, "azimuths": 24}
 
 

@@ -1,6 +1,6 @@
 """Processor times of evaluations, trims, searches and studies, beside their targets.
 
-`python -m tests.tools.bench [--long] [--json] [--against DIR | --release]`
+`python -m tests.tools.bench [--long] [--json] [--against DIR | --release | --page]`
 """
 
 import argparse
@@ -40,6 +40,7 @@ from rotor.trim.newton import newton
 from rotor.trim.power_changes import power_changes
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
+from tests.tools import measured
 
 T = TypeVar("T")
 TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
@@ -112,11 +113,26 @@ def main(argv: list[str] | None = None) -> int:
     other = parser.add_mutually_exclusive_group()
     other.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
     other.add_argument("--release", action="store_true", help="time the last release too")
+    other.add_argument("--page", action="store_true", help="write docs/measured.md, on an idle machine")
     args = parser.parse_args(argv)
+    if args.page:
+        measured.write(_least)
+        return 0
     with TemporaryDirectory(prefix="release-") as room:
         answer = _timed(unpacked_release(Path(room)) if args.release else args.against, long=args.long)
     print(json.dumps(answer, indent=2, allow_nan=False) if args.json else report(answer))
     return 0
+
+
+def _least() -> dict[str, Any]:
+    """The best figures of some runs."""
+    runs = [(measure(), measure_searches(long=False), measure_batch()) for _ in range(measured.RUNS)]
+    times, searches, rates = zip(*runs, strict=True)
+    return {
+        "ms": {name: min(one[name] for one in times) for name in times[0]},
+        "seconds": {name: min(one[name] for one in searches) for name in searches[0]},
+        "trims_per_second_and_core": {name: max(one[name] for one in rates) for name in rates[0]},
+    }
 
 
 def _timed(checkout: Path | None, *, long: bool) -> dict[str, Any]:

@@ -47,7 +47,8 @@ def as_shown(words: str) -> str:
 def section() -> str:
     """The heading, the table of measured rotors and the sentence on the other sets."""
     sets = judged()
-    met = sum(row.verdict == "met" for row in sets.values())
+    measured = [row for row in sets.values() if row.kind == "validation"]
+    met = sum(row.verdict == "met" for row in measured)
     lines = [
         "| measured rotor | target | error | verdict |",
         "| --- | --- | --- | --- |",
@@ -63,7 +64,8 @@ def section() -> str:
     )
     return (
         "## How far to trust it\n\n"
-        f"Nothing was fitted. {met} of {len(sets)} sets meet their target. [All comparisons](docs/validation.md),\n"
+        "No model was tuned to these data; the uncertainty in hover was sized with points known. "
+        f"{met} of {len(measured)} measured\nsets meet their target. [All comparisons](docs/validation.md), "
         "[what is not modelled](docs/validation.md#not-modelled).\n\n"
         + "\n".join(lines)
         + f"\n\nSections, theory and grid: {others}.\n\n"

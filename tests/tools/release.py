@@ -153,8 +153,8 @@ def package_faults(folder: Path) -> str:
     return " ".join(said.split())
 
 
-def version_faults(pyproject: str, changelog: str, others: dict[str, str]) -> list[str]:
-    """What is wrong with version and changelog, in sentences. `others`: texts that must not repeat the version."""
+def version_faults(pyproject: str, changelog: str, citation: str, others: dict[str, str]) -> list[str]:
+    """What is wrong with the version, in sentences. `others`: texts that must not repeat it."""
     version = tomllib.loads(pyproject)["project"]["version"]
     sections = re.split(r"^## \[(.*?)\].*$", changelog, flags=re.MULTILINE)
     titles, bodies = sections[1::2], sections[2::2]
@@ -164,6 +164,12 @@ def version_faults(pyproject: str, changelog: str, others: dict[str, str]) -> li
     newest = next((title for title in titles if title != "Unreleased"), None)
     if newest != version:
         faults.append(f"the newest version in CHANGELOG.md is {newest}, in pyproject.toml {version}")
+    cited = re.findall(r"^(?:version|date-released): (\S+)$", citation, flags=re.MULTILINE)
+    dated = re.findall(r"^## \[(\d.*?)\] \S (\S+)", changelog, flags=re.MULTILINE)
+    if [tuple(cited)] != dated[:1]:
+        faults.append(
+            f"CITATION.cff has {' of '.join(cited) or 'no version'}: give it version and date of CHANGELOG.md"
+        )
     return faults
 
 
@@ -186,7 +192,8 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
         name: (ROOT / name).read_text(encoding="utf-8")
         for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", "rotor/__init__.py", "explorer/__init__.py")
     }
-    faults = version_faults(texts.pop("pyproject.toml"), texts.pop("CHANGELOG.md"), texts)
+    project, changelog, citation = (texts.pop(name) for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff"))
+    faults = version_faults(project, changelog, citation, texts)
     yield "version in one place, changelog", "; ".join(faults)
     pins = re.findall(r"^([\w.-]+)==", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.MULTILINE)
     yield f"licences of {len(pins)} pinned packages", "; ".join(licence_faults(pins))

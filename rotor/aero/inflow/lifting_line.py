@@ -36,9 +36,9 @@ from rotor.support.bytes_cache import bytes_cache
 MOST_PANELS = 128
 """Beyond some 200 the panels at the tip are so short that Newton's method in single precision no longer converges."""
 MOST_AZIMUTHS = 480
-"""Lags tie all azimuths of a panel to each other: at 1500 they take 4 GB."""
+"""Lags tie all azimuths of a panel to each other, in memory that grows with their square."""
 MOST_POINTS = 3000
-"""Panels times azimuths. From some 5800 on Newton's method takes minutes, or does not converge."""
+"""Panels times azimuths. From some 5800 on Newton's method is slow or does not converge."""
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
 
@@ -115,7 +115,7 @@ def mean_share(course: DiskFlow) -> float:
 @bytes_cache
 @read_only
 def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
-    """From N_b Γ/π to the downwash, (points, points): 1.3 MB for each condition, which serve all its twists.
+    """From N_b Γ/π to the downwash, (points, points): one for each condition, for all its twists.
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """

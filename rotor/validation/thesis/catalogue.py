@@ -30,7 +30,7 @@ class CatalogueEntry:
 
     @property
     def slow(self) -> bool:
-        """Whether it searches for optima: minutes rather than tenths of a second."""
+        """Whether it searches for optima, which is slow."""
         return self.needs is not None
 
 

@@ -272,14 +272,13 @@ def test_workers_of_another_version_are_refused(tmp_path: Path, monkeypatch: pyt
         run_study(few(tmp_path), threads, out=tmp_path / "out")
 
 
-@pytest.mark.parametrize(("missing", "words"), [("pyarrow", "rotor-explorer[study]"), ("distributed", "[cluster]")])
-def test_a_missing_extra_is_one_sentence(missing: str, words: str, tmp_path: Path):
+@pytest.mark.parametrize("missing", ["pyarrow", "distributed"])
+def test_a_missing_extra_is_one_sentence(missing: str, tmp_path: Path):
     hide = f"import sys; sys.modules[{missing!r}] = None; from rotor.__main__ import main; sys.exit(main(sys.argv[1:]))"
     study = ["study", str(few(tmp_path)), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9"]
     done = subprocess.run([sys.executable, "-c", hide, *study], cwd=ROOT, capture_output=True, text=True)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert f"needs {missing}: pip install 'rotor-explorer[" in done.stderr
-    assert words in done.stderr
+    assert f"needs {missing}: pip install {missing}\n" in done.stderr
 
 
 class KillsAtThird:

@@ -17,7 +17,7 @@ def test_dynbem_pitt_peters_forward_flight():
 @pytest.mark.crosscheck
 def test_ccblade_hover():
     """Without swirl within sin φ ≈ φ in the tip factor; with it, thrust and power fall by about C_T-sized parts."""
-    pytest.importorskip("wisdem.ccblade", reason="pip install 'rotor-explorer[crosscheck]'")
+    pytest.importorskip("wisdem.ccblade", reason="pip install -e '.[crosscheck]'")
     for one in beside_ccblade():
         if "without" in one.condition:
             assert abs(one.thrust) < 2e-3, one
@@ -28,7 +28,7 @@ def test_ccblade_hover():
 
 def test_the_shipped_rows_are_reproduced():
     installed = [name for name, package in PACKAGES.items() if have(package)]
-    assert installed, "pip install 'rotor-explorer[test]'"
+    assert installed, "pip install -e '.[test]'"
     for name in installed:
         for row in code_rows(name):
             still_true(row)

@@ -14,7 +14,10 @@ def test_the_shares_are_those_shipped():
         still_true(row)
 
 
-def test_points_inside_and_outside_are_counted_by_kind_of_flight():
+def test_points_inside_are_counted_by_kind_of_flight():
     """Forty of one kind say nothing of another."""
     hover = [PointAndBand("", "hover", error, 0.05) for error in (0.2, -0.01)]
-    assert count_by_kind([*[PointAndBand("", "XV-15", 0.0, 0.05)] * 40, *hover]) == "in/out: XV-15 40/0; hover 1/1"
+    assert (
+        count_by_kind([*[PointAndBand("", "XV-15", 0.0, 0.05)] * 40, *hover])
+        == "inside the band: XV-15 40 of 40; hover 1 of 2"
+    )
