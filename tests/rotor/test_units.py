@@ -46,6 +46,7 @@ def test_degrees_of_an_angle_without_a_short_number_have_all_digits():
 )  # fmt: skip
 def test_a_power_is_in_watts_below_a_kilowatt(power: float, digits: int, text: str):
     assert power_text(power, digits) == text
+    assert digits or power_text(power) == text
 
 
 def test_powers_side_by_side_have_one_unit():
