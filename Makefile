@@ -46,13 +46,17 @@ slow-page: setup-dev browser $(WARM)
 page: setup-dev browser $(WARM) ## run test-page and slow-page in one: their tests share servers and pages
 	$(BIN)/python -m pytest -n 2 -m 'browser and not nightly' $(ARGS) $(NONE)
 
-# The second and third time in another order, and as on an older processor. Pages by themselves: some tests measure times.
+# The second time in another order, then as on other processors, those of which this one can run the kernels. Pages by
+# themselves: some tests measure times.
 nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
 	$(BIN)/python -m pytest -p randomly --randomly-dont-reset-seed $(ARGS)
-	NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=Nehalem $(BIN)/python -m pytest $(ARGS)
+	failed=; for kernels in $$($(BIN)/python -m tests.tools.kernels Nehalem Sandybridge Zen); do \
+	  NUMBA_CPU_NAME=generic OPENBLAS_CORETYPE=$$kernels $(BIN)/python -m pytest $(ARGS) || failed="$$failed $$kernels"; \
+	done; test -z "$$failed" || { echo "The tests fail with the kernels of:$$failed"; exit 1; }
 	$(BIN)/python -m pytest -n 0 -m browser $(ARGS)
 	$(BIN)/python -m tests.tools.mutation
+	$(BIN)/python -m tests.tools.faults
 	$(BIN)/python -m tests.tools.lowest
 
 check-all: lint docs test-code slow-code page ## everything CI checks

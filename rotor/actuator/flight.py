@@ -90,8 +90,13 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
 
     legs: None for those of `standard_flight`.
 
+<<<<<<< HEAD
     Everything is trimmed, each leg from the one before. RuntimeError with one
     sentence that names the leg where nothing trims.
+=======
+    Everything is trimmed, each leg from the one before; legs that are flown alike are trimmed once and have one answer.
+    Takes a second or two for four legs. RuntimeError with one sentence that names the leg where nothing trims.
+>>>>>>> n/proc
     """
     legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs
     if not legs:
@@ -108,8 +113,9 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     wanted: list[tuple[float, ...]] = []
     swings: list[tuple[float, ...]] = []
     designs: list[Design] = []
-    for leg in legs:
-        design = leg.of(pair.design)
+    flights = [leg.of(pair.design) for leg in legs]
+    distinct = list(dict.fromkeys(flights))
+    for design in distinct:
         try:
             for name, law in (("fixed", base.fixed_twist), ("built", design.twist)):
                 flown[name] = near = solve(replace(design, twist=law), flown[name]).require()
@@ -121,12 +127,14 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
             driven = reached.solutions[0].design
             flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
         except RuntimeError as error:
-            raise RuntimeError(f"{leg.name}: {error}") from None
+            raise RuntimeError(f"{legs[flights.index(design)].name}: {error}") from None
         wanted.append(free.swings[0])
         powers["with"].append(heavy.power.total + verdict.drive.hold_power)
         swings.append(reached.swings[0])
         designs.append(driven)
-    power_of = {name: np.array(values) for name, values in powers.items()}
+    place = [distinct.index(design) for design in flights]
+    wanted, swings = [wanted[k] for k in place], [swings[k] for k in place]
+    power_of = {name: np.array(values)[place] for name, values in powers.items()}
     counted = power_of["built" if verdict.against == "same-blade" else "fixed"]
     ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     volts = (np.array(swings) - undriven) / per_unit
@@ -148,7 +156,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         power_with=power_of["with"],
         reference_power=counted,
         fuel_saving=saved,
-        designs=tuple(designs),
+        designs=tuple(designs[k] for k in place),
     )
 
 

@@ -1,5 +1,6 @@
 """Units: factors by hand, and sliders that read in pounds and feet without moving the design."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -9,7 +10,7 @@ import viser
 
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS, form_of, meant, shown, units_of
+from explorer.model.units import AVIATION, HORSEPOWER, KNOT, SI, UNITS, WATT, form_of, meant, shown, units_of
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.form import WidgetForm
 from explorer.text import readout
@@ -23,7 +24,11 @@ def test_factors_by_definition():
     """550 ft·lbf/s, 1852 m/h, the international pound and foot."""
     assert HORSEPOWER.size == pytest.approx(550.0 * 0.3048 * 0.45359237 * 9.80665, rel=1e-9)
     assert KNOT.size * 3600.0 == pytest.approx(1852.0)
-    assert (POUND.size, FOOT.size) == (0.45359237, 0.3048)
+    by_symbol = {"W": 1.0, "kW": 1000.0, "t": 1000.0, "m": 1.0, "lb": 0.45359237, "ft": 0.3048, "ft/min": 0.00508,
+                 "m/s": 1.0, "km/h": 1000.0 / 3600.0}  # fmt: skip
+    every = {unit for own in UNITS.values() for unit in (*own.power, *own.speed, own.mass, own.altitude, own.climb)}
+    named = {unit.symbol: unit.size for unit in {*every, WATT} - {HORSEPOWER, KNOT}}
+    assert named == pytest.approx(by_symbol, rel=1e-12)
 
 
 def test_the_chosen_unit_comes_first(cruise: Solution):
@@ -87,6 +92,9 @@ def test_a_model_rotor_has_watts_and_a_propeller_climbs():
         assert (small.other_watts(233.0), SI.other_watts(149e3)) == ("0.31 hp", "200 hp")
         assert (small.watts(100.2), small.mass) == ("100 W", units.mass)
         assert meant(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
+    for ideal, symbol in ((998.0, "W"), (1002.0, "kW")):
+        weight = (ideal * math.sqrt(2.0 * 1.225 * math.pi * model.rotor.radius**2)) ** (2.0 / 3.0)
+        assert units_of("SI", replace(model, mass=weight / 9.80665)).power[0].symbol == symbol
     assert flight_name(Inputs(isa_offset_c=-10.0), AVIATION).startswith("µ 0.2, ISA − 10 °C, ")
 
 

@@ -17,6 +17,7 @@ from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.results import Minimum, SearchStatus
 from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from rotor.trim.solve import solve
+from tests.solved import SAME
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")
 
@@ -76,9 +77,8 @@ def test_variable_twist_saves_nothing_with_one_condition():
 
 
 def same(a: Minimum | None, b: Minimum | None) -> None:
-    """To rounding: what a process has computed before moves power by 3e-14 of itself."""
     assert (a.starts, a.active) == (b.starts, b.active)
-    assert a.power == pytest.approx(b.power, rel=1e-12)
+    assert a.power == pytest.approx(b.power, rel=SAME)
     assert a.parameters == pytest.approx(b.parameters, rel=1e-9)
 
 

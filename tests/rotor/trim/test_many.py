@@ -10,6 +10,7 @@ from rotor import Design, Solution, make_design, solve, solve_many
 from rotor.engine import lockstep
 from rotor.trim import SolverOptions, analyse_many, power_gradient
 from rotor.trim.many import analyse
+from tests.solved import SAME
 
 RATES = (-16.0, -13.5, -12.0, -9.0, -7.0, -4.0)
 TWISTED = [make_design(mu=0.25, twist=f"linear:{rate}") for rate in RATES]
@@ -32,8 +33,8 @@ def same(found: Sequence[Solution], wanted: Sequence[Solution]) -> None:
     for ours, theirs in zip(found, wanted, strict=True):
         assert ours.design == theirs.design
         assert (ours.status, ours.message, ours.passes) == (theirs.status, theirs.message, theirs.passes)
-        assert ours.controls.array() == pytest.approx(theirs.controls.array(), rel=1e-12, abs=1e-12)
-        assert ours.last_power.total == pytest.approx(theirs.last_power.total, rel=1e-12)
+        assert ours.controls.array() == pytest.approx(theirs.controls.array(), rel=SAME, abs=SAME)
+        assert ours.last_power.total == pytest.approx(theirs.last_power.total, rel=SAME)
         assert ours.disk.alpha == pytest.approx(theirs.disk.alpha, rel=0, abs=1e-11)
 
 

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.support.units import typographic
 from rotor.validation.thesis.catalogue import DRAWINGS, ENTRIES, find_entry
 
 THESIS = {
@@ -64,7 +63,3 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
 def test_bad_flags_are_one_line(flags: list[str], words: list[str], tmp_path: Path, refused: Callable[..., str]):
     line = refused("reproduce", str(tmp_path), *flags)
     assert all(word in line for word in words)
-
-
-def test_typographic_minus():
-    assert typographic("-13.5° from -3 to 40-60, 1e-12, two-segment") == "−13.5° from −3 to 40-60, 1e-12, two-segment"
