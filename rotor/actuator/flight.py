@@ -90,13 +90,8 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
 
     legs: None for those of `standard_flight`.
 
-<<<<<<< HEAD
-    Everything is trimmed, each leg from the one before. RuntimeError with one
-    sentence that names the leg where nothing trims.
-=======
     Everything is trimmed, each leg from the one before; legs that are flown alike are trimmed once and have one answer.
-    Takes a second or two for four legs. RuntimeError with one sentence that names the leg where nothing trims.
->>>>>>> n/proc
+    RuntimeError with one sentence that names the leg where nothing trims.
     """
     legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs
     if not legs:
