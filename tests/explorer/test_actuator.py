@@ -32,7 +32,7 @@ from explorer.tabs.background import PoolAnswers
 from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
-from explorer.views.flight import BY_HAND, FLIGHT
+from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
@@ -322,7 +322,7 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     ]  # fmt: skip
     judged = ACTUATOR.view(told(ACTUATOR, now, lean_verdict=verdict))
     assert "computing…" in judged["actuator.modes"]
-    flown = told(FLIGHT, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
+    flown = told(ACTUATOR, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
     assert ACTUATOR.asks(flown)[1].calls == ()
     paying = replace(flown, hand=replace(flown.hand, on_stage=True))
     assert len(ACTUATOR.asks(paying)[1].calls) == len(ALL) - 1
