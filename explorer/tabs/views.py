@@ -181,8 +181,8 @@ class SceneViews:
             context.inputs(), context.view(), context.pinboard.inputs, context.layout.mode, self.now, hand
         )
 
-    def put(self, wanted: ScreenState, look: bool = True) -> None:
-        """Show this, all at once. Units and theme stay, because they belong to the room; `look`: with mode and view."""
+    def put(self, wanted: ScreenState) -> None:
+        """Show this, all at once. Units and theme stay, because they belong to the room, not to the design."""
         context, layout = self._context, self._context.layout
         with context.whole:
             view = context.view()
@@ -193,9 +193,9 @@ class SceneViews:
             if wanted.inputs != context.inputs():
                 context.set_inputs(wanted.inputs)
             self._actuator.put(wanted.hand)
-            if look and wanted.mode != layout.mode:
+            if wanted.mode != layout.mode:
                 layout.show_mode(wanted.mode)
-            if look and wanted.look != self.now:
+            if wanted.look != self.now:
                 self.look(wanted.look)
 
     def look(self, view: Look) -> None:

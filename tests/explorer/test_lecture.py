@@ -12,6 +12,7 @@ import pytest
 
 import rotor
 from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import ScreenState
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from explorer.story import steps
@@ -259,7 +260,8 @@ def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pyt
     context = Mock(held=False)
     context.view.return_value, context.inputs.return_value, context.state.return_value = ViewState(), Inputs(), None
     context.bridge.set.side_effect = lambda **parts: sent.append(parts["lecture"])
-    panel = LecturePanel(context, Mock())
+    panel = LecturePanel(context, Mock(), Mock())
+    panel._before = ScreenState(Inputs(), ViewState())
     panel.set(0)
     reading, go_on = Event(), Event()
 

@@ -136,15 +136,17 @@ class PresentationBanner(Tab):
 
     def stop(self) -> None:
         """The browser has left. A presenter who loads the page again presents on."""
+        with self._publishing:  # Nothing is shown after that the presenter has left.
+            self._secret = ""
         self._presentations.release(self)
         if self._unfollow is not None:
             self._unfollow()
 
     def _publish(self) -> None:
         self._pending = None
-        if not self._secret:
-            return
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
+            if not self._secret:
+                return
             # Who follows has no search, but sees its designs.
             screen = replace(self._screen.on_screen(), inputs=self._context.controls.shown())
             self._presentations.present(self._secret, PresentedView(screen, self._lecture.place, self._camera))
@@ -162,7 +164,8 @@ class PresentationBanner(Tab):
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
         if self._name and self._shown is not None and not self._away:
-            self._screen.put(self._shown.screen, look=False)
+            held = self._shown.screen
+            self._screen.put(replace(self._screen.on_screen(), inputs=held.inputs, hand=held.hand))
 
     def _stay(self, away: bool) -> None:
         """Follow on; `away`: once the presenter is here again, and until then the page is the user's."""
@@ -177,6 +180,8 @@ class PresentationBanner(Tab):
             return
         if shown == "away":
             self._stay(away=True)
+            if before is not None:  # On a telephone the banner is folded away.
+                context.notify("The presenter has left", "The page is yours.")
             return
         now = self._screen.on_screen()
         own = self._away and before is not None and (now.inputs, now.hand) != (before.screen.inputs, before.screen.hand)
@@ -190,7 +195,8 @@ class PresentationBanner(Tab):
         with self._lock:
             self._shown, screen = shown, shown.screen
             stood = before is not None and (before.screen.mode, before.screen.look) == (screen.mode, screen.look)
-            self._screen.put(screen, look=not stood)
+            put = self._screen.on_screen() if stood else screen  # Until it changes, a follower may look elsewhere.
+            self._screen.put(replace(screen, mode=put.mode, look=put.look))
             self._lecture.follow(shown.place)
             if shown.camera is not None and shown.camera != self._camera:
                 self._camera = shown.camera
