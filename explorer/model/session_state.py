@@ -136,10 +136,12 @@ class Pinboard:
         """
         outcome = None
         while self._put:
-            given = self._put[0]
-            answer = None if given is None else self._by(given.design(), None)
-            self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
-            self._put.popleft()
+            given = self._put[0]  # Taken away once it is A: see `inputs`.
+            try:
+                answer = None if given is None else self._by(given.design(), None)
+                self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+            finally:
+                self._put.popleft()
         while self._asked and (outcome is None or outcome.inputs is None):
             outcome = apply_order(self._asked.popleft(), self.pinned, inputs, solution, self.along)
             self.pin(outcome.pinned)
