@@ -181,7 +181,7 @@ class Panel:
     view: Callable[[PageState], Mapping[str, Any]]
     """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
     seen: Callable[[OpenPanels], bool] = lambda ui: True
-    """Where it is not, nothing is asked, worked out, viewed or pressed."""
+    """Where it is not, nothing is asked, worked out, viewed or pressed, and its parts are absent from the frame."""
     asks: Callable[[PageState], tuple[Questions, ...]] = lambda now: ()
     works: Callable[[PageState], Sequence[PanelWork]] = lambda now: ()
     turns: bool = False
