@@ -146,12 +146,13 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self.optimised = OptimisedDesign(context, address, problems)
         self.optimise.challenge = self.optimised.begin
+        self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(context, self.camera)
-            self._presentation.begin(self.lecture, self._hold)
+            self.lecture = LecturePanel(context, self.camera, self._views)
+            self._presentation.begin(self.lecture, self._views, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
@@ -160,7 +161,6 @@ class Page:
         following = self.probe, settings, self.history, self.file, export, self.lecture, self._presentation
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
-        self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
@@ -168,7 +168,7 @@ class Page:
         bridge.on("taken", lambda _: self.camera.let_go())
         bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.hand().on_stage:
+        if self.actuator.hand().on_stage and not context.held:
             layout.show_mode("actuate")
         self.file.begin(problems)
         self.top.refresh()
@@ -197,11 +197,12 @@ class Page:
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
         self._pause = self.controls.pauses.longest()
-        return self.history.read(self._pause), self.display.view()
+        with self.context.whole:
+            self._actuator_inputs = self.actuator.inputs()
+            return self.history.read(self._pause), self.display.view()
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
-        self._actuator_inputs = self.actuator.inputs()
         return self._actuator_inputs.apply(design)
 
     @property
@@ -241,7 +242,7 @@ class Page:
         """All that is known, for the panels that are functions of it; safe from any thread."""
         return replace(
             self._now,
-            ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held),
+            ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held, self.actuator.lifted),
             station=self._curve.held,
             change=self.context.tracker.change,
             optimised=self.optimised.solution,
@@ -389,7 +390,8 @@ class Page:
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         self.context.held = held
-        for part in (self.controls, self.display, self.lecture, self.context.keyboard):
+        keyboard = self.context.keyboard
+        for part in (self.controls, self.optimise, self.actuator, self.display, self.lecture, keyboard):
             part.hold(held)
         self.top.refresh()
 

@@ -7,23 +7,23 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
-from explorer.views.page_state import Effect, HandSettings, MoveSliders, OpenPanels, PageState, Panel, SetHand
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, Panel, SetHand
 from explorer.workers.call import Call
 from rotor.design import Harmonic
 from rotor.trim.solve import solve
 
 
 def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> PageState:
-    """The page in Actuate with this design, the blade lifted out; `hand`: fields of `Hand`."""
-    own = HandSettings(**{"lifted": True, **hand})
+    """The page in Actuate with this design, the blade lifted out; `hand`: fields of `HandSettings`."""
+    own = HandSettings(**hand)
     design = inputs.design()
     solution = solve(own.actuator.apply(design)).require()
     state = SessionState(inputs, ViewState(), solution, solution, None)
-    return PageState(inputs, design, state, ui=OpenPanels("actuate"), hand=own, answers=answers or {})
+    return PageState(inputs, design, state, ui=OpenPanels("actuate", lifted=True), hand=own, answers=answers or {})
 
 
 def asked(panel: Panel, now: PageState) -> dict[str, Call]:

@@ -3,7 +3,7 @@
 Per cent, degrees and volts end here.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain, pairwise
 
@@ -27,6 +27,8 @@ from rotor.support.bytes_cache import bytes_cache
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Concepts whose divisions an actuator can be laid out for before any optimum is known."""
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
+AT_REST = (0.0,) * MOST_SEGMENTS
+"""No voltage on any segment."""
 BLADES: dict[BladeKind, str] = {"retrofit": "Existing blade (retrofit)", "new": "New blade, softer in torsion"}
 AGAINST: tuple[Against, ...] = ("same-blade", "best-fixed")
 """The blade that every change counts from."""
@@ -48,7 +50,7 @@ class ActuatorInputs:
     concept: str = "linear"
     against: Against = "same-blade"
     advance_ratios: tuple[float, float] = (0.0, 0.3)
-    drives: tuple[float, ...] = (0.0,) * MOST_SEGMENTS
+    drives: tuple[float, ...] = AT_REST
     """Per cent of the positive or of the negative voltage, segments from the root."""
     crossed: bool = False
     """Fibres laid the other way, so that positive voltage turns the tip down."""
@@ -115,6 +117,28 @@ class ActuatorInputs:
 
     def _segments(self, installed: InstalledActuator) -> tuple[float, ...]:
         return self.drives[: len(installed.shapes)]
+
+
+@dataclass(frozen=True)
+class HandSettings:
+    """What the hand has set in Actuate.
+
+    `flown`: where on the flight bar the voltages follow the flight; None where a hand set them. `by_hand`: what the
+    hand had set before they followed the flight. `stopped`: the actuator has; voltages stay as they are,
+    wherever it flies. `pulled`: drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a
+    full drive adds. `on_stage`: what would pay is shown in place of the balance of power. `here`: that is of this
+    flight, else of the mission. `place`: range of twist [°] and mass of all blades [kg] of the supposed actuator; None
+    until it is dragged.
+    """
+
+    actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
+    flown: float | None = None
+    by_hand: ActuatorInputs = field(default_factory=ActuatorInputs)
+    stopped: bool = False
+    pulled: tuple[tuple[float, ...], float] = (), 0.0
+    on_stage: bool = False
+    here: bool = False
+    place: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,10 @@
 """A of A/B, the pinned design; and what one update of a session reads, solves and shows, as values."""
 
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import FLIGHT, Inputs, ViewState
 from explorer.workers.solver import BaselineCache, Solve
 from rotor import Design, Solution, solve
@@ -11,11 +12,26 @@ from rotor.design import SumTwist
 from rotor.design.quantities import UNUSUAL
 from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 
+Mode = Literal["explore", "optimise", "actuate"]
+Look = Literal["actuator", "3d", "disk", "top", "blade", "side"]
+"""What a view looks at: the actuator on the blade that is out of the rotor, or the rotor."""
 Order = Literal["pin", "unpin", "swap", "back"]
 CONDITION = (*FLIGHT, "stand")
 """The inputs of the condition; the others are the aircraft and the models."""
 _NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
 _DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
+
+
+@dataclass(frozen=True)
+class ScreenState:
+    """What is on screen, whoever put it there: a hand, the lecture or a presenter. `against`: A of A/B."""
+
+    inputs: Inputs
+    view: ViewState
+    against: Inputs | None = None
+    mode: Mode = "explore"
+    look: Look = "3d"
+    hand: HandSettings = field(default_factory=HandSettings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +122,13 @@ class Pinboard:
         """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
 
+    @property
+    def inputs(self) -> Inputs | None:
+        """A, or what will be A in the next update."""
+        if waiting := self._put.copy():
+            return waiting[-1]
+        return None if self.pinned is None else self.pinned.inputs
+
     def act(self, inputs: Inputs, solution: Solution | None) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
 
@@ -113,9 +136,12 @@ class Pinboard:
         """
         outcome = None
         while self._put:
-            given = self._put.popleft()
-            answer = None if given is None else self._by(given.design(), None)
-            self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+            given = self._put[0]  # Taken away once it is A: see `inputs`.
+            try:
+                answer = None if given is None else self._by(given.design(), None)
+                self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+            finally:
+                self._put.popleft()
         while self._asked and (outcome is None or outcome.inputs is None):
             outcome = apply_order(self._asked.popleft(), self.pinned, inputs, solution, self.along)
             self.pin(outcome.pinned)

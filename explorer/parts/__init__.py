@@ -18,8 +18,8 @@ class Parts(TypedDict, total=False):
     bar: frame.BarPart
     big: bool
     coarse: int
-    dial: actuate.DialPart
-    dial_front: DrawnChart
+    dial: actuate.DialPart | None
+    dial_front: DrawnChart | None
     dial_matrix: actuate.DialMatrix | None
     earns: actuate.EarnsPart | None
     field: stage.FieldPart

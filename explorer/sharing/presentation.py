@@ -6,8 +6,9 @@ import secrets
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Literal
 
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import ScreenState
 
 _log = logging.getLogger(__name__)
 
@@ -33,17 +34,15 @@ class StoryPlace:
 
 @dataclass(frozen=True)
 class PresentedView:
-    """What a presenter shows; `against`: A of A/B. `camera`: position and the point looked at [m]."""
+    """What a presenter shows; `place`: in the lecture. `camera`: position and the point looked at [m]."""
 
-    inputs: Inputs
-    view: ViewState
-    against: Inputs | None = None
+    screen: ScreenState
     place: StoryPlace | None = None
     camera: tuple[Point, Point] | None = None
 
 
-Listener = Callable[[PresentedView | None], None]
-"""Called with what is shown; None when the presentation has ended."""
+Listener = Callable[[PresentedView | Literal["away", "over"]], None]
+"""Called with what is shown, or that the presenter's page is closed, or that the presentation has ended."""
 
 
 def new_secret() -> str:
@@ -80,12 +79,15 @@ class Presentations:
 
     def release(self, session: object) -> None:
         """This session has ended: another page with the secret may present."""
+        listeners = list[Listener]()
         with self._lock:
             for name, (_, presenter) in tuple(self._presenters.items()):
                 if presenter is session:
                     del self._presenters[name]
                     self._watchers.pop(name, None)  # It belongs to the session's page.
-                    self._forget(name)
+                    self._shown.pop(name, None)
+                    listeners += self._listeners.get(name, {}).values()
+        _tell(listeners, "away")
 
     def watch(self, secret: str, watcher: Callable[[int], None]) -> None:
         """Tell a presenter how many follow, now and whenever that changes."""
@@ -110,13 +112,16 @@ class Presentations:
             self._shown.pop(name, None)
             self._watchers.pop(name, None)
             listeners = tuple(self._listeners.get(name, {}).values())
-        _tell(listeners, None)
+        _tell(listeners, "over")
 
     def follow(self, name: str, listener: Listener) -> Callable[[], None]:
         """Call `listener` with what is shown from now on, also by a presenter who comes later; returns how to stop."""
         with self._lock:
             number, self._next = self._next, self._next + 1
             self._listeners.setdefault(name, {})[number] = listener
+            away = name not in self._presenters
+        if away:
+            listener("away")
         told = None
         while (shown := self._shown.get(name)) is not None and shown is not told:  # It may change meanwhile.
             told = shown
@@ -129,15 +134,9 @@ class Presentations:
                 others.pop(number, None)
                 if not others:
                     self._listeners.pop(name, None)
-                    self._forget(name)
             self._count(name)
 
         return leave
-
-    def _forget(self, name: str) -> None:
-        """What is shown to nobody by nobody is not kept; a presenter who comes back shows it again."""
-        if name not in self._presenters and name not in self._listeners:
-            self._shown.pop(name, None)
 
     def _count(self, name: str) -> None:
         with self._lock:
@@ -146,7 +145,7 @@ class Presentations:
             watcher(count)
 
 
-def _tell(listeners: Iterable[Listener], shown: PresentedView | None) -> None:
+def _tell(listeners: Iterable[Listener], shown: PresentedView | Literal["away", "over"]) -> None:
     """Call all listeners; one that fails, because its browser is leaving, does not affect the others."""
     for listener in listeners:
         try:

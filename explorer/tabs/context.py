@@ -4,7 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import viser
 
@@ -67,6 +67,8 @@ class TabContext:
     """The last converged state; None before the first."""
     held: bool = False
     """Whether a presenter moves the page."""
+    whole: threading.RLock = field(default_factory=threading.RLock)
+    """Held while the page is put into another state, or read: no update sees half of one."""
 
     @property
     def gui(self) -> viser.GuiApi:

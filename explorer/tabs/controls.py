@@ -98,6 +98,11 @@ class DesignControls:
                 return self._own
             return replace(self._special, stand=self.stand.stand, **self._form.values())
 
+    def shown(self) -> Inputs:
+        """What the widgets show: those of a preview, or what they mean."""
+        with self._moving:
+            return self.inputs() if self._own is None else self._special
+
     @property
     def aircraft(self) -> Aircraft:
         """That of the inputs."""

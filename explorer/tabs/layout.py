@@ -9,15 +9,15 @@ import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, get_args
 
 import viser
 
 from explorer.hosting.browser import Bridge, call
+from explorer.model.session_state import Mode
 from rotor.support.markup import Markup, tag
 
-Mode = Literal["explore", "optimise", "actuate"]
-MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
+MODES: tuple[Mode, ...] = get_args(Mode)
 _FILE = tomllib.loads(Path(__file__).with_name("keys.toml").read_text(encoding="utf-8"))
 DRAWERS: dict[str, str] = _FILE["drawers"]
 RAIL, DRAWER = 332, 348

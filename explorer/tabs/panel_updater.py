@@ -51,6 +51,8 @@ class PanelUpdater:
         self._begun: dict[Hashable, PanelWork] = {}
         """The page's own work by its key: done, and wanted."""
         self._sent: dict[str, Any] = {}
+        self._stand: list[set[str]] = [set() for _ in self._panels]
+        """Of each panel, the parts of the frame that it has shown. No two panels have one in common."""
         self._place: tuple[Hashable, ...] = ()
         self._moved = time.monotonic()
         """What hands move, when it was followed last, and when it moved."""
@@ -90,18 +92,22 @@ class PanelUpdater:
         self.follow(self._now(), only)
 
     def follow(self, now: PageState, only: Callable[[Panel], bool] = lambda panel: True) -> None:
-        """Ask and view what is seen, and send what is other than before; `only`: of these panels."""
+        """Ask and view what is seen, and send what is other than before; `only`: of these panels.
+
+        The parts of a panel that is no longer seen are sent as absent. Its texts are hidden with their widgets.
+        """
         place = now.inputs, now.hand.actuator, now.hand.place
         if place != self._place:
             self._place, self._moved = place, time.monotonic()
         changed: dict[str, Any] = {}
         effects: tuple[Effect, ...] = ()
-        for panel, queues in zip(self._panels, self._queues, strict=True):
+        for panel, queues, stand in zip(self._panels, self._queues, self._stand, strict=True):
             if not only(panel):
                 continue
             seen = panel.seen(now.ui)
             self._ask(queues, panel.asks(now) if seen else ())
-            shown = panel.view(now) if seen else {}
+            shown = panel.view(now) if seen else dict.fromkeys(stand)
+            stand |= shown.keys() - self._texts.keys()
             effects += panel.reacts(now) if seen else ()
             self.memory = panel.remember(replace(now, memory=self.memory), shown)
             changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}

@@ -3,10 +3,9 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal
 
 from explorer.model.inputs import Inputs, ViewState, menu_titles
-from explorer.model.session_state import Order, SessionState
+from explorer.model.session_state import Look, Order, ScreenState, SessionState
 from explorer.model.units import UNITS
 from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
 from explorer.picture.camera_views import Camera, View
@@ -155,6 +154,7 @@ class SceneViews:
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
         self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
+        self._mode = context.layout.mode
         self._on_blade: Callable[[float], Camera] | None = None
         """The camera's subject while the blade is lifted out."""
         self._planned: tuple[object, ...] | None = None
@@ -170,7 +170,35 @@ class SceneViews:
         context.keyboard.bind("rescale_default", partial(self._colour, "Default"))
         self._show()
 
-    def look(self, view: View | Literal["actuator"]) -> None:
+    @property
+    def now(self) -> Look:
+        return "actuator" if self._actuator.lifted else self._view
+
+    def on_screen(self) -> ScreenState:
+        """What is on screen, searches apart: the design is the user's own."""
+        context, hand = self._context, self._actuator.hand()
+        return ScreenState(
+            context.inputs(), context.view(), context.pinboard.inputs, context.layout.mode, self.now, hand
+        )
+
+    def put(self, wanted: ScreenState) -> None:
+        """Show this, all at once. Units and theme stay, because they belong to the room, not to the design."""
+        context, layout = self._context, self._context.layout
+        with context.whole:
+            view = context.view()
+            if view != (other := replace(wanted.view, units=view.units, dark=view.dark)):
+                context.display.set_view(other)
+            if wanted.against != context.pinboard.inputs:
+                context.pin(wanted.against)
+            if wanted.inputs != context.inputs():
+                context.set_inputs(wanted.inputs)
+            self._actuator.put(wanted.hand)
+            if wanted.mode != layout.mode:
+                layout.show_mode(wanted.mode)
+            if wanted.look != self.now:
+                self.look(wanted.look)
+
+    def look(self, view: Look) -> None:
         """Show the rotor from there, or the blade with its actuator."""
         if view == "actuator":
             self._lift(True)
@@ -220,7 +248,11 @@ class SceneViews:
 
     def _mode_changed(self) -> None:
         """Actuate opens on the blade that carries the actuator."""
-        self._lift(self._context.layout.mode == "actuate")
+        before, self._mode = self._mode, self._context.layout.mode
+        if self._mode != before:  # Not only another drawer.
+            self._lift(self._mode == "actuate")
+            if before == "actuate":
+                self._actuator.leave()
         self._show()
 
     def _lift(self, out: bool, towards: View | None = None) -> None:
@@ -240,7 +272,6 @@ class SceneViews:
         self._show()
 
     def _show(self) -> None:
-        lifted, on_stage = self._actuator.lifted, self._context.layout.mode == "actuate" and self._actuator.fits
+        on_stage = self._context.layout.mode == "actuate" and self._actuator.fits
         views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
-        now = "actuator" if lifted else self._view
-        self._context.bridge.set(views=ViewsPart(views, now))
+        self._context.bridge.set(views=ViewsPart(views, self.now))

@@ -22,6 +22,11 @@ def in_actuate(ui: OpenPanels) -> bool:
     return ui.mode == "actuate"
 
 
+def blade_out(ui: OpenPanels) -> bool:
+    """Whether Actuate shows the blade out of the rotor."""
+    return in_actuate(ui) and ui.lifted
+
+
 def actuated_blade(now: PageState) -> "ActuatedBlade | None":
     """One for all panels; None where the sliders mean no design, or one that cannot carry the actuator."""
     found = now.of(_built)

@@ -29,15 +29,21 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
-    """The chosen actuator's verdict comes behind searches and maps; others once what would pay shows them beside it;
-    modes, which are folded at first, behind its flight."""
+    """The chosen actuator's verdict comes behind searches and maps, then its flight; others once what would pay shows
+    them beside it; modes, which are folded at first, behind its flight."""
     if (one := actuated_blade(now)) is None:
         return ()
     first, *others = one.tasks.values()
     flown = one.flight is not None or isinstance(one.outcome, str)
+    flight = () if one.flight_task is None else (one.flight_task,)
     modes = (one.modes_task,) if flown and one.modes_task is not None else ()
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return Questions(3, (first,), _STILL), Questions(7, beside, _IDLE), Questions(8, modes, _IDLE)
+    return (
+        Questions(3, (first,), _STILL),
+        Questions(4, flight, 0.0),
+        Questions(7, beside, _IDLE),
+        Questions(8, modes, _IDLE),
+    )
 
 
 def view(now: PageState) -> dict[str, Any]:

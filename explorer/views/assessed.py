@@ -14,7 +14,7 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
 from explorer.views.dial_answer import HARMONICS, FittedBlade, compared
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from explorer.workers.call import Call
@@ -231,10 +231,9 @@ def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
 
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:
-    """Three columns and the sentence, while the blade is out of the rotor."""
-    value = assessed(now) if now.hand.lifted and in_actuate(now.ui) else None
-    if value is None:
-        return {} if now.hand.lifted and now.problem else {"assessed": None}
+    """Three columns and the sentence."""
+    if (value := assessed(now)) is None:
+        return {} if now.problem else {"assessed": None}
     one, units, against = value.one, now.units, now.hand.actuator.against
     *parts, (_, total) = mass_parts(one.installed).items()
     said, pays = _sentences(value, units)
@@ -274,4 +273,4 @@ def choose(now: PageState, against: Against) -> tuple[Effect, ...]:
     return (SetHand(actuator={"against": against}),) if against in AGAINST else ()
 
 
-ASSESSED = Panel(card, in_actuate, asks, presses={"against": choose})
+ASSESSED = Panel(card, blade_out, asks, presses={"against": choose})

@@ -10,30 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import MOST_SEGMENTS, drive_of
+from explorer.model.actuator_inputs import AT_REST, HandSettings, drive_of
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
 from explorer.views.assessed import assessed, parts_asked, parts_here
-from explorer.views.page_state import (
-    Effect,
-    HandSettings,
-    MoveSliders,
-    PageState,
-    Panel,
-    PanelMemory,
-    Questions,
-    SetHand,
-)
+from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
-AT_REST = (0.0,) * MOST_SEGMENTS
-"""No voltage on any segment."""
 BY_HAND: Mapping[str, Any] = {"flown": None, "stopped": False}
-"""What of `Hand` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
+"""What of `HandSettings` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
 HALVES = 2
 """Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
 _LEAST = 1.5
@@ -54,9 +43,7 @@ def position_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
 
 
 def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
-    """Both while the blade is out of the rotor; those of the question before stay, marked, while one is worked on."""
-    if not (now.hand.lifted and in_actuate(now.ui)):
-        return {"flight": None, "earns": None}
+    """Flight and balance; those of the question before stay, marked, while one is worked on."""
     if (one := _on_stage(now)) is None:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
@@ -69,8 +56,7 @@ def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
 
 def _on_stage(now: PageState) -> ActuatedBlade | None:
     """None also where the present inputs have no solution: all stays as it was."""
-    there = now.hand.lifted and in_actuate(now.ui) and not now.problem
-    return actuated_blade(now) if there else None
+    return actuated_blade(now) if blade_out(now.ui) and not now.problem else None
 
 
 def remember(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
@@ -191,10 +177,8 @@ def _sign(text: str) -> Sign:
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
-    one = actuated_blade(now) if in_actuate(now.ui) else None
     parts = now.of(parts_asked) if now.hand.here else None
-    calls = (*((parts,) if parts else ()), *((one.flight_task,) if one and one.flight_task else ()))
-    return (Questions(4, calls, 0.0),) if calls else ()
+    return (Questions(4, (parts,), 0.0),) if parts else ()
 
 
 def choose(now: PageState, which: str) -> tuple[Effect, ...]:
@@ -203,13 +187,19 @@ def choose(now: PageState, which: str) -> tuple[Effect, ...]:
 
 
 def fly_to(now: PageState, x: float) -> tuple[Effect, ...]:
-    """The bar was moved: fly there, the voltages with it."""
+    """The bar was moved: fly there, the voltages with it, unless the actuator has stopped.
+
+    One that stopped with voltages set by hand has them still when it works again.
+    """
     if (one := actuated_blade(now)) is None:
         return ()
     flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
     mu, climb = condition_at(one.legs, flown)
-    drives = {} if now.hand.stopped else _driven(now, flown)
-    return SetHand({"flown": flown}, drives), MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+    there, hand = MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb)), now.hand
+    if hand.stopped:
+        return (SetHand({"flown": None if hand.flown is None else flown}), there)
+    begun = {"by_hand": hand.actuator} if hand.flown is None else {}
+    return SetHand({"flown": flown, **begun}, _driven(now, flown)), there
 
 
 def stop_here(now: PageState, switch: str) -> tuple[Effect, ...]:
@@ -218,9 +208,10 @@ def stop_here(now: PageState, switch: str) -> tuple[Effect, ...]:
     return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
 
 
-def after_landing(hand: HandSettings) -> SetHand:
-    """The blade is back in the rotor: what the flight drove is at rest again, a voltage that a hand set stays."""
-    return SetHand({"lifted": False, **BY_HAND}, {} if hand.flown is None else {"drives": AT_REST})
+def after_flight(hand: HandSettings) -> SetHand:
+    """Actuate is left: no flight and no stop any more, and the voltages are those that a hand set."""
+    before = {"drives": hand.by_hand.drives, "crossed": hand.by_hand.crossed}
+    return SetHand(BY_HAND, {} if hand.flown is None else before)
 
 
 def follow_flight(now: PageState) -> tuple[Effect, ...]:
@@ -253,6 +244,7 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
 
 FLIGHT = Panel(
     view,
+    blade_out,
     asks=asks,
     remember=remember,
     reacts=follow_flight,

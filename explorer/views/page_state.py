@@ -2,52 +2,33 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
-from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import Analyses, SessionState
+from explorer.model.session_state import Analyses, Mode, SessionState
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
 from explorer.workers.call import Call
 from rotor import Design, Solution
 
-Mode = Literal["explore", "optimise", "actuate"]
 T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class OpenPanels:
-    """What of the page is open, and whether a presenter moves it (`held`)."""
+    """What of the page is open, and whether a presenter moves it (`held`).
+
+    `lifted`: the blade with its actuator is out of the rotor.
+    """
 
     mode: Mode = "explore"
     drawer: str = ""
     held: bool = False
-
-
-@dataclass(frozen=True)
-class HandSettings:
-    """What the hand has set beside the inputs of the design.
-
-    `lifted`: the blade with its actuator is out of the rotor. `flown`: where on the flight bar the voltages follow the
-    flight; None where a hand set them. `stopped`: the actuator has; voltages stay as they are, wherever it flies.
-    `pulled`: drives [%] when the lifted blade was taken, and what pulling its trailing edge up by a full drive adds.
-    `on_stage`: what would pay is shown in place of the balance of power. `here`: that is of this flight, else of the
-    mission. `place`: range of twist [°] and mass of all
-    blades [kg] of the supposed actuator; None until it is dragged.
-    """
-
-    actuator: ActuatorInputs = field(default_factory=ActuatorInputs)
     lifted: bool = False
-    flown: float | None = None
-    stopped: bool = False
-    pulled: tuple[tuple[float, ...], float] = (), 0.0
-    on_stage: bool = False
-    here: bool = False
-    place: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -200,7 +181,7 @@ class Panel:
     view: Callable[[PageState], Mapping[str, Any]]
     """What stands where: parts of the frame by their names in `Parts`, and texts by the names of their widgets."""
     seen: Callable[[OpenPanels], bool] = lambda ui: True
-    """Where it is not, nothing is asked, worked out, viewed or pressed."""
+    """Where it is not, nothing is asked, worked out, viewed or pressed, and its parts are absent from the frame."""
     asks: Callable[[PageState], tuple[Questions, ...]] = lambda now: ()
     works: Callable[[PageState], Sequence[PanelWork]] = lambda now: ()
     turns: bool = False

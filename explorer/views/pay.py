@@ -15,7 +15,7 @@ from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
-from explorer.views.actuated import in_actuate
+from explorer.views.actuated import blade_out
 from explorer.views.assessed import Assessed, PowerChange, assessed, here_problem
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
@@ -86,7 +86,7 @@ def move_supposed(now: PageState, value: str | SupposePress) -> tuple[Effect, ..
     return SetHand({"on_stage": on_stage, "place": place}), SetAddress(SUPPOSED, kept)
 
 
-PAY = Panel(view, in_actuate, presses={"suppose": move_supposed})
+PAY = Panel(view, blade_out, presses={"suppose": move_supposed})
 
 
 def read_place(text: str) -> tuple[float, float]:

@@ -5,8 +5,8 @@ interface RxState {
   bar: RxBarPart;
   big: boolean;
   coarse: number;
-  dial: RxDialPart;
-  dial_front: RxDrawnChart;
+  dial: RxDialPart | null;
+  dial_front: RxDrawnChart | null;
   dial_matrix: RxDialMatrix | null;
   earns: RxEarnsPart | null;
   field: RxFieldPart;

@@ -32,7 +32,7 @@ from explorer.tabs.background import PoolAnswers
 from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
-from explorer.views.flight import BY_HAND, FLIGHT
+from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
@@ -318,14 +318,14 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     assert "at rest" in rest["actuator.now"]
     assert rest["actuator.verdict"] == rest["actuator.limits"] == ""
     assert [(one.urgency, one.delay, len(one.calls)) for one in ACTUATOR.asks(now)] == [
-        (3, 0.4, 1), (7, 2.5, 0), (8, 2.5, 0)
+        (3, 0.4, 1), (4, 0.0, 0), (7, 2.5, 0), (8, 2.5, 0)
     ]  # fmt: skip
     judged = ACTUATOR.view(told(ACTUATOR, now, lean_verdict=verdict))
     assert "computing…" in judged["actuator.modes"]
-    flown = told(FLIGHT, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
-    assert ACTUATOR.asks(flown)[1].calls == ()
+    flown = told(ACTUATOR, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
+    assert [len(one.calls) for one in ACTUATOR.asks(flown)] == [1, 1, 0, 1]
     paying = replace(flown, hand=replace(flown.hand, on_stage=True))
-    assert len(ACTUATOR.asks(paying)[1].calls) == len(ALL) - 1
+    assert len(ACTUATOR.asks(paying)[2].calls) == len(ALL) - 1
     assert "actuator_stability" in asked_by(ACTUATOR, flown)
     refused = ACTUATOR.view(told(ACTUATOR, now, lean_verdict="No such blade."))
     assert "No such blade." in refused["actuator.verdict"]

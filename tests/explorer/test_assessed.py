@@ -43,7 +43,7 @@ def answered(against: Against, drives: tuple[float, ...]) -> PageState:
     now = actuate(INPUTS, actuator=ActuatorInputs(against=against, drives=drives))
     for panel, name in (
         (ACTUATOR, "lean_verdict"),
-        (FLIGHT, "flight_of"),
+        (ACTUATOR, "flight_of"),
         (DIAL, "effect"),
         (ASSESSED, "other_stroke"),
     ):

@@ -92,7 +92,8 @@ def test_no_press_changes_a_page_that_a_presenter_holds(app: App):
             await visitor.idle(wholly=False)
             assert (name, flown(page)) == (name, before)
 
-    visited(app, press, f"?follow={follow_name('nobody')}")
+    assert app.presentations.claim("a-secret", "page", app)
+    visited(app, press, f"?follow={follow_name('a-secret')}")
 
 
 def test_presses_change_a_page_that_is_free(app: App):

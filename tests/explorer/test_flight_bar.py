@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.model.actuator_inputs import ActuatorInputs, flight_legs, flight_of, lean_verdict, verdict_inputs_of
+from explorer.model.actuator_inputs import (
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    flight_legs,
+    flight_of,
+    lean_verdict,
+    verdict_inputs_of,
+)
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import SI
 from explorer.parts.actuate import FlightPart
@@ -17,14 +24,14 @@ from explorer.views.actuator import ACTUATOR
 from explorer.views.flight import (
     FLIGHT,
     HALVES,
-    after_landing,
+    after_flight,
     condition_at,
     earns_state,
     fly_to,
     position_of,
     stop_here,
 )
-from explorer.views.page_state import OpenPanels, PageState, SetHand
+from explorer.views.page_state import PageState, SetHand
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
 from rotor.support.chart import DrawnBand, DrawnLine
@@ -34,6 +41,7 @@ INPUTS = Inputs(advance_ratio=0.2, elastic_twist=False)
 RIGID = INPUTS.design()
 QUESTION = verdict_inputs_of(ActuatorInputs(), RIGID)
 LEGS = flight_legs(RIGID)
+BY_HAND = ActuatorInputs(drives=(77.0,) * MOST_SEGMENTS)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +75,7 @@ def waiting() -> PageState:
 @pytest.fixture(scope="module")
 def ready(waiting: PageState, verdict: Verdict, flight: ActuatorFlight) -> PageState:
     """Verdict and flight are known, and remembered."""
-    now = told(FLIGHT, told(ACTUATOR, waiting, lean_verdict=verdict), flight_of=flight)
+    now = told(ACTUATOR, told(ACTUATOR, waiting, lean_verdict=verdict), flight_of=flight)
     return replace(now, memory=FLIGHT.remember(now, FLIGHT.view(now)))
 
 
@@ -107,13 +115,13 @@ def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, 
     """Nothing jumps: the curves and the balance of the question before stay, marked."""
     assert (shown(waiting).kind, shown(waiting).words, shown(waiting).chart.series) == ("computing", "computing…", [])
     assert asked(FLIGHT, waiting) == {}
+    assert "flight_of" not in asked(ACTUATOR, waiting)
     moved = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(plies=3)))
     assert (shown(moved).kind, shown(moved).chart) == ("computing", shown(ready).chart)
     before = FLIGHT.view(moved)["earns"]
     assert before == replace(earns_state(verdict, True, SI), kind="computing")
     judged = told(ACTUATOR, waiting, lean_verdict=verdict)
-    assert list(asked(FLIGHT, judged)) == ["flight_of"]
-    wrong = told(FLIGHT, judged, flight_of="hover: does not trim")
+    wrong = told(ACTUATOR, judged, flight_of="hover: does not trim")
     assert (shown(wrong).kind, shown(wrong).words) == ("problem", "hover: does not trim")
     refused = FLIGHT.view(told(ACTUATOR, moved, lean_verdict="no blade"))
     assert refused["earns"] == earns_state(None, False, SI, "no blade")
@@ -177,26 +185,29 @@ def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: PageState,
     again = done(fast, stop_here(fast, "off"))
     assert_allclose(tip(again), flight.reached[-1], atol=math.radians(0.02))
     assert (shown(again).flown, shown(again).frozen) == (True, None)
-    by_hand = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(drives=(60.0,) * 4)))
+
+
+def test_a_stop_keeps_what_the_hand_has_set(ready: PageState):
+    """Voltage and tip twist are the hand's while it flies elsewhere stopped, and when the stop is released."""
+    by_hand = replace(ready, hand=replace(ready.hand, actuator=BY_HAND))
     assert stop_here(by_hand, "on") == (SetHand({"stopped": True}),)
-    assert shown(done(by_hand, stop_here(by_hand, "on"))).frozen == math.degrees(tip(by_hand)) != 0.0
+    stopped = done(by_hand, stop_here(by_hand, "on"))
+    elsewhere = done(stopped, fly_to(stopped, 3))
+    again = done(elsewhere, stop_here(elsewhere, "off"))
+    for now in (stopped, elsewhere, again):
+        assert now.hand.actuator == BY_HAND
+        assert shown(now).tip == shown(by_hand).tip
+    assert [shown(now).frozen for now in (elsewhere, again)] == [math.degrees(tip(by_hand)), None]
+    assert elsewhere.inputs.advance_ratio == LEGS[-1].advance_ratio
 
 
-def test_leaving_puts_the_flight_to_rest_but_not_a_voltage_set_by_hand(ready: PageState):
-    flown = done(ready, fly_to(ready, 3))
-    stopped = done(flown, stop_here(flown, "on"))
-    for one in (flown, stopped):
-        back = done(one, (after_landing(one.hand),))
-        assert (tip(back), back.hand.lifted, back.hand.stopped, back.hand.flown) == (0.0, False, False, None)
-    by_hand = replace(flown, hand=replace(flown.hand, flown=None))
-    assert tip(done(by_hand, (after_landing(by_hand.hand),))) == tip(flown) != 0.0
-
-
-def test_both_are_gone_where_the_blade_is_in_the_rotor(ready: PageState):
-    """Also in another mode, where nothing is asked."""
-    back = replace(ready, hand=replace(ready.hand, lifted=False))
-    for one in (back, replace(ready, ui=OpenPanels("explore"))):
-        assert FLIGHT.view(one) == {"flight": None, "earns": None}
-        assert FLIGHT.seen(one.ui)
-    assert list(asked(FLIGHT, back)) == ["flight_of"]
-    assert asked(FLIGHT, replace(ready, ui=OpenPanels("explore"))) == {}
+@pytest.mark.parametrize("actuator", [ActuatorInputs(), BY_HAND])
+def test_leaving_gives_back_what_the_hand_had_set(ready: PageState, actuator: ActuatorInputs):
+    by_hand = replace(ready, hand=replace(ready.hand, actuator=actuator))
+    flown = done(by_hand, fly_to(by_hand, 3))
+    further = done(flown, fly_to(flown, 1))
+    assert tip(further) != tip(by_hand)
+    for one in (by_hand, further, done(further, stop_here(further, "on"))):
+        back = done(one, (after_flight(one.hand),))
+        assert back.hand.actuator == actuator
+        assert (back.hand.stopped, back.hand.flown) == (False, None)

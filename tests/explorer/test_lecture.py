@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 from pathlib import Path
 from threading import Event, Thread
-from types import SimpleNamespace
 from typing import Any
 from unittest.mock import Mock
 
@@ -13,7 +12,8 @@ import pytest
 
 import rotor
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.units import AVIATION, SI, UNITS
+from explorer.model.session_state import ScreenState
+from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing import share
 from explorer.story import steps
@@ -21,7 +21,7 @@ from explorer.story.facts import StepFacts, facts_of
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
 from explorer.story.story_file import answer_record, step_record
 from explorer.tabs.lecture import lecture_panel
-from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel, PageSnapshot
+from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel
 from rotor import hub_loads
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.files.make_design import make_design
@@ -296,7 +296,8 @@ def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pyt
     context = Mock(held=False)
     context.view.return_value, context.inputs.return_value, context.state.return_value = ViewState(), Inputs(), None
     context.bridge.set.side_effect = lambda **parts: sent.append(parts["lecture"])
-    panel = LecturePanel(context, Mock())
+    panel = LecturePanel(context, Mock(), Mock())
+    panel._before = ScreenState(Inputs(), ViewState())
     panel.set(0)
     reading, go_on = Event(), Event()
 
@@ -353,31 +354,3 @@ class TestBeside:
 def test_every_case_trims_in_the_documents_preset(inputs: Inputs):
     assert inputs.preset == "thesis"
     assert solve(inputs.design()).converged
-
-
-def snapshot_page(inputs: Inputs, view: ViewState) -> Any:
-    """The part of a page that a snapshot reads and writes."""
-    page = SimpleNamespace(now=inputs, view_now=view, pinned=None, state=lambda: None)
-    page.inputs, page.view = lambda: page.now, lambda: page.view_now
-    page.set_inputs = lambda inputs: setattr(page, "now", inputs)
-    page.pin = lambda inputs: setattr(page, "pinned", inputs)
-    page.display = SimpleNamespace(set_view=lambda view: setattr(page, "view_now", view))
-    return page
-
-
-@pytest.mark.parametrize("pin", [None, Inputs(law="linear", linear=-10.0)])
-def test_the_end_gives_design_field_and_a_back(pin: Inputs | None):
-    """Units, theme and a rotor file brought meanwhile stay."""
-    mine = Inputs(law="two", two_inner=-9.0, mass_t=9.1, tip_loss=False)
-    view = ViewState(field="Mach number", azimuth_deg=210.0, exaggeration=3.0)
-    page = snapshot_page(mine, view)
-    if pin is not None:
-        page.state = lambda: SimpleNamespace(pin=SimpleNamespace(inputs=pin))
-    before = PageSnapshot.of(page)
-    own = replace(Inputs().aircraft, name="Mine", key=None)
-    page.now, page.pinned = Inputs(law="builtin", own_rotor=own), Inputs(law="linear", linear=0.0)
-    page.view_now = ViewState(field="Power dP/dr", difference=True, dark=True, units=AVIATION.title)
-    before.restore(page)
-    assert page.now == replace(mine, own_rotor=own)
-    assert page.view_now == replace(view, dark=True, units=AVIATION.title)
-    assert page.pinned == pin

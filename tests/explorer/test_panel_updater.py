@@ -78,7 +78,8 @@ def test_only_what_changed_is_sent():
 
 
 def test_only_panels_that_are_seen_are_called(asked: list[Any]):
-    """Opened again, one is whole; what a hidden one had asked is asked no longer."""
+    """The parts of a hidden one are sent as absent, once; what it had asked is asked no longer. Opened again, one is
+    whole."""
     panel = Panel(shown, lambda ui: ui.drawer == "details", lambda now: (Questions(4, (LENGTH,), 0.2),))
     page = Page(panel)
     page.follower.follow(NOW)
@@ -86,11 +87,13 @@ def test_only_panels_that_are_seen_are_called(asked: list[Any]):
     opened = replace(NOW, ui=OpenPanels(drawer="details"))
     page.follower.follow(opened)
     page.follower.follow(replace(opened, answers={LENGTH: 4}))
-    page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
-    assert asked == [(4, (LENGTH,), 0.2), (4, (LENGTH,), 0.2), (4, (), 0.0)]
-    assert len(page.sent) == 1
+    for _ in range(2):
+        page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
+    assert asked == [(4, (LENGTH,), 0.2), (4, (LENGTH,), 0.2), (4, (), 0.0), (4, (), 0.0)]
+    assert page.sent[1:] == [{"power": None, "notice": None}]
     page.follower.follow(replace(opened, inputs=replace(OPENING, advance_ratio=0.1)))
-    assert page.sent[1:] == [{"power": 0.1}]
+    assert page.sent[2:] == [{"power": 0.1, "notice": ""}]
+    assert page.words == ["computing", 4, "computing"]
 
 
 def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[Any], monkeypatch: pytest.MonkeyPatch):
@@ -99,7 +102,7 @@ def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[
     page = Page(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 0.2),)))
     monkeypatch.setattr("explorer.tabs.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
     page.follower.follow(NOW)
-    page.follower.follow(replace(NOW, hand=replace(NOW.hand, lifted=True)))
+    page.follower.follow(replace(NOW, ui=OpenPanels(lifted=True)))
     page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
     assert [round(delay, 3) for _, _, delay in asked] == [0.15, 0.0, 0.1]
 

@@ -8,8 +8,11 @@ import pytest
 from explorer.app import App
 from explorer.hosting import browser
 from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import ScreenState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
 from tests.tools.visitor import Visitor, ran
+
+SHOWN = PresentedView(ScreenState(Inputs(), ViewState()))
 
 
 @pytest.fixture
@@ -75,43 +78,45 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
 class TestPresentations:
     def test_followers_hear_until_they_leave(self):
         presentations, secret = Presentations(), new_secret()
-        heard: list[PresentedView | None] = []
+        presentations.claim(secret, "page", self)
+        heard: list[PresentedView | str] = []
         leave = presentations.follow(follow_name(secret), heard.append)
         counted: list[int] = []
         presentations.watch(secret, counted.append)
-        first = PresentedView(Inputs(), ViewState())
+        first = SHOWN
         presentations.present(secret, first)
         presentations.present(secret, first)
-        late: list[PresentedView | None] = []
+        late: list[PresentedView | str] = []
         presentations.follow(follow_name(secret), late.append)
         assert heard == late == [first]
         leave()
-        presentations.present(secret, PresentedView(Inputs(mass_t=9.0), ViewState()))
+        presentations.present(secret, PresentedView(ScreenState(Inputs(mass_t=9.0), ViewState())))
         presentations.end(secret)
         assert heard == [first]
-        assert late[-1] is None
+        assert late[-1] == "over"
         assert counted == [1, 2, 1]
 
     def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
         presentations, secret = Presentations(), new_secret()
-        heard: list[PresentedView | None] = []
+        heard: list[PresentedView | str] = []
 
-        def fails(_: PresentedView | None) -> None:
+        def fails(_: PresentedView | str) -> None:
             raise RuntimeError("its browser has just left")
 
+        presentations.claim(secret, "page", self)
         presentations.follow(follow_name(secret), fails)
         presentations.follow(follow_name(secret), heard.append)
-        presentations.present(secret, PresentedView(Inputs(), ViewState()))
-        assert len(heard) == 1
+        presentations.present(secret, SHOWN)
+        assert heard == [SHOWN]
         assert "could not be updated" in caplog.text
 
     def test_the_name_does_not_tell_the_secret(self):
         presentations, secret = Presentations(), new_secret()
-        heard: list[PresentedView | None] = []
+        heard: list[PresentedView | str] = []
         presentations.follow(follow_name(secret), heard.append)
-        presentations.present(follow_name(secret), PresentedView(Inputs(), ViewState()))
+        presentations.present(follow_name(secret), SHOWN)
         presentations.end(follow_name(secret))
-        assert heard == []
+        assert heard == ["away"]
 
     def test_a_presentation_has_one_presenter(self):
         presentations, one, two = Presentations(), object(), object()
@@ -122,19 +127,19 @@ class TestPresentations:
         presentations.release(one)
         assert presentations.claim("s", "other", two)
 
-    def test_a_presenter_that_has_gone_is_not_kept(self):
-        """Its watcher belongs to its page, and so would keep the whole session alive."""
+    def test_a_presenter_that_has_gone_is_not_kept_and_followers_are_told(self):
+        """Its watcher belongs to its page, and so would keep the whole session alive. What it shows when it comes back
+        is told again, though it is the same."""
         presentations, one = Presentations(), object()
         presentations.claim("s", "page", one)
         presentations.watch("s", (counts := list[int]()).append)
-        leave = presentations.follow(follow_name("s"), lambda _: None)
-        presentations.present("s", PresentedView(Inputs(), ViewState()))
-        presentations.release(one)
-        heard: list[PresentedView | None] = []
-        others = presentations.follow(follow_name("s"), heard.append)
-        assert counts == [0, 1]
-        assert len(heard) == 1
-        leave()
-        others()
+        heard: list[PresentedView | str] = []
         presentations.follow(follow_name("s"), heard.append)
-        assert len(heard) == 1
+        presentations.present("s", SHOWN)
+        presentations.release(one)
+        late: list[PresentedView | str] = []
+        presentations.follow(follow_name("s"), late.append)
+        assert counts == [0, 1]
+        presentations.claim("s", "another", one)
+        presentations.present("s", SHOWN)
+        assert (heard, late) == ([SHOWN, "away", SHOWN], ["away", SHOWN])

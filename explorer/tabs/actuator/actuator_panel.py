@@ -4,15 +4,22 @@ import threading
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.actuator_inputs import ActuatorInputs, Outcome, verdict_inputs_of, verdict_tasks
+from explorer.model.actuator_inputs import (
+    AT_REST,
+    ActuatorInputs,
+    HandSettings,
+    Outcome,
+    verdict_inputs_of,
+    verdict_tasks,
+)
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
 from explorer.tabs.actuator.actuator_controls import ActuatorControls
 from explorer.tabs.actuator.lifted_scene import LiftedScene
 from explorer.tabs.background import all_known
 from explorer.tabs.context import TabContext
-from explorer.views.flight import AT_REST, BY_HAND, after_landing
-from explorer.views.page_state import HandSettings, SetAddress, SetHand
+from explorer.views.flight import BY_HAND, after_flight
+from explorer.views.page_state import SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, read_place
 from explorer.workers import solver
 from rotor import Design, Solution
@@ -28,6 +35,8 @@ class ActuatorPanel:
         self._blade = LiftedScene(context.client, context.bridge)
         place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used", problems)
         self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
+        self.lifted = False
+        """Whether the blade is wanted outside the rotor."""
         self._opened = False
         """Whether the blade ever was out of the rotor."""
         self._radius = 1.0
@@ -39,6 +48,10 @@ class ActuatorPanel:
         self.controls = ActuatorControls(context.gui, context.wake, lambda: self._set(**BY_HAND))
         self.texts = {**self.controls.texts, "actuator.pays": self._light}
         self.inputs = self.controls.inputs
+
+    def hold(self, held: bool) -> None:
+        """Take the widgets from the user, or give them back."""
+        self.controls.form.hold(held)
 
     def stop(self) -> None:
         """The browser has left."""
@@ -63,10 +76,11 @@ class ActuatorPanel:
             self._hand = replace(self._hand, **changes)
         self._context.wake()
 
-    @property
-    def lifted(self) -> bool:
-        """Whether the blade is wanted outside the rotor."""
-        return self._hand.lifted
+    def put(self, hand: HandSettings) -> None:
+        """Set all of it."""
+        if hand != self.hand():
+            self._set(**vars(hand))
+            self.controls.place(vars(hand.actuator))
 
     @property
     def fits(self) -> bool:
@@ -91,14 +105,18 @@ class ActuatorPanel:
 
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
-        self._opened = self._opened or out
+        self.lifted, self._opened = out, self._opened or out
         if out:
             self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
             self._blade.hold(self._radius)
-            self._set(lifted=True)
-            return
-        self._release()
-        self.perform(after_landing(self._hand))
+        else:
+            self._release()
+        self._context.wake()
+
+    def leave(self) -> None:
+        """Another mode is open: nothing flies by schedule, and nothing has stopped."""
+        if self._hand.stopped or self._hand.flown is not None:
+            self.perform(after_flight(self._hand))
 
     def draw(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """The lifted blade as it flies: `design` is without the actuator's twist, `solution` with it."""

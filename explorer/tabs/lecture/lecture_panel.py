@@ -4,24 +4,25 @@ Also the flights and designs of the source document to begin from.
 """
 
 import threading
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import viser
 
 from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
-from explorer.model.session_state import SessionState, same_but_flight
+from explorer.model.session_state import ScreenState, SessionState, same_but_flight
 from explorer.model.units import UNITS
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import StepFacts, facts_at
-from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, view_of
+from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
 from explorer.story.story_file import StoryTask, answer_record, step_record
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
+from explorer.tabs.views import SceneViews
 from explorer.text.glossary import hint
 from explorer.workers.call import Call
 from rotor.support.markup import tag
@@ -52,50 +53,19 @@ _PATIENCE = 600.0
 """[s] for the lecture as a file: seconds, but for a server that many use."""
 
 
-@dataclass(frozen=True)
-class PageSnapshot:
-    """The design on the sliders, what is shown, and A."""
-
-    inputs: Inputs
-    view: ViewState
-    pinned: Inputs | None
-    """A of A/B; None: nothing is pinned."""
-
-    @staticmethod
-    def of(context: TabContext) -> "PageSnapshot":
-        """The page as it is now."""
-        state = context.state()
-        pin = None if state is None else state.pin
-        return PageSnapshot(context.inputs(), context.view(), None if pin is None else pin.inputs)
-
-    def restore(self, context: TabContext) -> None:
-        """Give the page back.
-
-        Units and dark mode stay as they are now, because they belong to the room, not to the design; a rotor file
-        brought meanwhile stays in the menu.
-        """
-        now = context.view()
-        inputs = self.inputs
-        if inputs.rotor != OWN:
-            inputs = replace(inputs, own_rotor=context.inputs().own_rotor)
-        context.pin(self.pinned)
-        context.display.set_view(replace(self.view, units=now.units, dark=now.dark))
-        context.set_inputs(inputs)
-
-
 _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
 
 
 class LecturePanel(Tab):
     """One session's. Buttons act at once; the numbers follow the session."""
 
-    def __init__(self, context: TabContext, camera: FittedCamera) -> None:
-        self._context, self._camera, gui = context, camera, context.gui
+    def __init__(self, context: TabContext, camera: FittedCamera, screen: SceneViews) -> None:
+        self._context, self._camera, self._screen, gui = context, camera, screen, context.gui
         self.place: StoryPlace | None = None
         """Where the lecture is; None outside it."""
         self._guesses: dict[int, int] = {}
         """Answers chosen, by step."""
-        self._before: PageSnapshot | None = None
+        self._before: ScreenState | None = None
         """The visitor's own page, to be given back at the end."""
         self._against: Inputs | None = None
         """A, as the step sets it beside what is on the sliders."""
@@ -145,13 +115,16 @@ class LecturePanel(Tab):
     def set(self, step: int) -> None:
         """Set the page as a step describes it."""
         if self._before is None:
-            self._before = PageSnapshot.of(self._context)
+            self._before = self._screen.on_screen()
             self._guesses.clear()
         wanted = STEPS[step]
         self._stand_at(StoryPlace(step, self._guesses.get(step), wanted.control.start))
-        self._context.display.set_view(view_of(wanted, self._context.view()))
-        self._move()
-        self._stage(wanted)
+        self._stage()
+        inputs, self._against = self._designs()
+        view, look = view_of(wanted, self._context.view()), "actuator" if wanted.mode == "actuate" else "3d"
+        self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look))
+        if wanted.mode == "explore":
+            self._camera.hold_shot(wanted.shot)
 
     def follow(self, place: StoryPlace | None) -> None:
         """Show the place of another page, which sets the rest."""
@@ -161,7 +134,7 @@ class LecturePanel(Tab):
         self._stand_at(place)
         self._context.bridge.set(wiped=0.5 if place is None else place.wipe)
         if before is None or place is None or before.step != place.step:
-            self._stage(None if place is None else STEPS[place.step], aim=False)
+            self._stage()
 
     def hold(self, held: bool) -> None:
         """Take what moves the page from the user, or give it back."""
@@ -171,11 +144,11 @@ class LecturePanel(Tab):
 
     def end(self) -> None:
         """The steps go, and the visitor's own design, view and A come back."""
-        before, self._before = self._before, None
-        self._stand_at(None)
-        if before is not None:
-            before.restore(self._context)
-        self._stage(None)
+        before = self._leave()
+        if before is not None:  # A rotor file brought meanwhile stays in the menu.
+            inputs = before.inputs if before.inputs.rotor == OWN else self._kept(before.inputs)
+            self._camera.aim("3d")
+            self._screen.put(replace(before, inputs=inputs))
 
     def show(self, state: SessionState) -> None:
         """Say what is seen now."""
@@ -224,27 +197,23 @@ class LecturePanel(Tab):
 
     def _fly_on(self) -> None:
         """The lecture ends in Actuate, on the blade of its last step."""
+        before, now = self._leave(), self._screen.on_screen()
+        back = now if before is None else replace(now, view=before.view, against=before.against)
+        self._screen.put(replace(back, mode="actuate", look="actuator"))
+
+    def _leave(self) -> ScreenState | None:
+        """No step stands any more; the visitor's own page."""
         before, self._before = self._before, None
         self._stand_at(None)
-        self._context.pin(None if before is None else before.pinned)
-        if before is not None:
-            now = self._context.view()
-            self._context.display.set_view(replace(before.view, units=now.units, dark=now.dark))
-        self._stage(None, mode="actuate")
+        self._stage()
+        return before
 
-    def _stage(self, step: LectureStep | None, aim: bool = True, mode: str = "explore") -> None:
-        """The mode and the camera of a step, without a drawer; `mode`: once the lecture has ended."""
+    def _stage(self) -> None:
+        """No drawer while a step stands."""
         layout = self._context.layout
         layout.drawers_locked = self.place is not None
-        if step is None:
-            layout.show_mode(mode)
-            if mode == "explore" and aim:
-                self._camera.aim("3d")
-            return
-        layout.show_drawer("")
-        layout.show_mode(step.mode)
-        if aim and step.mode == "explore":
-            self._camera.hold_shot(step.shot)
+        if self.place is not None:
+            layout.show_drawer("")
 
     def _stand_at(self, place: StoryPlace | None) -> None:
         if place is not None and self.place is None:
@@ -270,14 +239,16 @@ class LecturePanel(Tab):
 
     def _move(self) -> None:
         """The design where the control is."""
-        place, context = self.place, self._context
-        if place is None:
-            return
+        if self.place is not None:
+            inputs, self._against = self._designs()
+            self._screen.put(replace(self._screen.on_screen(), inputs=inputs, against=self._against))
+
+    def _designs(self) -> tuple[Inputs, Inputs | None]:
+        """B where the control is, and A beside it."""
+        place = self.place or StoryPlace(0)
         facts, step = self._facts(place.step), STEPS[place.step]
         inputs = self._kept(step.begin() if facts is None else facts.stops[place.stop].inputs)
-        self._against = self._beside(inputs)
-        context.pin(self._against)
-        context.set_inputs(inputs)
+        return inputs, self._beside(inputs)
 
     def _beside(self, inputs: Inputs) -> Inputs | None:
         """A of the step for these inputs."""

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import viser
@@ -15,6 +16,7 @@ from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations,
 from explorer.sharing.share import Address
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.lecture.lecture_panel import LecturePanel
+from explorer.tabs.views import SceneViews
 from explorer.text.glossary import hint
 from rotor.support.markup import Content, tag
 
@@ -24,6 +26,7 @@ _LONGEST = 40
 """Characters of a name in the address that are looked at."""
 _WORDS = "Copies a link. Anyone with the link follows your settings live and can leave at any time."
 _FOLLOWING = "Following a presentation: the presenter controls this page."
+_AWAY = "The presenter has left: the page is yours. It follows again if they return before you change the design."
 _DUPLICATE = (
     "Another tab of this browser is already presenting; this one follows it. To present here, close that tab and "
     "reload."
@@ -34,6 +37,7 @@ class PresentationBanner(Tab):
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
     _lecture: LecturePanel
+    _screen: SceneViews
     _hold: Callable[[bool], None]
 
     def __init__(
@@ -53,6 +57,8 @@ class PresentationBanner(Tab):
         self._unfollow: Callable[[], None] | None = None
         self._shown: PresentedView | None = None
         """What the presenter shows."""
+        self._away = False
+        """Whether the presenter's page is closed."""
         self._looked = 0.0
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
@@ -62,12 +68,12 @@ class PresentationBanner(Tab):
         )
         self._leave.on_click(lambda _: self.leave())
 
-    def begin(self, lecture: LecturePanel, hold: Callable[[bool], None]) -> None:
+    def begin(self, lecture: LecturePanel, screen: SceneViews, hold: Callable[[bool], None]) -> None:
         """The page stands: follow, or present, if the address says so.
 
         `hold` takes the controls from the user, or gives them back.
         """
-        self._lecture, self._hold = lecture, hold
+        self._lecture, self._screen, self._hold = lecture, screen, hold
         gui = self._context.gui
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
@@ -75,8 +81,7 @@ class PresentationBanner(Tab):
         self._present.on_click(lambda _: self.end() if self._secret else self.present())
         self._context.client.camera.on_update(self._looked_round)
         if self._name:
-            hold(True)
-            self._say(_DUPLICATE if self._duplicate else _FOLLOWING, leave=True)
+            self._stay(away=False)
             self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
             self._presentations.watch(self._secret, self._announce)
@@ -109,7 +114,7 @@ class PresentationBanner(Tab):
 
     def leave(self) -> None:
         """Stop following: the page stays as it is, and is the user's."""
-        unfollow, self._unfollow, self._name = self._unfollow, None, ""
+        unfollow, self._unfollow, self._name, self._away = self._unfollow, None, "", False
         if unfollow is not None:
             unfollow()
         if self._duplicate:
@@ -130,21 +135,21 @@ class PresentationBanner(Tab):
         self._hold_still()
 
     def stop(self) -> None:
-        """The browser has left. A presenter may come back by the same address, so followers wait."""
+        """The browser has left. A presenter who loads the page again presents on."""
+        with self._publishing:  # Nothing is shown after that the presenter has left.
+            self._secret = ""
         self._presentations.release(self)
         if self._unfollow is not None:
             self._unfollow()
 
     def _publish(self) -> None:
         self._pending = None
-        context = self._context
-        if not self._secret:
-            return
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
-            state = context.state()
-            against = state.pin.inputs if state is not None and state.pin is not None else None
-            shown = PresentedView(context.inputs(), context.view(), against, self._lecture.place, self._camera)
-            self._presentations.present(self._secret, shown)
+            if not self._secret:
+                return
+            # Who follows has no search, but sees its designs.
+            screen = replace(self._screen.on_screen(), inputs=self._context.controls.shown())
+            self._presentations.present(self._secret, PresentedView(screen, self._lecture.place, self._camera))
 
     def _announce(self, count: int) -> None:
         followers = "1 follower" if count == 1 else f"{count} followers"
@@ -158,31 +163,40 @@ class PresentationBanner(Tab):
 
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
-        shown, context = self._shown, self._context
-        if self._name and shown is not None and context.inputs() != shown.inputs:
-            context.set_inputs(shown.inputs)
+        if self._name and self._shown is not None and not self._away:
+            held = self._shown.screen
+            self._screen.put(replace(self._screen.on_screen(), inputs=held.inputs, hand=held.hand))
 
-    def _on_presented(self, shown: PresentedView | None) -> None:
+    def _stay(self, away: bool) -> None:
+        """Follow on; `away`: once the presenter is here again, and until then the page is the user's."""
+        self._away = away
+        self._hold(not away)
+        self._say(_AWAY if away else _DUPLICATE if self._duplicate else _FOLLOWING, leave=True)
+
+    def _on_presented(self, shown: PresentedView | Literal["away", "over"]) -> None:
         """What the presenter shows; on the presenter's thread."""
-        context = self._context
+        context, before = self._context, self._shown
         if not self._name:
             return
-        if shown is None:
-            self.leave()
-            context.notify("The presentation is over", "The page is yours.")
+        if shown == "away":
+            self._stay(away=True)
+            if before is not None:  # On a telephone the banner is folded away.
+                context.notify("The presenter has left", "The page is yours.")
             return
+        now = self._screen.on_screen()
+        own = self._away and before is not None and (now.inputs, now.hand) != (before.screen.inputs, before.screen.hand)
+        if shown == "over" or own:
+            self.leave()
+            title = "The presentation is over" if shown == "over" else "The presenter is back"
+            context.notify(title, "The page is yours.")
+            return
+        if self._away:
+            self._stay(away=False)
         with self._lock:
-            self._shown = shown
-            view = context.view()
-            wanted = replace(shown.view, dark=view.dark, units=view.units)
-            if wanted != view:
-                context.display.set_view(wanted)
-            state = context.state()
-            have = state.pin.inputs if state is not None and state.pin is not None else None
-            if shown.against != have:
-                context.pin(shown.against)
-            if shown.inputs != context.inputs():
-                context.set_inputs(shown.inputs)
+            self._shown, screen = shown, shown.screen
+            stood = before is not None and (before.screen.mode, before.screen.look) == (screen.mode, screen.look)
+            put = self._screen.on_screen() if stood else screen  # Until it changes, a follower may look elsewhere.
+            self._screen.put(replace(screen, mode=put.mode, look=put.look))
             self._lecture.follow(shown.place)
             if shown.camera is not None and shown.camera != self._camera:
                 self._camera = shown.camera

@@ -1,0 +1,150 @@
+"""Every mode after every other, for presenter and follower: one total power, that of the design on the sliders."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import msgspec
+
+from explorer.app import App
+from explorer.model.actuator_inputs import MOST_SEGMENTS
+from explorer.page import Page
+from explorer.sharing.presentation import PRESENT, follow_name
+from explorer.story.steps import STEPS
+from explorer.views.assessed import ASSESSED
+from rotor import Design, solve
+from tests.tools.visitor import Visitor, arrived, ran
+
+MODES = "explore", "optimise", "actuator", "rotor", "lecture"
+"""Of Actuate the view of the actuator and those of the rotor; the lecture goes to its end, which is in Actuate."""
+WALK = [MODES[k] for i in range(len(MODES)) for j in range(i + 1, len(MODES)) for k in (i, j)] + [MODES[0]]
+"""Each ordered pair once."""
+SECRET = "a-secret"
+DRIVEN = (77.0,) + (0.0,) * (MOST_SEGMENTS - 1)
+
+
+@cache
+def kilowatts(design: Design) -> float:
+    return solve(design).require().power.total / 1e3
+
+
+def design_of(page: Page) -> Design:
+    """What the sliders and the voltages mean."""
+    return page.actuator.inputs().apply(page.controls.inputs().design())
+
+
+def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str, Any]:
+    """What of the screen is not that of the mode, of the view of Actuate and of the design on the sliders.
+
+    Where the blade is out of the rotor a card with the verdict stands in place of the power.
+    """
+    frame, design = visitor.frame, design_of(page)
+    power, card, parts = frame["power"], frame.get("assessed"), {"flight", "earns", "assessed"}
+    shown = float(power["total"].replace("\u2009", ""))
+    verdict = ASSESSED.view(page.now())["assessed"] if look == "actuator" else None
+    seen = {name for name in parts | {"dial"} if frame.get(name) is not None}
+    right = {
+        "mode": frame["bar"]["mode"] == mode,
+        "look": look in (None, frame["views"]["now"]),
+        "power": not power["problem"] and abs(shown - kilowatts(design)) < 0.5 + 1e-3,  # To the digit shown.
+        "parts": seen == (parts if look == "actuator" else set()) | ({"dial"} if mode == "actuate" else set()),
+        "verdict": card == msgspec.json.decode(msgspec.json.encode(verdict)),
+    }
+    return {name: (shown, kilowatts(design), card, seen) for name, same in right.items() if not same}
+
+
+async def told(visitor: Visitor, what: Callable[[dict[str, Any]], bool]) -> None:
+    await visitor.until(lambda: what(visitor.frame))
+
+
+async def right(visitor: Visitor, page: Page, mode: str = "explore", look: str | None = None) -> None:
+    try:
+        await visitor.until(lambda: not wrong(visitor, page, mode, look))
+    except TimeoutError:
+        assert wrong(visitor, page, mode, look) == {}
+
+
+async def to_the_last_step(visitor: Visitor) -> None:
+    await visitor.move("Start the lecture", True)
+    for step in range(len(STEPS)):
+        await told(visitor, lambda frame, step=step: (frame.get("lecture") or {}).get("at") == step)
+        if step < len(STEPS) - 1:
+            await visitor.press("lecture", "next")
+
+
+async def go(visitor: Visitor, mode: str, view: str) -> tuple[str, str | None]:
+    """Mode and view of Actuate that must be seen then; `view`: of the rotor."""
+    if mode == "lecture":
+        await to_the_last_step(visitor)
+        await visitor.press("lecture", "next")
+        await told(visitor, lambda frame: frame["lecture"] is None)
+        return "actuate", "actuator"
+    if mode in ("explore", "optimise"):
+        await visitor.press("mode", mode)
+        return mode, None
+    look = view if mode == "rotor" else mode
+    await visitor.press("mode", "actuate")
+    await visitor.press("view", look)
+    return "actuate", look
+
+
+def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
+    async def visit() -> None:
+        presenter = await arrived(app.address, kept={PRESENT: SECRET}, page="one")
+        follower = await arrived(app.address, query=f"?follow={follow_name(SECRET)}")
+        both = tuple(zip((presenter, follower), [session.page for session in app.sessions], strict=True))
+        (_, leader), (_, led) = both
+        for k, place in enumerate(WALK):
+            mode, look = await go(presenter, place, ("3d", "disk", "side")[k % 3])
+            flown = look == "actuator"  # Once a flight is known, the voltages follow it until Actuate is left.
+            await presenter.press(*(("fly", 1.0 + 0.06 * k) if flown else ("speed", 0.1 + 0.005 * k)))
+            for visitor, page in both:
+                await right(visitor, page, mode, look)
+            await follower.until(lambda: design_of(led) == design_of(leader))
+        await presenter.close()
+        await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"))
+        await follower.press("speed", 0.3)  # The page is the follower's.
+        await follower.until(lambda: led.controls.inputs().advance_ratio == 0.3)
+        await right(follower, led)
+        again = await arrived(app.address, kept={PRESENT: SECRET}, page="two")
+        await follower.until(lambda: not follower.text("presentation"))  # What was changed meanwhile stays.
+        assert led.controls.inputs().advance_ratio == 0.3
+        for visitor in (again, follower):
+            await visitor.close()
+
+    ran(visit)
+
+
+def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(app: App):
+    """Mode, view, design and voltage; the steps of the lecture fly without voltage."""
+
+    async def visit() -> None:
+        visitor = await arrived(app.address)
+        page = app.sessions[0].page
+        await visitor.press("mode", "actuate")
+        await told(visitor, lambda frame: frame.get("flight") is not None)
+        await visitor.move("Voltage [%]", 77.0)
+        await visitor.until(lambda: page.actuator.inputs().drives == DRIVEN)
+        await visitor.press("fails", "on")
+        await visitor.press("fly", 3.0)
+        await told(visitor, lambda frame: frame["flight"]["at"] == 3.0)
+        for view in ("disk", "actuator"):
+            await visitor.press("view", view)
+            await told(visitor, lambda frame, out=view == "actuator": (frame["flight"] is not None) == out)
+        assert visitor.frame["flight"]["frozen"] is not None
+        tip = visitor.frame["flight"]["tip"]
+        await visitor.press("fails", "off")
+        await told(visitor, lambda frame: frame["flight"]["frozen"] is None)
+        assert (page.actuator.inputs().drives, visitor.frame["flight"]["tip"]) == (DRIVEN, tip)
+        await visitor.press("view", "disk")
+        await told(visitor, lambda frame: frame["views"]["now"] == "disk")
+        before = page._views.on_screen()
+        assert (before.mode, before.look, before.hand.actuator.drives) == ("actuate", "disk", DRIVEN)
+        await to_the_last_step(visitor)
+        assert not page.actuator.inputs().driven
+        await visitor.press("lecture", "end")
+        await visitor.until(lambda: page._views.on_screen() == before)
+        await right(visitor, page, "actuate", "disk")
+        await visitor.close()
+
+    ran(visit)
