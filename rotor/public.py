@@ -26,7 +26,6 @@ from rotor.trim.many import solve_many
 from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
-from rotor.trim.stability import Stability, stability
 
 __all__ = (
     "Aircraft",
@@ -41,7 +40,6 @@ __all__ = (
     "PowerBudget",
     "Rotor",
     "Solution",
-    "Stability",
     "Status",
     "SweepTable",
     "TrimState",
@@ -64,7 +62,6 @@ __all__ = (
     "solution_record",
     "solve",
     "solve_many",
-    "stability",
     "sweep",
     "t_matrix",
     "vibration_front",

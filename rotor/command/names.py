@@ -66,11 +66,6 @@ COMMANDS: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("Its best point", "show results"),
         ),
     ),
-    "stability": (
-        "stability.add_parser",
-        "damping of the blade modes, and margins to flutter and divergence",
-        (("With and without an actuator in the blade", "--mu 0.3 --actuator MFC_P1"),),
-    ),
     "actuator": (
         "actuator.add_parser",
         "twist that an actuator can reach between two flight conditions, its limits and net saving",

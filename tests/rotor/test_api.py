@@ -331,7 +331,6 @@ WRONG = {
     "rotor.hub_loads('x')": (TypeError, "solution is 'x': give what rotor.solve returns"),
     "rotor.hub_loads(design)": (TypeError, "give what rotor.solve returns"),
     "rotor.doubt(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.stability('x')": (TypeError, "give what rotor.solve returns"),
     "rotor.optimise(design, 3)": (TypeError, 'concept is 3, not a text: write for example "linear"'),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
