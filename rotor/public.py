@@ -15,7 +15,6 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
 from rotor.optimisation.vibration import t_matrix, vibration_front
-from rotor.study.envelope import envelope
 from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
@@ -46,7 +45,6 @@ __all__ = (
     "actuator",
     "distribution",
     "doubt",
-    "envelope",
     "failure",
     "hub_loads",
     "load_design",

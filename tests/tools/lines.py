@@ -21,7 +21,7 @@ import numpy as np
 from rotor.__main__ import build_parser, main
 
 SHORT = ("solve", "airfoil")
-COMMANDS = (*SHORT, "sweep", "front", "waterfall", "optimise", "schedule", "envelope", "actuator")
+COMMANDS = (*SHORT, "sweep", "front", "waterfall", "optimise", "schedule", "actuator")
 """Without those that take minutes. Files of studies are tried in tests/rotor/study."""
 PLAUSIBLE = {
     "mu": ("0", "0.1", "0.3", "0.1:0.3:0.1"), "twist": ("linear:-8", "segments:-5,-12@0.5", "builtin"),
