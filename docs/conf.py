@@ -35,7 +35,6 @@ import theory_figures  # noqa: E402
 import rotor  # noqa: E402
 from explorer import __main__ as page_command  # noqa: E402
 from explorer.export import report  # noqa: E402
-from explorer.story import story_file  # noqa: E402
 from rotor.__main__ import build_parser  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
 from rotor.support.processes import Processes  # noqa: E402
@@ -139,12 +138,7 @@ class Commands(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         (rotor_commands,) = (a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction))
         out: list[nodes.Node] = []
-        for parser in (
-            *rotor_commands.choices.values(),
-            page_command._parser(),
-            report._parser(),
-            story_file._parser(),
-        ):
+        for parser in (*rotor_commands.choices.values(), page_command._parser(), report._parser()):
             text = parser.format_help()
             title = parser.prog.removeprefix("python -m ")
             section = nodes.section("", nodes.title(title, title), ids=[nodes.make_id(title)], names=[title])

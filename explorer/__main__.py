@@ -27,12 +27,12 @@ from rotor.support.compiled import compiling, why_not_kept
 from rotor.support.terminal import OneLineParser, StopSignal, command_words, run_command
 from rotor.support.user_input import did_you_mean, shorten
 
-_COMMANDS = {"report": "explorer.export.report", "blade": "explorer.export.blade", "story": "explorer.story.story_file"}
+_COMMANDS = {"report": "explorer.export.report", "blade": "explorer.export.blade"}
 """Modules with commands of their own, loaded when one is asked for."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `story` and `blade`."""
+    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given and given[0] in _COMMANDS:
         if signal.getsignal(signal.SIGINT) is _leave:
@@ -95,7 +95,7 @@ def _parser() -> argparse.ArgumentParser:
         prog=command_words("explorer", "rotor-explorer"),
         description="Explore helicopter blade twist in a browser.",
         epilog="Further commands with their own --help: report (designs side by side as an HTML file), "
-        "story (the lecture as an HTML file), blade (its shape as STL).",
+        "blade (its shape as STL).",
         examples=(
             ("The page on another port, without opening a browser", "--port 8090 --no-browser"),
             ("From a saved design", "--design mine.json"),

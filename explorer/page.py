@@ -120,10 +120,11 @@ class Page:
         rotor = start.aircraft.rotor_for(start.preset)
         self.camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
+        self.optimised = OptimisedDesign(context, address, problems)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context)
+                self.optimise = OptimisePanel(context, self.optimised.begin)
             with tasks["Map"]:
                 self.map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
@@ -144,8 +145,6 @@ class Page:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self.optimised = OptimisedDesign(context, address, problems)
-        self.optimise.challenge = self.optimised.begin
         self._views = SceneViews(context, self.scene, self.probe, self.actuator)
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])

@@ -15,7 +15,6 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
 from rotor.optimisation.vibration import t_matrix, vibration_front
-from rotor.study.envelope import envelope
 from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
 from rotor.trim.distribution import Distribution, distribution
@@ -26,7 +25,6 @@ from rotor.trim.many import solve_many
 from rotor.trim.power import PowerBudget
 from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
-from rotor.trim.stability import Stability, stability
 
 __all__ = (
     "Aircraft",
@@ -41,14 +39,12 @@ __all__ = (
     "PowerBudget",
     "Rotor",
     "Solution",
-    "Stability",
     "Status",
     "SweepTable",
     "TrimState",
     "actuator",
     "distribution",
     "doubt",
-    "envelope",
     "failure",
     "hub_loads",
     "load_design",
@@ -64,7 +60,6 @@ __all__ = (
     "solution_record",
     "solve",
     "solve_many",
-    "stability",
     "sweep",
     "t_matrix",
     "vibration_front",

@@ -23,7 +23,6 @@ import explorer.__main__
 import rotor
 import rotor.validation
 from explorer.export import blade, report
-from explorer.story import story_file
 from rotor.__main__ import build_parser
 from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
@@ -157,7 +156,7 @@ OTHERS = {"--find-links", "--no-index", "--tls-ca-file", "--tls-cert", "--tls-ke
 def parsers() -> list[OneLineParser]:
     """Of all commands."""
     (commands,) = (one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
-    page = (explorer.__main__._parser(), report._parser(), story_file._parser(), blade._parser())
+    page = (explorer.__main__._parser(), report._parser(), blade._parser())
     return typing.cast(list[OneLineParser], [*commands.choices.values(), *page])
 
 
@@ -169,7 +168,7 @@ def test_every_help_has_examples_with_flags_that_exist():
             parser.parse_args(shlex.split(words))
 
 
-ONLY_READ = ("two_segment.toml", "show results", "--port", "--design mine.json", "lecture.html", "thesis")
+ONLY_READ = ("two_segment.toml", "show results", "--port", "--design mine.json", "thesis")
 """Of examples that run for a minute or more, serve the page or need files, only the flags are read."""
 SLOW = ("--doubt", "a.json", "MFC_P1")
 SHOWN = [

@@ -28,7 +28,6 @@ COMMANDS = {
     "schedule": ("rotor", "schedule", "--concept", "linear", "--mu", "0.1,0.2", "--csv", "OUT/out.file"),
     "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.file"),
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
-    "story": ("explorer", "story", "OUT/out.file"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
     "reproduce": ("rotor", "reproduce", "OUT/blade", "--figure", "table 5.1"),
     "save": ("save", "OUT/out.json"),
@@ -50,11 +49,7 @@ def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[s
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="this system has no limit on files")
-@pytest.mark.parametrize(
-    "name",
-    # The lecture computes a minute before it writes, as the others do.
-    [pytest.param(name, marks=[pytest.mark.nightly] * (name == "story")) for name in COMMANDS],
-)
+@pytest.mark.parametrize("name", COMMANDS)
 def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(name: str, tmp_path: Path):
     """A limit of 100 bytes a file stands for the disk: the write that exceeds it fails as one without room does."""
     (tmp_path / "out").mkdir()

@@ -88,7 +88,7 @@ class StepAnswer:
 class LecturePart:
     """Where the lecture stands: at which step, from 0, and at which position (`stop`) of its control.
 
-    `figures`: caption and value of each. `finish`: title of the button behind the last step.
+    `figures`: caption and value of each.
     """
 
     at: int
@@ -99,4 +99,3 @@ class LecturePart:
     busy: bool
     problem: str
     held: bool
-    finish: str

@@ -1,1 +1,1 @@
-"""The lecture as values: its steps, the numbers they need, and all of it as one file without a server."""
+"""The lecture as values: its steps, the numbers they need, and both as records for the page."""

@@ -14,7 +14,7 @@ from explorer.model.actuator_inputs import (
 from explorer.views.page_state import OpenPanels, PageState
 from explorer.workers.call import Call
 from rotor import Design
-from rotor.actuator import ActuatorFlight, ActuatorStability, FlightLeg, InstalledActuator, Verdict, actuator_stability
+from rotor.actuator import ActuatorFlight, FlightLeg, InstalledActuator, Verdict
 from rotor.dynamics.structure import check_blade
 
 
@@ -52,13 +52,9 @@ def _built(now: PageState) -> "ActuatedBlade | str":
     outcomes = {id: now.answers.get(task) for id, task in tasks.items()}
     outcome = outcomes[question.actuator]
     verdict = outcome if isinstance(outcome, Verdict) else None
-    flight_task = modes_task = None
-    if verdict is not None:
-        flight_task, modes_task = Call(flight_of, (verdict,)), Call(actuator_stability, (installed, design))
-    flight, modes, legs = now.answers.get(flight_task), now.answers.get(modes_task), flight_legs(design)
-    return ActuatedBlade(
-        design, installed, question, tasks, outcomes, outcome, verdict, flight_task, flight, modes_task, modes, legs
-    )
+    flight_task = None if verdict is None else Call(flight_of, (verdict,))
+    flight, legs = now.answers.get(flight_task), flight_legs(design)
+    return ActuatedBlade(design, installed, question, tasks, outcomes, outcome, verdict, flight_task, flight, legs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +75,4 @@ class ActuatedBlade:
     verdict: Verdict | None
     flight_task: Call | None
     flight: ActuatorFlight | str | None
-    modes_task: Call | None
-    modes: ActuatorStability | str | None
     legs: tuple[FlightLeg, ...]

@@ -1,6 +1,6 @@
 """The rail of Actuate: what stands between its widgets, what they are called, and how the blade in the hand moves them.
 
-Above the widgets stands why there is no verdict; below them twist now, reach, limits and modes.
+Above the widgets stands why there is no verdict; below them twist now, reach and limits.
 """
 
 import math
@@ -30,20 +30,14 @@ DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     """The chosen actuator's verdict comes behind searches and maps, then its flight; others once what would pay shows
-    them beside it; modes, which are folded at first, behind its flight."""
+    them beside it."""
     if (one := actuated_blade(now)) is None:
         return ()
     first, *others = one.tasks.values()
     flown = one.flight is not None or isinstance(one.outcome, str)
     flight = () if one.flight_task is None else (one.flight_task,)
-    modes = (one.modes_task,) if flown and one.modes_task is not None else ()
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return (
-        Questions(3, (first,), _STILL),
-        Questions(4, flight, 0.0),
-        Questions(7, beside, _IDLE),
-        Questions(8, modes, _IDLE),
-    )
+    return Questions(3, (first,), _STILL), Questions(4, flight, 0.0), Questions(7, beside, _IDLE)
 
 
 def view(now: PageState) -> dict[str, Any]:
@@ -59,7 +53,6 @@ def view(now: PageState) -> dict[str, Any]:
         "actuator.now": words.now_panel(inputs, installed),
         "actuator.numbers": words.fit_panel(installed, verdict),
         "actuator.limits": words.limits_panel(verdict),
-        "actuator.modes": words.modes_panel(one.modes),
     }
 
 

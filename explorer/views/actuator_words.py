@@ -11,7 +11,7 @@ from explorer.picture.lifted_picture import drive_colour, drive_text
 from explorer.text.readout import mass_words
 from rotor.actuator.catalogue import Actuator, PiezoPly
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.limits import ActuatorStability, Limit
+from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict
 from rotor.support.markup import Markup, tag
 from rotor.support.units import typographic
@@ -73,39 +73,15 @@ def limit_words(name: str) -> str:
 
 
 def limits_panel(verdict: Verdict | None) -> Markup:
-    """Every limit: those broken and flutter with their sentence, the others by name, and the data to be wary of."""
+    """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
     if verdict is None:
         return Markup()
-    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok and limit.name != "flutter")
+    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
     good = tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
-    flutter = [_limit(limit) for limit in verdict.limits if limit.ok and limit.name == "flutter"]
     cares = [tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats]
-    return tag("div.rx.rxa-limits", map(_limit, verdict.broken), good, flutter, cares, data_explorer="limits")
-
-
-def modes_panel(outcome: ActuatorStability | str | None) -> Markup:
-    """Frequency and damping of each mode of the blade as it is and with the actuator, and the margins in words; or why
-    there are none."""
-    if outcome is None or isinstance(outcome, str):
-        return tag("div.rx.rx-dim.rx-small", outcome or "computing…", data_explorer="modes")
-    blades = {"without": outcome.without, "with actuator": outcome.fitted}
-    head = tag("tr", tag("th", "Mode"), [tag("th", name) for name in blades])
-    rows = list[Markup]()
-    for name in (mode.name for mode in outcome.without.modes):
-        modes = [blade.mode(name) for blade in blades.values()]
-        words = [f"{number(mode.frequency, 2)}/rev · {number(100.0 * mode.damping_ratio)} %" for mode in modes]
-        rows.append(tag("tr", tag("td", name), [tag("td.rx-num", each) for each in words]))
-    sentences = [
-        tag("div.rx-small", tag("b", name.capitalize()), f": {typographic(blade.margins.sentence)}")
-        for name, blade in outcome.cases.items()
-        if blade.margins is not None
-    ]
-    note = tag(
-        "div.rx-dim.rx-small", "Damping in per cent of critical, in this flight; linear, quasi-steady aerodynamics."
-    )
-    return tag("div.rx", tag("table.rxa-table", head, rows), sentences, note, data_explorer="modes")
+    return tag("div.rx.rxa-limits", map(_limit, verdict.broken), good, cares, data_explorer="limits")
 
 
 def _limit(limit: Limit) -> Markup:
     sentence = tag("span", tag("b", limit_words(limit.name)), f" {typographic(limit.sentence)}")
-    return tag("div", tag("span.rx-good", "✓") if limit.ok else tag("span.rxa-bad", "✕"), sentence)
+    return tag("div", tag("span.rxa-bad", "✕"), sentence)

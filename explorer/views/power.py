@@ -1,6 +1,5 @@
 """The power card: power and its parts, its change and why, how sure it is, and whether it can be trusted."""
 
-import re
 from dataclasses import replace
 from typing import Any
 
@@ -33,9 +32,7 @@ def power_card(now: PageState) -> dict[str, Any]:
     else:
         card = replace(_numbers(state, now.units), **_change(state, now.units), **vars(sureness(now)))
     if now.problem:
-        # The button may find another.
-        sentence = re.sub(r" The nearest trim found is at .*?\.(?= |$)", "", now.problem)
-        problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
+        problem = f"{now.problem.rstrip('.')}. Greyed: last converged solution."
         card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
     return {"power": card}
 

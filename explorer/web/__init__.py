@@ -1,4 +1,4 @@
-"""All JavaScript, CSS and HTML text of the page, the report and the lecture, as files.
+"""All JavaScript, CSS and HTML text of the page, and the report, as files.
 
 What Python computes goes into them in two ways: into the served page as calls of its functions with JSON arguments
 (`explorer.hosting.browser.call`), into a file that is written as `{{name}}` of its HTML (`fill`), data as a JSON block.
@@ -69,5 +69,4 @@ def scripts(*names: str) -> Markup:
 @cache
 def frame() -> Markup:
     """Style sheets, skeleton and scripts of the page, to stand at the beginning of its body."""
-    body = fill("frame.html", {"column": text("column.html"), "stage": text("wipe.html")})
-    return group(styles(*STYLES), body, scripts(*SCRIPTS))
+    return group(styles(*STYLES), text("frame.html"), scripts(*SCRIPTS))

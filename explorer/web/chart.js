@@ -1,5 +1,5 @@
 // @ts-check
-// The charts of the page and of the lecture's file: one drawing of what `rotor.support.chart` says as JSON.
+// The charts of the page: one drawing of what `rotor.support.chart` says as JSON.
 // Ticks, ends of the
 // axes and colours come with it.
 const Charts = (() => {

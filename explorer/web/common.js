@@ -1,5 +1,5 @@
 // @ts-check
-// What the scripts of the page, and those of the lecture's file, have in common.
+// What the scripts of the page have in common.
 const Common = (() => {
   const DEGREE = Math.PI / 180, page = document.documentElement;
   const ENTITIES = {'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'};

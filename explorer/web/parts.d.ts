@@ -341,7 +341,6 @@ interface RxLecturePart {
   busy: boolean;
   problem: string;
   held: boolean;
-  finish: string;
 }
 
 interface RxStepAnswer {

@@ -5,7 +5,6 @@ interface Window {
   rotorDisk: any;
   rotorWipe: any;
   makeStory: any;
-  stillRotor: any;
   __viserMutable: any;  // viser's client.
 }
 declare const rotorScene: any, rotorWipe: any;

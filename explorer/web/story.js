@@ -1,7 +1,6 @@
 // @ts-check
-// The lecture as a column of steps beside the scene: a guess, its answer with a chart, one control. The page and the
-// file without a server both use it: everything reports by `data-do`, and what is shown comes through `steps` and
-// `show`.
+// The lecture as a column of steps beside the scene: a guess, its answer with a chart, one control.
+// Everything reports by `data-do`, and what is shown comes through `steps` and `show`.
 window.makeStory = (column, figures, report) => {
   const {text, clamp, write, calm, closest, soon} = Common;
   const marked = value => text(value).replace(/\*\*(.+?)\*\*/g, '<b>$1</b>').replace(/\*(.+?)\*/g, '<em>$1</em>');
@@ -92,7 +91,7 @@ window.makeStory = (column, figures, report) => {
     for (const button of foot.querySelectorAll('[data-do=lecture]')) button.hidden = held;
     foot.querySelector('[data-held]').hidden = !held;
     foot.querySelector('[data-value=back]').disabled = at === 0;
-    foot.querySelector('[data-value=next]').textContent = step.last ? now.finish : 'Next';
+    foot.querySelector('[data-value=next]').textContent = step.last ? 'Fly it' : 'Next';
     figures.hidden = false;
     write(figures, now.figures.map(([title, value]) => `<div>
       <b class="rxf-num" ${value === '?' ? 'data-unknown' : ''}>${text(value)}</b>

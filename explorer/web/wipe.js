@@ -4,7 +4,7 @@
 (() => {
   const {clamp, drag, viewer, node} = Common, stage = document.querySelector('.rxf-stage');
   const place = stage.querySelector('[data-part=wipe]'), handle = place.querySelector('[role=slider]');
-  let on = false, alone = false, at = 0.5, second = false, hooked = null, listener = null, held = false;
+  let on = false, at = 0.5, second = false, hooked = null, listener = null, held = false;
 
   const see = (a, b) => {
     for (const [name, seen] of [['/compared', a], ['/rotor', b]]) if (node(name)) node(name).visible = seen;
@@ -15,7 +15,7 @@
     scene.onBeforeRender = (...all) => {
       const target = all[3];
       before.apply(scene, all);
-      if ((on || alone) && !target && node('/compared')) see(second, !second);
+      if (on && !target && node('/compared')) see(second, !second);
     };
     scene.onAfterRender = (...all) => {
       const [renderer, , camera, target] = all;
@@ -78,8 +78,6 @@
       place.querySelector('[data-side=a]').textContent = a;
       place.querySelector('[data-side=b]').textContent = b;
     },
-    // A is seen in the wipe or not at all; in the page the server hides it.
-    keepAlone() { alone = true; show(); },
     heard(next) { listener = next; },
     get at() { return at; },
   };

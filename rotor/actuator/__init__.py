@@ -20,7 +20,6 @@ from rotor.actuator.catalogue import (
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.harmonic import EffectInFlight, effect, powers, steady_room, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator_mass
-from rotor.actuator.limits import ActuatorStability, actuator_stability
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
@@ -30,7 +29,6 @@ from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details
 __all__ = (
     "Actuator",
     "ActuatorFlight",
-    "ActuatorStability",
     "BreakEven",
     "ConditionPair",
     "EffectInFlight",
@@ -45,7 +43,6 @@ __all__ = (
     "Programme",
     "TorqueTube",
     "Verdict",
-    "actuator_stability",
     "actuators",
     "break_even",
     "default_placement",

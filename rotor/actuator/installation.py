@@ -80,12 +80,9 @@ def mass_breakdown(
 
 
 def addition(
-    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, sheets: bool = True
+    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float
 ) -> AddedStructure:
-    """Mass per length, its moments about the balance axis, and stiffness added over the active span.
-
-    sheets: over the chord of the placement; a tube lies on the axis.
-    """
+    """Mass per length, its inertia about the balance axis, and stiffness added over the active span."""
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
@@ -93,8 +90,7 @@ def addition(
     plies, weight = (masses.actuator + masses.wiring) / (high - low), masses.balance / (high - low)
     arm = 0.5 * (front + rear) - axis
     spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
-    moment = (plies * arm - weight * (axis - nose)) * structure.chord if sheets else 0.0
-    return AddedStructure((low, high), plies + weight, spread * structure.chord**2, stiffness, moment)
+    return AddedStructure((low, high), plies + weight, spread * structure.chord**2, stiffness)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +183,7 @@ def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Ro
         section = active_section(spec, actuator, placement)
         stiffness = torsional_stiffness(section)
         moment = stiffness * induced_twist_rate(section)
-    added = addition(masses, placement, structure, stiffness - spec.stiffness, sheets=isinstance(actuator, PiezoPly))
+    added = addition(masses, placement, structure, stiffness - spec.stiffness)
     beam, still = (
         torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
     )
@@ -238,17 +234,6 @@ def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
     shape = x - x**3 / 3.0
     shape = shape - shape[0]
     return (actuator.attainable * shape / shape[-1])[None, :]
-
-
-def without_nose_weight(installed: InstalledActuator) -> InstalledActuator:
-    """The same actuator without its nose weight, so that the centre of gravity lies farther aft."""
-    radius = float(installed.beam.r[-1])
-    masses = replace(installed.masses, balance=0.0)
-    sheets = isinstance(installed.actuator, PiezoPly)
-    structure, placement = uh60a_structure(radius), installed.placement
-    added = addition(masses, placement, structure, installed.added.stiffness, sheets=sheets)
-    blade = stiffer_blade(uh60a_torsion(radius), installed.host.stiffness, added)
-    return replace(installed, masses=masses, added=added, blade=blade)
 
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:

@@ -1,5 +1,4 @@
-"""Limits of a real blade: each a value, a bound and a sentence; the flight loads that strain its fibres; its stability
-without the actuator and with it.
+"""Limits of a real blade: each a value, a bound and a sentence; the flight loads that strain its fibres.
 
 Flap bending and fibre strain are those of the elastic blade in trimmed flight, quasi-steady:
 
@@ -11,18 +10,15 @@ with tension stiffness.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.installation import InstalledActuator, with_actuator_mass, without_nose_weight
-from rotor.design.design import Design
+from rotor.actuator.installation import InstalledActuator
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure
 from rotor.dynamics.torsion import added_pull
 from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
-from rotor.trim.stability import Air, Stability, margins, stability
 
 ELEMENTS = 60
 BENDING = np.array([[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]])
@@ -179,7 +175,7 @@ def limits(
         exceeded.append(_rotor_speed(installed.actuator))
     if not isinstance(installed.actuator, ExtensionTwist):
         exceeded += [_temperature(installed), _mass(installed)]
-    return (*exceeded, *_torsion(installed), *_flutter(solution))
+    return (*exceeded, *_torsion(installed))
 
 
 def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
@@ -296,54 +292,3 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
         Limit("torsion-resonance", gap >= margin, gap, margin, "per rev", by_gap),
         Limit("torsion-least", frequency >= least, frequency, least, "per rev", by_load),
     ]
-
-
-def _flutter(solution: Solution | None) -> list[Limit]:
-    """Margins of the blade with its actuator in flight, with the air's mean slopes around the azimuth."""
-    if solution is None or solution.elastic is None:
-        return []
-    margin = margins(solution)
-    needed, bound = margin.instability_stiffness, float(structure_data()["limits"]["flutter_stiffness"])
-    return [Limit("flutter", needed <= bound, 100.0 * needed, 100.0 * bound, "% of stiffness", margin.sentence)]
-
-
-@dataclass(frozen=True)
-class ActuatorStability:
-    """Stability of a design without its actuator and with it, each trimmed with its own stiffness, inertia and mass."""
-
-    without: Stability
-    fitted: Stability
-    unbalanced: Stability | None
-    """With the plies but without their nose weight; None where they have none."""
-
-    @property
-    def cases(self) -> dict[str, Stability]:
-        """The stability of each case by name."""
-        named = {"without": self.without, "with": self.fitted}
-        return named if self.unbalanced is None else named | {"without nose weight": self.unbalanced}
-
-    def to_dict(self) -> dict[str, Any]:
-        """The record of each case by name."""
-        return {name: case.to_dict() for name, case in self.cases.items()}
-
-    def table(self) -> str:
-        """Frequency and damping of each mode, side by side, and the margins."""
-        lines = [f"{'mode':<11}" + "".join(f"{name:>22}" for name in self.cases)]
-        for mode in self.without.modes:
-            beside = [case.mode(mode.name) for case in self.cases.values()]
-            cells = (f"{mode.frequency:11.3f}/rev{100.0 * mode.damping_ratio:6.1f}%" for mode in beside)
-            lines.append(f"{mode.name:<11}" + "".join(cells))
-        lines += [f"{name}: {case.margins.sentence}" for name, case in self.cases.items() if case.margins is not None]
-        return "\n".join(lines)
-
-
-def actuator_stability(
-    installed: InstalledActuator, design: Design, *, air: Air = "quasi-steady", offset: float = 0.0
-) -> ActuatorStability:
-    """The blade of a design without the actuator and with it. Errors and arguments as of `rotor.stability`."""
-    fits = [installed]
-    if installed.masses.balance > 0.0:
-        fits.append(without_nose_weight(installed))
-    blades = (design, *(with_actuator_mass(design, fit) for fit in fits))
-    without, fitted, *rest = (stability(blade, air=air, offset=offset) for blade in blades)
-    return ActuatorStability(without, fitted, rest[0] if rest else None)

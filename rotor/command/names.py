@@ -52,11 +52,6 @@ COMMANDS: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
         "best twist at each flight condition, best fixed blade, and gain of changing twist in flight",
         (("Linear twist in hover and at µ 0.15 and 0.3", "--concept linear --mu 0:0.3:0.15 --starts 1 --processes 1"),),
     ),
-    "envelope": (
-        "envelope.add_parser",
-        "largest load factor and mass over speed, top speed and ceiling, limited by stall and engines",
-        (("With 8° of linear washout", "--twist linear:-8 --mu 0:0.2:0.2"),),
-    ),
     "study": (
         "study.add_parser",
         "many designs from one file, on one machine or a cluster",
@@ -65,11 +60,6 @@ COMMANDS: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("Run it on four processes", "two_segment.toml --out results --workers 4"),
             ("Its best point", "show results"),
         ),
-    ),
-    "stability": (
-        "stability.add_parser",
-        "damping of the blade modes, and margins to flutter and divergence",
-        (("With and without an actuator in the blade", "--mu 0.3 --actuator MFC_P1"),),
     ),
     "actuator": (
         "actuator.add_parser",

@@ -12,7 +12,7 @@ from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
-from rotor.support.table import CellValue, Table, table
+from rotor.support.table import CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text, power_unit
 from rotor.support.user_input import parse_range
@@ -211,9 +211,12 @@ def _line(cell: ScheduleOptimum, width: int) -> str:
 def optima_table(schedule: Schedule) -> Table:
     """The CSV: an optimum a row; those of the one blade for all conditions come last, without hours."""
     quantities = _quantities(schedule.plan)
-    where = "".join(f"{name}|||{'.6g' if name == 'mass_kg' else '.4g'}; " for name in quantities)
     columns = (
-        f"{where}hours|||.4g; concept; status; baseline_kw|||.2f; power_kw|||.2f; saving_percent|||.2f; twist; met"
+        *(Column(key=name, stored=".6g" if name == "mass_kg" else ".4g") for name in quantities),
+        Column(key="hours", stored=".4g"),
+        *(Column(key=key) for key in ("concept", "status")),
+        *(Column(key=key, stored=".2f") for key in ("baseline_kw", "power_kw", "saving_percent")),
+        *(Column(key=key) for key in ("twist", "met")),
     )
     rows: list[tuple[CellValue, ...]] = []
     for cell in schedule.cells:

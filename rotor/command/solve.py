@@ -10,7 +10,7 @@ from typing import Any
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
-from rotor.support.table import CellValue, table
+from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import KNOT, power_unit
 from rotor.support.user_input import check_writable
@@ -89,8 +89,8 @@ def doubt_table(doubt: Doubt) -> str:
         (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
         for other in doubt.models
     ]
-    columns = f"|uncertain|<; |by; |power {symbol}; |change {symbol}|+.2f"
-    sentence = wrapped(doubt.sentence.replace(" It ", " Against the blade as built it "))
+    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
+    sentence = wrapped(doubt.in_words("Against the blade as built it"))
     return f"{sentence}\n\n{table(columns, rows).text()}"
 
 

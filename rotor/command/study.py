@@ -21,7 +21,7 @@ from rotor.study.run import ChunkRun, check_workers, open_study_folder, processe
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 from rotor.support.progress import ProgressBar
-from rotor.support.table import table
+from rotor.support.table import Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text
 
@@ -312,7 +312,7 @@ def _show(args: argparse.Namespace) -> int:
     check_output(args)
     if args.csv:
         rows = (map(_plain, row) for row in zip(*results.columns.values(), strict=True))
-        table("; ".join(results.columns), rows).write(args.csv)
+        table((Column(key=name) for name in results.columns), rows).write(args.csv)
     print_result(args, lambda: shown, lambda: report(results, shown))
     return 0
 

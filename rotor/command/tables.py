@@ -20,7 +20,7 @@ from rotor.design.quantities import CONDITION, SWEPT
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.study.series import PARTS, SHARED_COLUMNS, SweepTable, Waterfall, WaterfallStep, sweep, waterfall
 from rotor.support.arrays import Array
-from rotor.support.table import CellValue, Table, table
+from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_unit
 from rotor.trim.doubt import doubt
@@ -68,27 +68,27 @@ def sweep_table(solutions: SweepTable, over: str) -> Table:
     level = all(solution.design.vertical_speed == 0.0 for solution in solutions)
     kept = [k for k, name in enumerate(solutions.columns) if name not in SHARED_COLUMNS or name == over]
     fine = 0 if power_unit(*(solution.last_power.total for solution in solutions))[0] == "kW" else 3
-    columns = "; ".join(_sweep_column(solutions.columns[k], level, fine) for k in kept)
+    columns = (_sweep_column(solutions.columns[k], level, fine) for k in kept)
     rows = (
         (*(row[k] for k in kept), "" if one.converged else f"{one.status.value}: {one.message}")
         for row, one in zip(solutions.rows, solutions, strict=True)
     )
-    return table(f"{columns}; ||<", rows)
+    return table((*columns, Column("", LEFT)), rows)
 
 
-def _sweep_column(name: str, level: bool, fine: int) -> str:
+def _sweep_column(name: str, level: bool, fine: int) -> Column:
     """`fine`: further decimals of powers."""
     if name in ("status", "message"):
-        return name
-    head = "|" if level and name.startswith("climb") else f"|{name}"
+        return Column(key=name)
+    head = None if level and name.startswith("climb") else name
     if name == "twist":
-        return f"{name}{head}|<"
+        return Column(head, LEFT, name)
     if name == "change_percent":
-        return f"{name}|change %|+.2f|.3f"
+        return Column("change %", "+.2f", name, ".3f")
     if name.endswith("_kw"):
-        return f"{name}{head}|z.{1 + fine}f|z.{2 + fine}f"
+        return Column(head, f"z.{1 + fine}f", name, f"z.{2 + fine}f")
     shown = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
-    return f"{name}{head}|{shown}|{shown}"
+    return Column(head, shown, name, shown)
 
 
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
@@ -112,11 +112,22 @@ def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
 
 
 FRONT_COLUMNS = (
-    "twist_per_rev; twist; power_kw|power kW|.1f|.2f; power_change_percent|change %|+.2f|.2f; "
-    "power_change_band_percent|± %|.2f|.2f; index_percent|index %|.2f|.2f; |over models %; "
-    "index_change_percent|change %|+.0f|.2f; |over models %; |twist|<; "
-    "least_index_percent|||.2f; largest_index_percent|||.2f; least_change_percent|||.2f; "
-    "largest_change_percent|||.2f; preview_power_kw|||.2f; preview_index_percent|||.2f"
+    Column(key="twist_per_rev"),
+    Column(key="twist"),
+    Column("power kW", ".1f", "power_kw", ".2f"),
+    Column("change %", "+.2f", "power_change_percent", ".2f"),
+    Column("± %", ".2f", "power_change_band_percent", ".2f"),
+    Column("index %", ".2f", "index_percent", ".2f"),
+    Column("over models %"),
+    Column("change %", "+.0f", "index_change_percent", ".2f"),
+    Column("over models %"),
+    Column("twist", LEFT),
+    Column(key="least_index_percent", stored=".2f"),
+    Column(key="largest_index_percent", stored=".2f"),
+    Column(key="least_change_percent", stored=".2f"),
+    Column(key="largest_change_percent", stored=".2f"),
+    Column(key="preview_power_kw", stored=".2f"),
+    Column(key="preview_index_percent", stored=".2f"),
 )
 """The least and the largest are those over inflow models."""
 
@@ -268,7 +279,8 @@ def _steps_text(steps: Sequence[WaterfallStep], design: Design) -> str:
     """The first step has its parts of the power, the others what they change; the climb's where there is one."""
     parts = [part for part in PARTS if part != "climb" or design.vertical_speed]
     symbol, size = power_unit(*(step.power or 0.0 for step in steps))
-    columns = f"|{symbol}|<; |total|.1f; |change|+.1f; {''.join(f'|{part}; ' for part in parts)}||<"
+    total = Column(symbol, LEFT), Column("total", ".1f"), Column("change", "+.1f")
+    columns = (*total, *map(Column, parts), Column("", LEFT))
     return table(columns, (_step_row(step, parts, size) for step in steps)).text()
 
 
@@ -326,18 +338,19 @@ def _show_section(section: Section, as_json: bool) -> None:
     mach = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])
     negative, positive = data.stall_alpha(mach)
     sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), data.moment(0.0, mach)
-    values: dict[str, Array] = {
-        "mach|Mach|.2f": mach,
-        "cl_alpha_per_deg|slope/deg|.4f": np.deg2rad(data.lift_slope(mach)),
-        "zero_lift_deg|alpha0 deg|.2f": np.rad2deg(data.zero_lift_alpha(mach)),
-        "stall_negative_deg|stall- deg|.1f": np.rad2deg(negative),
-        "stall_positive_deg|stall+ deg|.1f": np.rad2deg(positive),
-        "cl_max|cl max|.3f": data(sweep[:, None], mach).cl.max(axis=0),
-        "cl_at_4_deg|cl(4)|.3f": data(four, mach).cl,
-        "cd_at_0_deg|cd(0)|.4f": data(0.0, mach).cd,
-        "cd_at_4_deg|cd(4)|.4f": data(four, mach).cd,
-        **({} if moment is None else {"cm_at_0_deg|cm(0)|.4f": moment}),
+    values: dict[Column, Array] = {
+        Column("Mach", ".2f", "mach"): mach,
+        Column("slope/deg", ".4f", "cl_alpha_per_deg"): np.deg2rad(data.lift_slope(mach)),
+        Column("alpha0 deg", ".2f", "zero_lift_deg"): np.rad2deg(data.zero_lift_alpha(mach)),
+        Column("stall- deg", ".1f", "stall_negative_deg"): np.rad2deg(negative),
+        Column("stall+ deg", ".1f", "stall_positive_deg"): np.rad2deg(positive),
+        Column("cl max", ".3f", "cl_max"): data(sweep[:, None], mach).cl.max(axis=0),
+        Column("cl(4)", ".3f", "cl_at_4_deg"): data(four, mach).cl,
+        Column("cd(0)", ".4f", "cd_at_0_deg"): data(0.0, mach).cd,
+        Column("cd(4)", ".4f", "cd_at_4_deg"): data(four, mach).cd,
     }
+    if moment is not None:
+        values[Column("cm(0)", ".4f", "cm_at_0_deg")] = moment
     divergence = {f"{a:g}": round(float(data.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
     offset = float(np.rad2deg(section.incidence_offset))
     if as_json:
@@ -348,7 +361,7 @@ def _show_section(section: Section, as_json: bool) -> None:
             "incidence_offset_deg": round(offset, 6),
             "chord_ratio": section.chord_ratio,
             "drag_divergence_mach": divergence,
-            **{column.partition("|")[0]: [round(float(v), 5) for v in cells] for column, cells in values.items()},
+            **{column.key: [round(float(v), 5) for v in cells] for column, cells in values.items()},
         }
         print(json.dumps(answer))
         return
@@ -357,5 +370,5 @@ def _show_section(section: Section, as_json: bool) -> None:
         f"data to Mach {data.mach_limit:g}; chord line {offset:g} deg nose-down of, "
         f"and chord {section.chord_ratio:g} times, those of SC1095"
     )
-    print(table("; ".join(values), zip(*values.values(), strict=True)).text())
+    print(table(values, zip(*values.values(), strict=True)).text())
     print("drag divergence (dcd/dM = 0.1) at Mach " + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items()))

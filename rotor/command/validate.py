@@ -9,7 +9,7 @@ from typing import Any
 
 from rotor.command.common import add_command, add_output_arguments
 from rotor.support.plots import draw_chart, drawing_module
-from rotor.support.table import CellValue, table
+from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.user_input import make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
@@ -75,7 +75,8 @@ def run(args: argparse.Namespace) -> int:
         tables += [power_report(powers)] if powers else []
         for other in others:
             rows = ((row.what, row.shown, row.verdict) for row in other.rows)
-            tables.append(f"{other.title}\n{table('||<; |error|<; |verdict|<', rows).text()}")
+            columns = Column("", LEFT), Column("error", LEFT), Column("verdict", LEFT)
+            tables.append(f"{other.title}\n{table(columns, rows).text()}")
         if tables:
             print(("\n" if comparisons else "") + "\n\n".join(tables))
     if args.plot:
@@ -87,6 +88,9 @@ def run(args: argparse.Namespace) -> int:
     return 0 if all(point.ours is not None for comparison in comparisons for point in comparison.judged) else 1
 
 
+_DIFFERENCES = Column("correlation", ".2f"), Column("rms", ".4f"), Column("mean", ".4f"), Column("measured", ".4f")
+
+
 def inflow_report(rows: list[InflowAgreement]) -> str:
     cells = (
         (row.mu, row.model, "–" if row.correlation is None else row.correlation, row.rms, row.mean, row.measured_mean)
@@ -94,14 +98,16 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
     )
     lines = [
         f"{INFLOW_SET}: inflow one chord above the disk of the NASA 2MRTS rotor, laser velocimeter; never fitted",
-        table("|mu|.2f; |model|<; |correlation|.2f; |rms|.4f; |mean|.4f; |measured|.4f", cells).text(),
+        table((Column("mu", ".2f"), Column("model", LEFT), *_DIFFERENCES), cells).text(),
         wrapped(description(INFLOW_SET).text[0]),
     ]
     return "\n".join(lines)
 
 
 def airload_report(rows: list[CurveAgreement]) -> str:
-    columns = "|case; |r/R|.2f; |quantity|<; |correlation|.2f; |rms|.4f; |of|.4f; |mean|.4f; |measured|.4f"
+    correlation, rms, *means = _DIFFERENCES
+    what = Column("case"), Column("r/R", ".2f"), Column("quantity", LEFT)
+    columns = (*what, correlation, rms, Column("of", ".4f"), *means)
     cells = (
         (row.case.name, row.r, row.quantity, row.correlation, row.rms, row.measured_rms, row.mean, row.measured_mean)
         for row in rows
@@ -115,7 +121,10 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 
 def power_report(rows: list[FlownPower]) -> str:
-    columns = "|rotor|<; |case; |mu|.3f; |measured|.1f; |ours|.1f; |error %|+.1f; |between the drag areas|<"
+    columns = (
+        *(Column("rotor", LEFT), Column("case"), Column("mu", ".3f"), Column("measured", ".1f"), Column("ours", ".1f")),
+        *(Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
+    )
     cells: list[tuple[CellValue, ...]] = []
     for row in rows:
         ours, error, words = None, None, "does not trim"
@@ -129,7 +138,10 @@ def power_report(rows: list[FlownPower]) -> str:
 
 def report(comparison: Comparison) -> str:
     measured, quantity = comparison.measured, comparison.measured.quantity
-    given = "".join(f"|{name}|.5g; " for name in measured.given)
+    columns = (
+        *(Column(name, ".5g") for name in measured.given),
+        *(Column("measured", ".6g"), Column("ours", ".6g"), Column("error %", "+.1f"), Column("within scatter", LEFT)),
+    )
     cells: list[tuple[CellValue, ...]] = []
     for point in comparison.points:
         ours, words = None, point.message
@@ -143,7 +155,7 @@ def report(comparison: Comparison) -> str:
         wrapped(f"{measured.name}: {measured.title}"),
         wrapped(measured.report),
         f"inflow {comparison.inflow}; never fitted",
-        table(f"{given}|measured|.6g; |ours|.6g; |error %|+.1f; |within scatter|<", cells).text(),
+        table(columns, cells).text(),
     ]
     lines.append(wrapped(verdict(comparison)))
     if lost := [point for point in comparison.points if point.ours is None]:

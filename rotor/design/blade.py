@@ -43,14 +43,11 @@ class BladeStructure:
     """Rate of a linear damper at the lag hinge [N m s/rad]."""
     lag_spring: float | None = None
     """Spring rate of the root in lag [N m/rad]; None: a hinge is free, a hingeless root is held."""
-    mass_offset: tuple[float, ...] = ()
-    """How far the centre of gravity lies behind the pitch axis [m]; empty: on it. Stability alone reads it."""
 
     def __post_init__(self) -> None:
         bending = tuple(stiffness for stiffness in (self.flap_stiffness, self.lag_stiffness) if stiffness)
         columns = (self.torsional_stiffness, self.mass_per_length, self.torsional_inertia, *bending)
-        given = (*columns, self.mass_offset) if self.mass_offset else columns
-        if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in given):
+        if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in columns):
             raise ValueError(
                 f"a blade structure has {len(self.stations)} stations: give two or more, with one stiffness, mass and "
                 "inertia each"

@@ -8,10 +8,10 @@ models, and `thesis`, those that the document states.
 import hashlib
 import json
 import math
-from dataclasses import FrozenInstanceError, dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack, cast
+from typing import Any, Unpack, cast
 
 from rotor.design import quantities
 from rotor.design.active_twist import (
@@ -27,7 +27,7 @@ from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
-from rotor.support.user_input import check_suffix, did_you_mean, write_whole
+from rotor.support.user_input import check_suffix, write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -146,7 +146,9 @@ class Models:
 class Design:
     """Everything that determines a result: rotor, twist, flight condition and models.
 
-    A design never changes. `make_design` makes one, `at` and `with_twist` return changed copies.
+    A design never changes: `design.at(mu=0.3)` is one at another flight condition, `design.with_twist("linear:-8")` one
+    with another twist, `make_design(case=design, …)` one with anything else. What it holds is read as
+    `design.condition.mass`.
     """
 
     preset: str
@@ -211,15 +213,7 @@ class Design:
             f"preset {self.preset}, inflow {inflow})"
         )
 
-    if not TYPE_CHECKING:  # A type checker would take it to have every attribute.
-
-        def __getattr__(self, name: str) -> Any:
-            row = quantities.QUANTITIES.get(name)
-            public = (other for other in dir(type(self)) if other[0] != "_")
-            remedy = did_you_mean(name, public) if row is None or not row.place else f": read design.{row.place}"
-            raise AttributeError(f"a design has no {name!r}{remedy}", name=name, obj=self)
-
-    @takes(quantities.SWEPT, after="hover", elsewhere=lambda name: how_to_change(name) if name in _GIVEN else "")
+    @takes(quantities.SWEPT, after="hover", elsewhere=lambda name: _other_change(name))
     def at(
         self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
     ) -> "Design":
@@ -434,31 +428,11 @@ THESIS_MODELS = Models(
 )
 
 
-def how_to_change(name: str, value: object = ...) -> str:
-    """The code that makes a design with another value of a quantity."""
-    words = "…" if value is ... else f"{value!r:.40}"
-    if name in quantities.SWEPT or name == "hover":
-        return f"design.at({name}={words})"
+def _other_change(name: str) -> str:
+    """The code that changes a quantity which `at` does not take; empty for what is none."""
     if name == "twist":
-        return f"design.with_twist({words})"
-    return f"rotor.make_design(case=design, {name}={words})" if name in _GIVEN else "rotor.make_design(case=design, …)"
-
-
-_GIVEN = quantities.ARGUMENTS.keys() - {"case", "models"}
-
-
-def _no_change(_: object, name: str, value: object) -> None:
-    how = how_to_change(name, value)
-    raise FrozenInstanceError(f"a design cannot be changed: make a new one with {how}")
-
-
-def _no_change_of_condition(_: object, field: str, value: object) -> None:
-    name = next((name for name, row in quantities.CONDITION.items() if row.field == field), "stand")
-    _no_change(_, name, value)
-
-
-for _fixed, _refuse in ((Design, _no_change), (Models, _no_change), (FlightCondition, _no_change_of_condition)):
-    type.__setattr__(_fixed, "__setattr__", _refuse)
+        return "design.with_twist(…)"
+    return f"rotor.make_design(case=design, {name}=…)" if name in quantities.ARGUMENTS and name != "case" else ""
 
 
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:

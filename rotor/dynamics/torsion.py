@@ -54,8 +54,6 @@ class AddedStructure:
     """[kg m]"""
     stiffness: float
     """GJ added [N m²]."""
-    static_moment: float = 0.0
-    """Mass per length times how far behind the pitch axis it lies [kg]."""
 
 
 def torsion_beam(
@@ -101,12 +99,8 @@ def stiffer_blade(structure: BladeStructure, scale: float, addition: AddedStruct
     def column(values: tuple[float, ...], factor: float, added: float) -> tuple[float, ...]:
         return tuple((factor * structure.at(stations, values) + inside * added).tolist())
 
-    given = structure.at(stations, structure.mass_offset) if structure.mass_offset else np.zeros(len(stations))
-    mass = structure.at(stations, structure.mass_per_length)
-    moment = given * mass + inside * addition.static_moment
     return replace(
         structure,
-        mass_offset=tuple((moment / (mass + inside * addition.mass_per_length)).tolist()) if moment.any() else (),
         stations=tuple(stations.tolist()),
         torsional_stiffness=column(structure.torsional_stiffness, scale, addition.stiffness),
         mass_per_length=column(structure.mass_per_length, 1.0, addition.mass_per_length),

@@ -63,7 +63,6 @@ class StructureTable(FileTable, frozen=True, kw_only=True):
     torsional_inertia: tuple[Annotated[float, Meta(ge=1e-9, le=1e3)], ...] = field(name="torsional_inertia_kg_m")
     flap_stiffness: tuple[_Stiffness, ...] = field(name="flap_stiffness_nm2", default=())
     lag_stiffness: tuple[_Stiffness, ...] = field(name="lag_stiffness_nm2", default=())
-    mass_offset: tuple[Annotated[float, Meta(ge=-1.0, le=1.0)], ...] = field(name="mass_offset_m", default=())
     tension_gyration: Share = field(name="tension_gyration_m2", default=0.0)
     clamp: Annotated[float, Meta(ge=0.0, le=15.0)] | None = field(name="clamp_m", default=None)
     control_stiffness: Annotated[float, Meta(ge=1e-3, le=1e12)] = field(name="control_stiffness_nm_rad")

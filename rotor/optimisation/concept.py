@@ -1,4 +1,4 @@
-"""What a twist concept is: named parameters, the law they make, its derivatives; restricted and added concepts."""
+"""What a twist concept is: named parameters, the law they make, and its derivatives."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,6 +8,7 @@ from typing import Literal, Protocol
 import numpy as np
 import scipy
 
+from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist, TwistLaw
 from rotor.support.arrays import Array
@@ -70,32 +71,17 @@ class Handle:
     """r/R"""
 
 
-class Concept(Protocol):
-    """A family of twist laws."""
-
-    @property
-    def name(self) -> str:
-        """Name on the command line."""
-        ...
-
-    @property
-    def title(self) -> str:
-        """Title on the page."""
-        ...
-
-    @property
-    def explanation(self) -> str:
-        """One line for the page."""
-        ...
+class TwistFamily(Protocol):
+    """Twist laws with a few parameters."""
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """The degrees of freedom, in the order of every vector of values."""
+        """In the order of every vector of values."""
         ...
 
     @property
     def handles(self) -> tuple[Handle, ...]:
-        """Sketch elements of the degrees of freedom, one per parameter."""
+        """Sketch elements, one for each parameter."""
         ...
 
     @property
@@ -104,16 +90,75 @@ class Concept(Protocol):
         ...
 
     def twist(self, values: Values) -> TwistLaw:
-        """The law of these values."""
+        """The law."""
         ...
 
     def slopes(self, values: Values, r: Array) -> Array:
         """∂θ_tw(r)/∂value, exact, (parameters, elements)."""
         ...
 
+
+@dataclass(frozen=True)
+class Concept:
+    """A family of twist laws by name; some parameters may be fixed, and the law may be added to another."""
+
+    name: str
+    """On the command line."""
+    title: str
+    """On the page."""
+    explanation: str
+    """One line for the page."""
+    family: TwistFamily
+    airfoils: tuple[str, ...] = ()
+    """A section for each straight segment; empty: the design's own."""
+    fixed: tuple[tuple[str, float], ...] = ()
+    """Name and value of each fixed parameter."""
+    base: TwistLaw | None = None
+    """What the law is added to, for example the blade as built under an actuator."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Those that are free, in the order of every vector of values."""
+        return tuple(self.family.parameters[k] for k in self._free)
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        """Sketch elements, one for each free parameter."""
+        return tuple(self.family.handles[k] for k in self._free)
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        """As of the family; of an added law the rates of the change."""
+        return tuple(tuple(row[k] for k in self._free) for row in self.family.rate_rows)
+
+    def twist(self, values: Values) -> TwistLaw:
+        """The law."""
+        law = self.family.twist(self._all(values))
+        return law if self.base is None else SumTwist(self.base, law)
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        """∂θ_tw(r)/∂value, exact, (free parameters, elements)."""
+        return self.family.slopes(self._all(values), r)[self._free]
+
     def apply(self, design: Design, values: Values) -> Design:
-        """The design with the law and all other changes of the concept, for example sections."""
-        ...
+        """The design with the law, and with the concept's sections."""
+        rotor = design.rotor
+        if self.airfoils:
+            places = tuple(self._all(values)[len(self.airfoils) :])
+            # SC1095 by whichever data the design has it: the document's polynomials, or the decks.
+            sections = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
+            rotor = with_airfoils(rotor, [sections.get(name, name) for name in self.airfoils], places)
+        return replace(design, twist=self.twist(values), rotor=rotor)
+
+    @property
+    def _free(self) -> list[int]:
+        held = dict(self.fixed)
+        return [k for k, parameter in enumerate(self.family.parameters) if parameter.name not in held]
+
+    def _all(self, values: Values) -> list[float]:
+        """Values of every parameter of the family."""
+        held, free = dict(self.fixed), iter(values)
+        return [held[p.name] if p.name in held else float(next(free)) for p in self.family.parameters]
 
 
 def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
@@ -143,92 +188,10 @@ def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
     return tuple((low + span * np.clip(fit.x, 0.0, 1.0)).tolist())
 
 
-@dataclass(frozen=True)
-class Restricted:
-    """A concept with some parameters fixed."""
-
-    base: Concept
-    fixed: tuple[tuple[str, float], ...]
-    name: str
-    title: str
-    explanation: str
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        return tuple(self.base.parameters[k] for k in self._free)
-
-    @property
-    def handles(self) -> tuple[Handle, ...]:
-        return tuple(self.base.handles[k] for k in self._free)
-
-    @property
-    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
-        return tuple(tuple(row[k] for k in self._free) for row in self.base.rate_rows)
-
-    def twist(self, values: Values) -> TwistLaw:
-        return self.base.twist(self._full(values))
-
-    def slopes(self, values: Values, r: Array) -> Array:
-        return self.base.slopes(self._full(values), r)[self._free]
-
-    def apply(self, design: Design, values: Values) -> Design:
-        return self.base.apply(design, self._full(values))
-
-    @property
-    def _free(self) -> list[int]:
-        held = dict(self.fixed)
-        return [k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held]
-
-    def _full(self, values: Values) -> list[float]:
-        held, free = dict(self.fixed), iter(values)
-        return [held[p.name] if p.name in held else float(next(free)) for p in self.base.parameters]
-
-
-@dataclass(frozen=True)
-class OnTop:
-    """A concept added to a fixed law, for example an actuator on the blade as built."""
-
-    base: Concept
-    law: TwistLaw
-
-    @property
-    def name(self) -> str:
-        return self.base.name
-
-    @property
-    def title(self) -> str:
-        return f"{self.base.title}, on top"
-
-    @property
-    def explanation(self) -> str:
-        return f"Added to the twist of the starting design. {self.base.explanation}"
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        return self.base.parameters
-
-    @property
-    def handles(self) -> tuple[Handle, ...]:
-        return self.base.handles
-
-    @property
-    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
-        """Rates of the change."""
-        return self.base.rate_rows
-
-    def twist(self, values: Values) -> TwistLaw:
-        return SumTwist(self.law, self.base.twist(values))
-
-    def slopes(self, values: Values, r: Array) -> Array:
-        return self.base.slopes(values, r)
-
-    def apply(self, design: Design, values: Values) -> Design:
-        return replace(self.base.apply(design, values), twist=self.twist(values))
-
-
 def on_top(concept: Concept, law: TwistLaw) -> Concept:
     """The concept added to a fixed law."""
-    return OnTop(concept, law)
+    explanation = f"Added to the twist of the starting design. {concept.explanation}"
+    return replace(concept, title=f"{concept.title}, on top", explanation=explanation, base=law)
 
 
 def restrict(
@@ -251,5 +214,10 @@ def restrict(
             raise ValueError(f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside")
     if len(fixed) >= len(known):
         raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
-    words = title or concept.title, explanation or concept.explanation
-    return Restricted(concept, tuple(fixed.items()), name, *words)
+    return replace(
+        concept,
+        name=name,
+        title=title or concept.title,
+        explanation=explanation or concept.explanation,
+        fixed=(*concept.fixed, *fixed.items()),
+    )

@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.design.blade import with_airfoils
-from rotor.design.design import Design
 from rotor.design.twist import (
     REFERENCE_RADIUS,
     LinearTwist,
@@ -35,12 +33,9 @@ STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
 
 
 @dataclass(frozen=True)
-class LinearConcept:
+class OneRate:
     """One rate from root to tip."""
 
-    name = "linear"
-    title = "Linear"
-    explanation = "One rate from root to tip."
     parameters = (Parameter("rate", "Rate", "rad/R", STEEPEST, FLATTEST),)
     handles = (Handle("rate", "tilt", 0.0, 1.0),)
     rate_rows = ((1.0,),)
@@ -52,17 +47,11 @@ class LinearConcept:
         del values
         return (r - REFERENCE_RADIUS)[None]
 
-    def apply(self, design: Design, values: Values) -> Design:
-        return replace(design, twist=self.twist(values))
-
 
 @dataclass(frozen=True)
-class QuadraticConcept:
+class Parabola:
     """A parabola: its second-order coefficient a and the difference from root to tip."""
 
-    name = "quadratic"
-    title = "Quadratic"
-    explanation = "A parabola: its curvature, and the twist from root to tip."
     parameters = (
         Parameter("curvature", "Curvature a", "rad/R²", math.radians(-40.0), math.radians(40.0)),
         Parameter("difference", "Root to tip", "rad", STEEPEST, FLATTEST),
@@ -79,23 +68,17 @@ class QuadraticConcept:
         line = r - REFERENCE_RADIUS
         return np.stack([r**2 - REFERENCE_RADIUS**2 - line, line])
 
-    def apply(self, design: Design, values: Values) -> Design:
-        return replace(design, twist=self.twist(values))
-
 
 _LOOSE_STEEPEST, _LOOSE_FLATTEST = math.radians(-40.0), math.radians(30.0)
 
 
 @dataclass(frozen=True)
-class FreeFormConcept:
+class FreeForm:
     """A cubic spline through seven angles, that at 0.75 R being zero: the envelope of the others.
 
     It rounds off kinks, so a law of straight segments may be slightly better.
     """
 
-    name = "free-form"
-    title = "Free form"
-    explanation = "A smooth curve through seven points, the bound for any smooth shape."
     knots: tuple[float, ...] = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
     """r/R; one is at 0.75, where every law is zero."""
 
@@ -137,27 +120,19 @@ class FreeFormConcept:
         del values
         return (spline_basis(self.knots, r) - spline_basis(self.knots, REFERENCE_RADIUS))[:, self._free].T
 
-    def apply(self, design: Design, values: Values) -> Design:
-        return replace(design, twist=self.twist(values))
-
     @property
     def _free(self) -> list[int]:
         return [k for k, knot in enumerate(self.knots) if knot != REFERENCE_RADIUS]
 
 
 @dataclass(frozen=True)
-class SegmentsConcept:
+class Segments:
     """Straight segments, continuous at their breaks. Values: the rates root to tip, then the breaks."""
 
-    name: str
-    title: str
-    explanation: str
     segments: tuple[tuple[str, str], ...]
     """Name and title of each segment, root to tip."""
     breaks: tuple[tuple[str, str, float, float], ...]
     """Name, title, low and high of each break, r/R."""
-    airfoils: tuple[str, ...] = ()
-    """A section for each segment; empty: the design's own."""
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -197,16 +172,6 @@ class SegmentsConcept:
             out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
         return out
 
-    def apply(self, design: Design, values: Values) -> Design:
-        law = self.twist(values)
-        rotor = design.rotor
-        if self.airfoils:
-            places = tuple(float(value) for value in values[len(self.segments) :])
-            # SC1095 by whichever data the design has it: the document's polynomials, or the decks.
-            sections = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
-            rotor = with_airfoils(rotor, [sections.get(name, name) for name in self.airfoils], places)
-        return replace(design, twist=law, rotor=rotor)
-
 
 DIVISION = 0.5
 AIRFOIL_BREAKS = (0.4814, 0.8385)
@@ -216,24 +181,23 @@ _TWO = (("inboard", "Inboard"), ("outboard", "Outboard"))
 _THREE = (("inboard", "Inboard"), ("middle", "Middle"), ("outboard", "Outboard"))
 _DIVISION = ("division", "Division", 0.25, 0.92)
 
-TWO_SEGMENT_FREE = SegmentsConcept(
-    "two-segment-free", "Two segments, free break", "Two straight segments with a free break point.", _TWO,
-    (_DIVISION,),
+TWO_SEGMENT_FREE = Concept(
+    "two-segment-free", "Two segments, free break", "Two straight segments with a free break point.",
+    Segments(_TWO, (_DIVISION,)),
 )  # fmt: skip
-TWO_AIRFOILS = SegmentsConcept(
+TWO_AIRFOILS = Concept(
     "two-segment-two-airfoils",
     "Two segments, two airfoils",
     # The document's own order is not in what we hold. The tip needs the later drag rise of the SC1095; the inboard
     # blade, slow on the retreating side, the greater lift of the SC1094 R8. Swapped, the best blade takes
     # 4 kW more in hover, 29 kW at µ 0.2 (division 0.5, lifting line, 8322 kg).
     "SC1094 R8 inboard for lift at low speed, SC1095 outboard for its later drag rise; they change at the division.",
-    _TWO,
-    (_DIVISION,),
+    Segments(_TWO, (_DIVISION,)),
     airfoils=("sc1094r8", "sc1095"),
 )
-THREE_SEGMENT_FREE = SegmentsConcept(
-    "three-segment-free", "Three segments, free breaks", "Three straight segments with free breaks.", _THREE,
-    (("inner_break", "Inboard break", 0.2, 0.64), ("outer_break", "Outboard break", 0.66, 0.95)),
+THREE_SEGMENT_FREE = Concept(
+    "three-segment-free", "Three segments, free breaks", "Three straight segments with free breaks.",
+    Segments(_THREE, (("inner_break", "Inboard break", 0.2, 0.64), ("outer_break", "Outboard break", 0.66, 0.95))),
 )  # fmt: skip
 
 
@@ -250,12 +214,9 @@ def _two_segment(division: float) -> Concept:
 def _three_segment(inner: float, outer: float) -> Concept:
     if not 0.15 <= inner < outer <= 0.97:
         raise ValueError(f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them")
-    anywhere = replace(
-        THREE_SEGMENT_FREE,
-        breaks=(("inner_break", "Inboard break", 0.15, 0.97), ("outer_break", "Outboard break", 0.15, 0.97)),
-    )
+    anywhere = (("inner_break", "Inboard break", 0.15, 0.97), ("outer_break", "Outboard break", 0.15, 0.97))
     return restrict(
-        anywhere,
+        replace(THREE_SEGMENT_FREE, family=Segments(_THREE, anywhere)),
         {"inner_break": inner, "outer_break": outer},
         name="three-segment",
         title="Three segments",
@@ -266,14 +227,16 @@ def _three_segment(inner: float, outer: float) -> Concept:
 CONCEPTS: dict[str, Concept] = {
     concept.name: concept
     for concept in (
-        LinearConcept(),
-        QuadraticConcept(),
+        Concept("linear", "Linear", "One rate from root to tip.", OneRate()),
+        Concept("quadratic", "Quadratic", "A parabola: its curvature, and the twist from root to tip.", Parabola()),
         _two_segment(DIVISION),
         TWO_SEGMENT_FREE,
         restrict(TWO_AIRFOILS, {"division": DIVISION}),
         _three_segment(*AIRFOIL_BREAKS),
         THREE_SEGMENT_FREE,
-        FreeFormConcept(),
+        Concept(
+            "free-form", "Free form", "A smooth curve through seven points, the bound for any smooth shape.", FreeForm()
+        ),
     )
 }
 """Concepts by name, the simplest first; a search of a concept may start from those before it."""

@@ -161,9 +161,9 @@ def sweep(
 
     Parameters:
         design: one design, or several.
-        mu: advance ratios. Give this or one of the quantities after `start`; everything else stays as in the design.
+        mu: advance ratios. Give this or one of the quantities after `start`, in the unit of its name; everything else
+            stays as in the design.
         start: an earlier solution to begin from, for designs of the same rotor.
-        {arguments}
 
     Returns:
         The solutions in order as a table, including those that did not converge.
@@ -199,11 +199,6 @@ def sweep(
                 last = solution
             solutions.append(solution.without_factors())
     return SweepTable(tuple(solutions), name)
-
-
-if sweep.__doc__:  # Python drops docstrings when it is asked to.
-    words = (f"{name}: {row.what} [{row.unit}]." for name, row in SWEPT.items() if name != "mu")
-    sweep.__doc__ = sweep.__doc__.replace("{arguments}", "\n        ".join(words))
 
 
 def schedule(

@@ -1,7 +1,6 @@
 """A chart as a value: two axes, series of lines, points and bands, and rules.
 
-`rotor.support.chart_svg` draws it for the trust page, reports, the documentation and lecture files,
-`rotor.support.plots` with
+`rotor.support.chart_svg` draws it for the trust page, reports and the documentation, `rotor.support.plots` with
 matplotlib, and `explorer/web/chart.js` on the page from `drawn_chart`. Ticks, ends of the axes and colours are decided
 here, so that all draw the same.
 """

@@ -10,43 +10,42 @@ CellValue = str | float | None
 """A text or a number; None where there is no value."""
 
 
+LEFT = "<"
+"""Format of words, which stand at the left."""
+
+
 @dataclass(frozen=True)
-class TableColumn:
+class Column:
     """One column, of all three forms or of some."""
 
-    key: str
-    """Name in CSV and JSON; empty: the column is in the text alone."""
-    head: str = ""
-    """Heading in text; empty with a key: the column is not there."""
+    head: str | None = None
+    """Heading in text; None: the text does not have the column."""
     shown: str = ""
-    """Format of numbers in text; < for words, which stand at the left."""
+    """Format of numbers in text, or `LEFT`."""
+    key: str = ""
+    """Name in CSV and JSON; empty: they do not have the column."""
     stored: str = ""
     """Format of numbers in CSV; JSON has them as they are."""
-
-    @property
-    def in_text(self) -> bool:
-        """Whether the text has it."""
-        return bool(self.head) or not self.key
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows with a cell for each column; `table` makes it."""
+    """Rows with a cell for each column; `table` makes it of any iterables."""
 
-    columns: tuple[TableColumn, ...]
+    columns: tuple[Column, ...]
     rows: tuple[tuple[CellValue, ...], ...]
 
     def text(self) -> str:
         """Aligned columns below their headings; words at the end that are too long for the terminal go on below."""
-        columns = [(k, column) for k, column in enumerate(self.columns) if column.in_text]
-        cells = [[column.head, *(_formatted(row[k], column.shown) for row in self.rows)] for k, column in columns]
-        sides = [str.ljust if column.shown == "<" else str.rjust for _, column in columns]
+        columns = [(k, column.head, column.shown) for k, column in enumerate(self.columns) if column.head is not None]
+        cells = [[head, *(_formatted(row[k], shown) for row in self.rows)] for k, head, shown in columns]
+        sides = [str.ljust if shown == LEFT else str.rjust for _, _, shown in columns]
         widths = [max(map(len, texts)) for texts in cells]
         lines: list[str] = []
         for texts in zip(*cells, strict=True):
             aligned = (side(text, width) for side, text, width in zip(sides, texts, widths, strict=True))
             line = "  ".join(aligned).rstrip()
-            lines.append(wrapped(line, "    ") if texts[-1] and columns[-1][1].shown == "<" else line)
+            lines.append(wrapped(line, "    ") if texts[-1] and sides[-1] is str.ljust else line)
         return "\n".join(lines)
 
     def csv(self) -> str:
@@ -68,14 +67,9 @@ class Table:
             raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 
 
-def table(columns: str, rows: Iterable[Iterable[CellValue]]) -> Table:
-    """A table of rows; its columns are `key|heading|format in text|format in CSV`, apart by semicolons.
-
-    The last parts may be left out. With `mu|µ|.2f; |model|<; twist` the text has µ and the model, CSV and JSON mu and
-    twist.
-    """
-    parts = (column.strip(" ").split("|") for column in columns.split(";"))
-    return Table(tuple(TableColumn(*part) for part in parts), tuple(map(tuple, rows)))
+def table(columns: Iterable[Column], rows: Iterable[Iterable[CellValue]]) -> Table:
+    """A table of rows."""
+    return Table(tuple(columns), tuple(map(tuple, rows)))
 
 
 def _formatted(cell: CellValue, form: str) -> str:

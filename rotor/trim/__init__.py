@@ -8,7 +8,6 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import analyse
-from rotor.trim.stability import stability_boundary
 
 __all__ = (
     "DEFAULT_OPTIONS",
@@ -21,6 +20,5 @@ __all__ = (
     "analyse",
     "analyse_many",
     "power_gradient",
-    "stability_boundary",
     "why_no_hub_loads",
 )

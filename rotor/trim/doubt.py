@@ -99,7 +99,11 @@ class Doubt:
 
     @property
     def sentence(self) -> str:
-        """In words: `Power 901 ± 52 kW. It saves 1.8 ± 0.7 % against A: sure.`"""
+        """`Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
+        return self.in_words("It")
+
+    def in_words(self, design: str) -> str:
+        """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
         said = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
@@ -107,10 +111,10 @@ class Doubt:
         if change is None or within is None or not self.against:
             return said
         if not words:
-            return f"{said} It neither saves nor costs."
+            return f"{said} {design} neither saves nor costs."
         verb = "saves" if change <= 0.0 else "costs"
         amount = abs(100.0 * change / self.against)
-        return f"{said} It {verb} {amount:.{min(decimals(within), 2)}f} {words}."
+        return f"{said} {design} {verb} {amount:.{min(decimals(within), 2)}f} {words}."
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""

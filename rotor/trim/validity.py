@@ -387,7 +387,7 @@ def _largest_twist(elements: BladeElements) -> float:
 
 
 def _share(stalled: float, reached: float) -> str:
-    """How much of the disk is stalled: at the nearest trim found, or where the last attempt ended."""
+    """How much of the disk is stalled: at the last trim found, or where the last attempt ended."""
     where = "there" if 0.0 < reached < 1.0 else "in the last attempt"
     return f" {100.0 * stalled:.0f} % of the disk is stalled {where}." if stalled > STALL_SHARE else ""
 
@@ -415,7 +415,8 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
         how_far = f" A trim was found only up to {math.floor(near.mass)} kg."
     elif reached > 0.0:
-        how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
+        place = f"{near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}"
+        how_far = f" The last trim found on the way there is at {place}."
     return (
         f"Not trimmed: {what} and advance ratio {condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
         f"{advice[:1].upper()}{advice[1:]}{'' if design.flaps else ', or let the blades flap'}."
@@ -451,5 +452,7 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
     how_far = ""
     if 0.0 < reached < 1.0 and not design.hovering:  # In hover it is the share of the thrust.
         near = easier_condition(design, reached).stand
-        how_far = f" The nearest trim found is at C_T/σ {near.ct_over_sigma:.4f}." if near is not None else ""
+        how_far = (
+            f" The last trim found on the way there is at C_T/σ {near.ct_over_sigma:.4f}." if near is not None else ""
+        )
     return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page
 from watched import Watched, opened, window
 
 from explorer.app import App
@@ -17,8 +17,6 @@ from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.report import report_html
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
-from explorer.story.steps import STEPS
-from explorer.story.story_file import story_html
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -144,49 +142,3 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
     with zipfile.ZipFile(saved(watched, "Tables", tmp_path)) as tables:
         assert b"8322 kg, 0 m" in tables.read("power.csv")
     assert "the sliders has no trim" in watched.text("export")
-
-
-@pytest.mark.slow
-def test_the_lecture_as_a_file_asks_and_answers_from_the_disk(browser: Browser, tmp_path: Path):
-    """Opened as a file: guess, answer, control and handle act, numbers are the solver's, nothing is asked of a host."""
-    steps = [step for step in STEPS if step.name in ("trim", "responding_wake")]
-    done = list[int]()
-    text = story_html(steps, tell=done.append)
-    assert done == [1, 2]
-    assert asks_nobody(text)
-    (tmp_path / "lecture.html").write_text(text, encoding="utf-8")
-    page = window(browser).new_page()
-    page.set_viewport_size({"width": 1280, "height": 720})
-    asked, wrong = requests_of(page), list[str]()
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.goto((tmp_path / "lecture.html").as_uri())
-    page.wait_for_selector("#rx[data-ready=true]")
-    figures = page.locator('[data-explorer="figures"] b')
-    assert figures.all_inner_texts() == ["?", "?", "?"]
-    page.locator("section[data-step='1'] .rxs-guess button").first.click()
-    power = solve(steps[0].begin().design()).power.total
-    expect(figures.first).to_have_text(f"{power / 1e3:.0f}\u00a0kW")
-    slider = page.locator("section[data-step='1'] [data-stop]")
-    slider.press("Home")
-    page.wait_for_function("() => document.querySelector('section[data-step=\"1\"] output').textContent === 'hover'")
-    hover = solve(make_design(mu=0.0)).power.total
-    expect(figures.first).to_have_text(f"{hover / 1e3:,.0f}\u00a0kW".replace(",", "\u00a0"))
-    page.keyboard.press("PageDown")
-    page.wait_for_selector('.rxs-column[data-step="2"]')
-    page.wait_for_selector(".rxs-wipe", state="visible")
-    tip = """name => { let found; window.__viserMutable.nodeRefFromName[name].traverse(part => {
-        if (part.isMesh) found ??= Array.from(part.geometry.attributes.position.array); }); return found; }"""
-
-    def apart(*names: str) -> float:
-        one, other = (page.evaluate(tip, name) for name in names)
-        return float(np.max(np.abs(np.subtract(one, other))))
-
-    # A has no twist, B has twist: drawn, the edges of their tips are apart [m].
-    Watched(page).until(lambda: apart("/compared/blade_1", "/rotor/blade_1") > 0.05)
-    # Elastic twist follows the azimuth: blades of one rotor differ too.
-    Watched(page).until(lambda: apart("/rotor/blade_0", "/rotor/blade_1") > 1e-3)
-    page.get_by_role("slider", name="Between A, left, and B, right").press("ArrowLeft")
-    page.wait_for_function("() => Math.abs(rotorWipe.at - 0.45) < 1e-6")
-    assert wrong == []
-    assert foreign(asked) == []
-    page.close()

@@ -18,8 +18,8 @@ from explorer.picture.fields import FIELDS
 from explorer.sharing import share
 from explorer.story import steps
 from explorer.story.facts import StepFacts, facts_of
+from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
-from explorer.story.story_file import answer_record, step_record
 from explorer.tabs.lecture import lecture_panel
 from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel
 from rotor import hub_loads

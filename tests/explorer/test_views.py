@@ -30,7 +30,7 @@ CHANGED = replace(OPENING, built_outer=-2.0)
 THESIS = Inputs(preset="thesis", **preset_inflow("thesis"))
 STAND = with_rotor(OPENING, "xv15")
 FREE = replace(OPENING, inflow="uniform", stand=StandInputs("free-rotor", tip_mach=0.6))
-SENTENCE = "The rotor is too heavy. The nearest trim found is at 9 t."
+SENTENCE = "The rotor is too heavy. The last trim found on the way there is at 9 t."
 
 
 @cache
@@ -177,7 +177,7 @@ class TestWithoutATrim:
         good, card = soon(now_at(CHANGED)), power_card(soon(now_at(CHANGED)))["power"]
         lost = replace(good, problem=SENTENCE)
         found = power_card(lost)["power"]
-        assert found.problem == "The rotor is too heavy. Greyed: last converged solution."
+        assert found.problem == f"{SENTENCE} Greyed: last converged solution."
         assert (found.status.words, found.status.title) == ("no trim", SENTENCE)
         assert replace(found, problem="", status=card.status) == card
         assert {one.faded for one in strip(lost)["strip"]} == {True}

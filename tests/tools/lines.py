@@ -20,8 +20,8 @@ import numpy as np
 
 from rotor.__main__ import build_parser, main
 
-SHORT = ("solve", "airfoil", "stability")
-COMMANDS = (*SHORT, "sweep", "front", "waterfall", "optimise", "schedule", "envelope", "actuator")
+SHORT = ("solve", "airfoil")
+COMMANDS = (*SHORT, "sweep", "front", "waterfall", "optimise", "schedule", "actuator")
 """Without those that take minutes. Files of studies are tried in tests/rotor/study."""
 PLAUSIBLE = {
     "mu": ("0", "0.1", "0.3", "0.1:0.3:0.1"), "twist": ("linear:-8", "segments:-5,-12@0.5", "builtin"),
@@ -29,7 +29,7 @@ PLAUSIBLE = {
     "rotor_speed_percent": ("95", "105"), "load_factor": ("1.2",), "climb_m_s": ("3", "-3"),
     "twist_per_rev": ("2:1:180",), "pitch_per_rev": ("3:0.5:0",), "actuator": ("MFC_P1",),
     "starts": ("1",), "points": ("2",), "save": ("a.json",), "csv": ("a.csv", "-"), "plot": ("a.svg",),
-    "rate_deg": ("-20,0",), "boundary": ("0:8:4",), "concept": ("linear", "two-segment"), "division": ("0.5",),
+    "rate_deg": ("-20,0",), "concept": ("linear", "two-segment"), "division": ("0.5",),
 }  # fmt: skip
 """Values that may be right, by flag."""
 ODD = (

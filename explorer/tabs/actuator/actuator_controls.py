@@ -54,8 +54,6 @@ class ActuatorControls:
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("numbers")
             text("limits")
-        with gui.add_folder("Modes and damping", expand_by_default=False):
-            text("modes")
         shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""

@@ -10,15 +10,15 @@ from typing import Any
 
 import viser
 
-from explorer.model.inputs import OWN, Inputs, ViewState, preset_inflow
+from explorer.model.inputs import OWN, Inputs, preset_inflow
 from explorer.model.session_state import ScreenState, SessionState, same_but_flight
 from explorer.model.units import UNITS
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import StepFacts, facts_at
+from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
-from explorer.story.story_file import StoryTask, answer_record, step_record
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.layout import by_hand
@@ -26,7 +26,6 @@ from explorer.tabs.views import SceneViews
 from explorer.text.glossary import hint
 from explorer.workers.call import Call
 from rotor.support.markup import tag
-from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
@@ -49,8 +48,6 @@ EXAMPLES: dict[str, Inputs] = {
 CASES = {**DOCUMENT, **EXAMPLES}
 """The menu."""
 _NO_CASE = "–"
-_PATIENCE = 600.0
-"""[s] for the lecture as a file: seconds, but for a server that many use."""
 
 
 _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
@@ -77,11 +74,7 @@ class LecturePanel(Tab):
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
-        self._file = gui.add_button(
-            "Lecture as one file", icon=viser.Icon.FILE_EXPORT, color="gray", hint=hint("story")
-        )
         self._begin.on_click(lambda _: self.toggle())
-        self._file.on_click(lambda _: self._write_file())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
         by_hand(self._case, self._case_chosen)
         on = context.bridge.on
@@ -171,29 +164,6 @@ class LecturePanel(Tab):
 
     def stop(self) -> None:
         self._told.stop()
-
-    def _write_file(self) -> None:
-        """Have the lecture made as a file in a worker process, in the page's units and theme, and send it."""
-        context, view = self._context, self._context.view()
-        task = StoryTask(ViewState(units=view.units, dark=view.dark))
-        self._file.disabled, self._file.label = True, "Making the file …"
-
-        def heard(news: JobEvent) -> None:
-            match news:
-                case JobProgress(done):
-                    self._file.label = f"Making the file: {done} of {len(STEPS)} steps …"
-                    return
-                case JobEnded(str(text)):
-                    context.download("lecture.html", text.encode("utf-8"))
-                case JobEnded():
-                    context.notify("Lecture not saved", "It took too long: try again when the server is less busy.")
-                case JobFailed(message):
-                    context.notify("Lecture not saved", message)
-                case _:
-                    return
-            self._file.disabled, self._file.label = False, "Lecture as one file"
-
-        context.pool.begin(task, heard, _PATIENCE, urgency=6)
 
     def _fly_on(self) -> None:
         """The lecture ends in Actuate, on the blade of its last step."""
@@ -288,7 +258,6 @@ class LecturePanel(Tab):
                 busy=state is None,
                 problem=answer if isinstance(answer, str) else "",
                 held=self._context.held,
-                finish="Fly it",
             ),
         )
 

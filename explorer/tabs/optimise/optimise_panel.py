@@ -52,16 +52,15 @@ def same_but_twist(optimised: Design, present: Design) -> bool:
 class OptimisePanel(BackgroundWork):
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, context: TabContext) -> None:
+    def __init__(self, context: TabContext, challenge: Callable[[Design], None]) -> None:
+        """`challenge` hears of an optimum that is to be beaten by hand."""
         super().__init__(context.pool, context.wake, TIME_LIMIT)
-        self._context = context
+        self._context, self._challenge = context, challenge
         gui, bridge = context.gui, context.bridge
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self.run: SearchRun | None = None
         """The last search; None before the first."""
-        self.challenge: Callable[[Design], None] = lambda optimum: None
-        """Called with an optimum that is to be beaten by hand."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
         form = self.form = WidgetForm(gui, lambda name, by_hand: context.wake() if by_hand else None)
@@ -239,7 +238,7 @@ class OptimisePanel(BackgroundWork):
         if run is not None and not run.under_way and len(run.frames) > 1 and self._beatable(run):
             self._close(False)
             self._context.layout.show_mode("explore")
-            self.challenge(run.frames[-1].design)
+            self._challenge(run.frames[-1].design)
 
     def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""

@@ -1,21 +1,13 @@
 """Inflow models of forward flight behind one interface, by name."""
 
-import pkgutil
-from importlib import import_module
-
+from rotor.aero.inflow import lifting_line, linear, local_momentum
 from rotor.aero.inflow.interface import DiskFlow as DiskFlow
 from rotor.aero.inflow.interface import InflowModel as InflowModel
 
-
-def shipped() -> dict[str, InflowModel]:
-    """`MODELS` of every file in this folder, by name: first what the load does not change, last what lays a wake."""
-    files = (import_module(f"{__name__}.{one.name}") for one in pkgutil.iter_modules(__path__))
-    models: list[InflowModel] = [model for file in files for model in getattr(file, "MODELS", ())]
-    return {m.name: m for m in sorted(models, key=lambda m: (m.load_dependent, m.wake_along is not None))}
-
-
-INFLOW_MODELS = shipped()
-"""Forward-flight inflow models by name, from the simplest to the most detailed."""
+MODELS: tuple[InflowModel, ...] = (*linear.MODELS, *local_momentum.MODELS, *lifting_line.MODELS)
+"""From the simplest to the most detailed."""
+INFLOW_MODELS = {model.name: model for model in MODELS}
+"""Forward-flight inflow models by name."""
 
 
 def inflow_model(name: str) -> InflowModel:

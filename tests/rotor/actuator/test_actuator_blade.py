@@ -16,15 +16,13 @@ from rotor.actuator.installation import (
     drive,
     harmonic_loss,
     install,
-    without_nose_weight,
 )
-from rotor.actuator.limits import ELEMENTS, actuator_stability, bending_moments, fibre_strain, limits
+from rotor.actuator.limits import ELEMENTS, bending_moments, fibre_strain, limits
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.dynamics.structure import BendingStructure, uh60a_structure
 from rotor.dynamics.torsion import torsion_beam, torsion_frequency, twist_under_moment
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
-from rotor.trim.stability import margins
 
 SPEED = 27.0
 
@@ -230,46 +228,3 @@ def test_limits(installed: InstalledActuator, swing: float, broken: set[str], ke
     for strain in (limit for limit in found if limit.name == "fibre-strain"):
         assert_allclose(strain.value, 1e6 * fibre_strain(installed).total.max())
         assert strain.ok == (strain.value <= strain.bound)
-
-
-# Centre of gravity and stability
-
-
-def test_plies_move_the_centre_of_gravity_aft_and_a_nose_weight_moves_it_back():
-    """By hand in the middle of the span: (plies and leads) × 0.175 c over the mass there; with the weight nothing."""
-    installed = mfc(1)
-    free = without_nose_weight(installed)
-    low, high = installed.added.span
-    r, structure = 0.5 * (low + high), free.blade
-    plies = (installed.masses.actuator + installed.masses.wiring) / (high - low)
-    blade = float(uh60a_structure().at(r, uh60a_structure().mass_per_length))
-    arm = (0.5 * (0.05 + 0.80) - 0.25) * uh60a_structure().chord
-    assert_allclose(structure.at(r, structure.mass_offset), plies * arm / (blade + plies), rtol=0.01)
-    assert_allclose(structure.at(0.9 * low, structure.mass_offset), 0.0, atol=1e-12)
-    assert np.abs(installed.blade.mass_offset or (0.0,)).max() < 1e-12
-
-
-def test_the_blade_with_its_actuator_is_less_damped_and_nearer_to_flutter_without_nose_weight():
-    """Torsion has more inertia, so a lower frequency; an aft centre of gravity brings flutter nearer."""
-    design = make_design(mu=0.0)
-    found = actuator_stability(mfc(1), design)
-    assert found.unbalanced is not None
-    torsion = [case.mode("torsion 1").frequency for case in found.cases.values()]
-    assert torsion[0] > torsion[1]
-    bare, fitted, free = (case.margins for case in found.cases.values())
-    assert free.instability_stiffness > fitted.instability_stiffness
-    assert bare.offset is not None
-    assert free.offset is not None
-    assert free.offset < bare.offset
-    assert list(found.to_dict()) == ["without", "with", "without nose weight"]
-
-
-def test_the_limit_of_flutter_is_a_number():
-    design = make_design(mu=0.0)
-    installed = mfc(1)
-    found = {limit.name: limit for limit in limits(installed, (0.5,), solve(installed.on(design)))}
-    flutter = found["flutter"]
-    assert flutter.ok
-    assert flutter.value == pytest.approx(100.0 * margins(installed.on(design)).instability_stiffness)
-    assert "% of its torsional stiffness" in flutter.sentence
-    assert "flutter" not in {limit.name for limit in limits(installed, (0.5,))}

@@ -1,15 +1,15 @@
-"""A further inflow model is one file: a table of harmonics, whose numbers are made up, is put beside the others."""
+"""A further inflow model is one file and one line: here a table of harmonics, whose numbers are made up."""
 
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero import inflow
 from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.harmonic import HarmonicInflow
 from rotor.aero.inflow.linear import MODELS
@@ -59,9 +59,10 @@ MODELS = (PrintedTable(),)
 '''
 COMMANDS = f"""
 import sys
-from rotor.aero import inflow
-inflow.__path__.append(sys.argv[1])
-inflow.INFLOW_MODELS.update(inflow.shipped())
+from rotor.aero.inflow import INFLOW_MODELS
+sys.path.append(sys.argv[1])
+import printed_table
+INFLOW_MODELS["{NAME}"] = printed_table.MODELS[0]
 from explorer.model.inputs import INFLOW_MENUS, Inputs
 from rotor.__main__ import main
 assert INFLOW_MENUS["inflow"]["{NAME}"] == "Printed table"
@@ -74,12 +75,12 @@ sys.exit(main(["solve", "--mu", "0.2", "--inflow", "{NAME}", "--elements", "12",
 def table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[HarmonicInflow]:
     """The model, from its file."""
     (tmp_path / f"{FILE}.py").write_text(TEXT, encoding="utf-8")
-    monkeypatch.setattr(inflow, "__path__", [*inflow.__path__, str(tmp_path)])
-    model = inflow.shipped()[NAME]
+    monkeypatch.syspath_prepend(tmp_path)
+    (model,) = import_module(FILE).MODELS
     assert isinstance(model, HarmonicInflow)
     monkeypatch.setitem(INFLOW_MODELS, NAME, model)
     yield model
-    del sys.modules[f"{inflow.__name__}.{FILE}"]
+    del sys.modules[FILE]
 
 
 @pytest.mark.parametrize("loss_on", ["lift", "inflow"])

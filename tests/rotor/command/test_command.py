@@ -109,7 +109,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["optimize", "--hover"], "did you mean 'optimise'?"),
         (["solve", "--twst", "linear:-8"], "did you mean '--twist'?"),
         (["sweep", "--mu", "0.4:0.1:0.1"], "write 0.4:0.1:-0.1 or 0.1:0.4:0.1"),
-        (["envelope", "--hover"], "--hover is not a flag of this command; see"),
+        (["schedule", "--hover"], "--hover is not a flag of this command; see"),
         (["sweep", "--mu", "0.1", "--twist", "linear:-8", "--relative-to", "builtin"], "use linear:-8"),
         (["solve", "--trim", "controls", "--thrust-n", "20"], "needs a collective"),
         (["solve", "--ct-over-sigma", "0.07"], "add --trim wind-tunnel"),

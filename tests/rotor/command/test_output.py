@@ -85,25 +85,3 @@ def test_bash_completes_commands_and_flags(capsys: pytest.CaptureFixture[str]):
         program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
         done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
         assert done.stdout.split() == [expected]
-
-
-def test_stability_as_text_and_as_json(capsys: pytest.CaptureFixture[str]):
-    text = run(capsys, "stability", "--hover", "--boundary", "0:4:4")
-    assert "torsion 1" in text
-    assert "of the stiffness in torsion" in text
-    found = json.loads(run(capsys, "stability", "--hover", "--boundary", "0:4:4", "--json"))
-    assert found["stable"]
-    assert next(mode["name"] for mode in found["modes"]) == "flap 1"
-    first, aft = found["boundary"]
-    assert first["instability_stiffness_percent"] < aft["instability_stiffness_percent"]
-    assert first["instability_stiffness_percent"] == found["margins"]["instability_stiffness_percent"]
-    rows = list(csv.DictReader(io.StringIO(run(capsys, "stability", "--hover", "--csv", "-"))))
-    assert [row["name"] for row in rows] == [mode["name"] for mode in found["modes"]]
-    rows = csv.DictReader(io.StringIO(run(capsys, "stability", "--hover", "--boundary", "0:4:4", "--csv", "-")))
-    assert [{name: float(cell) for name, cell in row.items()} for row in rows] == found["boundary"]
-
-
-def test_stability_refuses_what_it_cannot_do(capsys: pytest.CaptureFixture[str]):
-    for words, remedy in ((("--plies", "2"), "add --actuator"), (("--cg-offset-percent", "80"), "give less")):
-        assert main(["stability", "--hover", *words]) == 2
-        assert remedy in capsys.readouterr().err

@@ -15,7 +15,7 @@ from explorer.text.glossary import CONTROLS
 from rotor.command.common import add_design_arguments
 from rotor.command.common import design_from as design_from_flags
 from rotor.design.design import Design
-from rotor.design.quantities import CONDITION
+from rotor.design.quantities import CONDITION, SWEPT, Flight
 from rotor.dynamics.torsion import blade_modes
 from rotor.files.design_file import design_from_record
 from rotor.optimisation.objective import read_mission
@@ -110,6 +110,7 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
     """Flag, file, link, study, sweep, mission, JSON, report, slider and tooltip: of every row of the condition."""
     parser = argparse.ArgumentParser()
     add_design_arguments(parser)
+    assert Flight.__annotations__.keys() == SWEPT.keys() - {"mu"}  # What a type checker sees of it.
     for name, row in CONDITION.items():
         if name == "mu":
             continue

@@ -103,7 +103,7 @@ def test_a_change_added_to_a_fixed_law():
     changed = concept.apply(design, values)
     assert changed.twist.spec() == "uh60a+segments:-2,1@0.5"
     assert airfoils_spec(changed.rotor) == "sc1094r8,sc1095@0.5"
-    assert_allclose(changed.twist(R) - design.twist(R), concept.base.twist(values)(R))  # pyright: ignore[reportAttributeAccessIssue]
+    assert_allclose(changed.twist(R) - design.twist(R), CONCEPTS[concept.name].twist(values)(R))
     assert_allclose(nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9)
     law = parse_twist("linear:+3+uh60a", builtin=design.twist)
     assert_allclose(law(R), math.radians(3.0) * (R - 0.75) + design.twist(R))
