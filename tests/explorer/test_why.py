@@ -38,9 +38,9 @@ class TestWhereTheLiftIs:
     def test_the_centroid_of_known_loadings(self):
         solution = flown(inflow="drees")
         middle = 0.5 * (solution.design.rotor.blade.root_cutout + 1.0)
-        assert_allclose(lift_centroid(lifting(solution, np.ones(()))), (middle, 0.0), atol=1e-12)
+        assert lift_centroid(lifting(solution, np.ones(()))) == pytest.approx((middle, 0.0), abs=1e-12)
         swayed = lift_centroid(lifting(solution, 1.0 + np.sin(solution.disk.psi)))
-        assert_allclose(swayed, (middle, 0.5), atol=1e-12)
+        assert swayed == pytest.approx((middle, 0.5), abs=1e-12)
         still = lifting(replace(solution, design=solution.design.with_twist("linear:-3")), np.zeros(()))
         assert lift_centroid(still) is None
         assert why(solution, still).startswith("A new twist: ")
