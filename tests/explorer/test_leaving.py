@@ -146,7 +146,7 @@ def test_who_leaves_during_an_export_is_a_line_at_most(app: App, caplog: pytest.
         await visitor.close()
 
     async def visit() -> None:
-        await asyncio.gather(*map(export, ("Picture", "Report", "Tables", "Jig STL")))
+        await asyncio.gather(*map(export, ("Picture", "Report", "Tables", "As-built STL")))
         while app.sessions or any(one.name == "export" for one in threading.enumerate()):
             await asyncio.sleep(0.05)
 
