@@ -1,8 +1,12 @@
 """What cached functions of the solver read: their arguments alone. How many bytes all caches keep together."""
 
+import linecache
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
+from types import FrameType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -64,6 +68,41 @@ def test_a_result_larger_than_all_room_is_kept_until_the_next(room: Callable[[in
     make(8)
     assert make(7)[0] == 7.0
     assert [number for _, number in made] == [7, 8, 7]
+
+
+def test_an_interrupt_at_any_line_leaves_the_caches_whole(room: Callable[[int], None]):
+    """In a notebook, Ctrl-C between two lines left a result that no cache could drop: each trim after it failed."""
+    room(2)
+    kept, lines, at = bytes_cache._kept, 0, 0
+
+    def traced(frame: FrameType, event: str, _: object) -> Any:
+        nonlocal lines
+        if not frame.f_code.co_filename.endswith("bytes_cache.py"):
+            return None
+        # Python looks for signals after calls: none comes between a lock and the `try` behind it, or before its exit.
+        text = linecache.getline(frame.f_code.co_filename, frame.f_lineno)
+        if event == "line" and not text.lstrip().startswith(("with ", "try:")):
+            lines += 1
+            if lines == at:
+                raise KeyboardInterrupt
+        return traced
+
+    before, stopped = sys.gettrace(), True
+    while stopped:
+        make, at, lines, stopped = maker([], "a"), at + 1, 0, False
+        try:
+            sys.settrace(traced)
+            for number in (1, 2, 1, 3, 1, 4):
+                make(number)
+        except KeyboardInterrupt:
+            stopped = True
+        finally:
+            sys.settrace(before)
+        assert not kept.lock._is_owned()  # pyright: ignore[reportAttributeAccessIssue]
+        assert make(5)[0] == 5.0
+        vars(make)["cache_clear"]()
+        assert (bytes_kept(), [*kept._results], kept._holders) == (0, [], {})
+    assert at > 300
 
 
 def test_arrays_of_several_results_count_once_and_arguments_count(room: Callable[[int], None]):

@@ -236,11 +236,9 @@ class StudyFolder:
 
     def _chunk_in(self, path: Path) -> int:
         """The number of a chunk whose file can be used; StudyFolderError for another's, any error for a damaged one."""
-        content = path.read_bytes()
-        if not is_undamaged(content):
+        if not is_undamaged(path.read_bytes()):
             raise ValueError
-        arrow, parquet = arrow_modules()
-        metadata = parquet.read_metadata(arrow.BufferReader(content))
+        metadata = arrow_modules()[1].read_metadata(str(path))
         about = {key.decode(): value.decode() for key, value in metadata.metadata.items()}
         if about["study"] != self.study.fingerprint:
             raise StudyFolderError("is of another study")

@@ -7,7 +7,8 @@ for all other objects. Results grow where they have cached properties, so each i
 
 import gc
 from collections import Counter, OrderedDict
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Generator, Hashable
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import wraps
 from threading import RLock
@@ -70,13 +71,28 @@ class _Kept:
     def __init__(self) -> None:
         self.lock = RLock()
         self.limit, self.bytes = CACHE_BYTES, 0
+        self.caches = list[dict[Hashable, _Result]]()
         self._results = OrderedDict[_Result, None]()
         self._holders = Counter[int]()
         """How many results hold a buffer."""
 
+    @contextmanager
+    def whole(self) -> Generator[None]:
+        """What is changed within is changed whole. Ctrl-C may come at any place: then all is forgotten."""
+        with self.lock:
+            try:
+                yield
+            except BaseException:
+                for known in self.caches:
+                    known.clear()
+                self._results.clear()
+                self._holders.clear()
+                self.bytes = 0
+                raise
+
     def use(self, result: _Result) -> None:
         """It is new, or used once more."""
-        with self.lock:
+        with self.whole():
             if result.uses and result not in self._results:
                 return  # Another thread has just dropped it.
             self._results[result] = None
@@ -89,8 +105,10 @@ class _Kept:
                 self.fit()
 
     def drop(self, result: _Result) -> None:
-        with self.lock:
-            del self._results[result], result.cache[result.key]
+        """Within `whole`."""
+        result.cache.pop(result.key, None)
+        if result in self._results:
+            del self._results[result]
             self._count(result, -1)
 
     def fit(self) -> None:
@@ -121,7 +139,7 @@ def limit_caches(size: int) -> None:
     """Let all caches of this process keep so many bytes together; ValueError below `LEAST`."""
     if size < LEAST:
         raise ValueError(f"{size / 2**20:.4g} MB is too little for caches: give at least {LEAST // 2**20} MB")
-    with _kept.lock:
+    with _kept.whole():
         _kept.limit = size
         _kept.fit()
 
@@ -129,6 +147,7 @@ def limit_caches(size: int) -> None:
 def bytes_cache(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """A decorator like `lru_cache`, for functions whose results or arguments hold arrays. Safe from any thread."""
     known = dict[Hashable, _Result]()
+    _kept.caches.append(known)
 
     @wraps(function)
     def cached(*args: _P.args, **kwargs: _P.kwargs) -> _T:
@@ -144,7 +163,7 @@ def bytes_cache(function: Callable[_P, _T]) -> Callable[_P, _T]:
         return result.value
 
     def clear() -> None:
-        with _kept.lock:
+        with _kept.whole():
             for result in list(known.values()):
                 _kept.drop(result)
 
