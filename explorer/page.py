@@ -14,6 +14,7 @@ import viser
 from explorer.charts.plots import PowerCurve
 from explorer.hosting.browser import Bridge, set_query
 from explorer.hosting.messages import PageFacts
+from explorer.model.actuator_inputs import AT_REST, ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, Reading, SessionState
 from explorer.model.sliders import nearest_trim
@@ -131,7 +132,7 @@ class Page:
                 self.schedule = SchedulePanel(context, self.optimise)
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
-            self._actuator_inputs = self.actuator.inputs()
+            self._actuator_inputs = self._acting()
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
         self._now = PageState(start, None, None, analyses=context.analyses)
         """As of the last update; `now` has the rest."""
@@ -197,8 +198,13 @@ class Page:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
         self._pause = self.controls.pauses.longest()
         with self.context.whole:
-            self._actuator_inputs = self.actuator.inputs()
+            self._actuator_inputs = self._acting()
             return self.history.read(self._pause), self.display.view()
+
+    def _acting(self) -> ActuatorInputs:
+        """The actuator as set; at rest outside Actuate, where the design is that of sliders, link and search."""
+        inputs = self.actuator.inputs()
+        return inputs if self.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""

@@ -253,6 +253,7 @@ class SceneViews:
             self._lift(self._mode == "actuate")
             if before == "actuate":
                 self._actuator.leave()
+            self._context.wake()  # A voltage acts in Actuate only.
         self._show()
 
     def _lift(self, out: bool, towards: View | None = None) -> None:

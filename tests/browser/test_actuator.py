@@ -165,6 +165,7 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     expect(dot).to_have_attribute("data-kind", "gain", timeout=VERDICT)
     watched.reads("supposed", r"saves \d.* over the flight")
     page.wait_for_function("() => /[&?]i=[0-9.]+,[0-9.]+/.test(location.search)", timeout=VERDICT)
+    watched.answered(wholly=True)  # Each answer may draw the chart anew, on other axes.
     twist = float(dot.get_attribute("aria-valuenow") or "nan")
     dot.focus()
     page.keyboard.press("ArrowRight")

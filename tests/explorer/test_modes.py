@@ -29,8 +29,9 @@ def kilowatts(design: Design) -> float:
 
 
 def design_of(page: Page) -> Design:
-    """What the sliders and the voltages mean."""
-    return page.actuator.inputs().apply(page.controls.inputs().design())
+    """What the sliders mean and, in Actuate, the voltages."""
+    sliders = page.controls.inputs().design()
+    return page.actuator.inputs().apply(sliders) if page.layout.mode == "actuate" else sliders
 
 
 def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str, Any]:
@@ -145,6 +146,13 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await visitor.press("lecture", "end")
         await visitor.until(lambda: page._views.on_screen() == before)
         await right(visitor, page, "actuate", "disk")
+        assert abs(kilowatts(design_of(page)) - kilowatts(page.controls.inputs().design())) > 1.0
+        for mode in ("optimise", "explore"):  # Sliders, link and search know no voltage.
+            await visitor.press("mode", mode)
+            await right(visitor, page, mode)
+        assert page.actuator.inputs().drives == DRIVEN
+        await visitor.press("mode", "actuate")
+        await right(visitor, page, "actuate", "actuator")
         await visitor.close()
 
     ran(visit)
