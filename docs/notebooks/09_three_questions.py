@@ -17,8 +17,8 @@ varied. The size did not.
 **Which twist law is best?** No clear winner: two or three segments, or a quadratic twist, save 0.2 to 0.3 % more than
 one linear twist that follows speed. One good fixed twist saves 0.6 % against −16°.
 
-**Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs 23 kW,
-because of its mass. Unlimited twist would gain 3 kW, an eighth of that.
+**Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs 23 kW
+more than the best fixed twist, because of its mass. Unlimited twist would gain 3 kW, an eighth of that.
 
 How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known ten times
 better than power itself.

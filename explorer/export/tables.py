@@ -137,8 +137,7 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     power = causes("Uncertainty of power", "Power", lambda row: row.power)
     if not band.change_words:
         return power
-    words = f"Change, {band.change_words.removeprefix('± ')}"
-    return group(power, causes("Uncertainty of the change", words, lambda row: row.change or 0.0))
+    return group(power, causes("Uncertainty of the change", f"Change: {band.sureness}", lambda row: row.change or 0.0))
 
 
 def vibration(solution: Solution) -> Markup:

@@ -127,26 +127,23 @@ async def visit(address: str, process: int, pages: int) -> dict[str, float]:
 
 
 def loads() -> dict[str, dict[str, float]]:
-    """One page and many, by their number; 0: the server after its first page."""
+    """One page and many, by their number, on a server that has had a page before."""
     with served() as (address, process):
 
-        async def first() -> dict[str, float]:
+        async def first() -> None:
             visitor = await arrived(address)
             await visitor.idle()
             await visitor.close()
-            return {"mb": round(memory(process))}
 
-        found = {"0": ran(first)}
-        for pages in (1, PAGES):
-            found[str(pages)] = ran(lambda pages=pages: visit(address, process, pages), 600.0)
-        return found
+        ran(first)
+        return {str(n): ran(lambda n=n: visit(address, process, n), 600.0) for n in (1, PAGES)}
 
 
 def page(data: dict[str, Any]) -> str:
     """docs/measured.md."""
     times = data["ms"]
-    alone, many, start = (data["pages"][key] for key in ("1", str(PAGES), "0"))
-    each = (many["mb"] - start["mb"]) / PAGES
+    alone, many = (data["pages"][key] for key in ("1", str(PAGES)))
+    each = (many["mb"] - alone["mb"]) / (PAGES - 1)
     per_trim = 1e3 / data["trims_per_second_and_core"]["as a study works them off"]
     solver = [(words, *(f"{times[f'{column}{row}']:.2g}" for column in _COLUMNS)) for row, words in _ROWS.items()]
     other = [
@@ -178,7 +175,7 @@ Processor time of one core in ms, the least of {data["runs"]} runs, mean of six 
 ## A server and its pages
 
 Each page drags a slider and draws nothing: an edit, its frame, a pause of {1e3 * _PAUSE:.0f} ms, the next edit.
-After its first page the server takes {start["mb"]} MB; each page at work adds {each:.0f} MB.
+Each further page at work adds {each:.0f} MB.
 
 {_table(("", "one page", f"{PAGES} pages at once"), load)}
 """

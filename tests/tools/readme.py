@@ -21,7 +21,9 @@ ROTORS = (
     {"flown-power": "Gazelle power over speed, shape"},
 )
 """The sets of measured rotors by line, and what each is called there."""
-OTHERS = {"glasgow-loops": "pitching aerofoil C_m", "sc1095": "SC1095 drag", "theory": "identities", "grid": "grid"}
+OTHERS = {
+    "glasgow-loops": "pitching aerofoil C_m about 15°", "sc1095": "SC1095 drag", "theory": "identities", "grid": "grid",
+}  # fmt: skip
 """Sets without a rotor, in the sentence below the table."""
 
 
