@@ -104,16 +104,22 @@ class HistoryPanel(Tab):
             if held:
                 self._history.hold()
             else:
-                self._history.note(self._context.inputs(), 0.0)
+                self._note()
                 self._history.release()
 
     def undo(self) -> None:
         with self._lock:
+            self._note()
             self._move(self._history.undo())
 
     def redo(self) -> None:
         with self._lock:
+            self._note()
             self._move(self._history.redo())
+
+    def _note(self) -> None:
+        """What was moved since the last update is a step too."""
+        self._history.note(self._context.inputs(), 0.0)
 
     def keep(self) -> None:
         """Set the present design aside; the oldest goes when there are too many."""

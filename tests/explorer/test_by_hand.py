@@ -52,6 +52,26 @@ def visited(app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]],
     ran(visit)
 
 
+def test_undo_takes_back_what_no_update_has_read_yet(app: App):
+    """On a busy machine it did nothing, for the step was not known yet."""
+
+    async def stands(page: Page, rate: float) -> None:
+        for _ in range(500):
+            if page.controls.inputs().built_inner == rate:
+                return
+            await asyncio.sleep(0.02)
+        assert page.controls.inputs().built_inner == rate
+
+    async def hurry(visitor: Visitor, page: Page) -> None:
+        with page.context.whole:  # No update reads, and none sends anything.
+            await visitor.move(BEGUN, -4.0)
+            await stands(page, -4.0)
+            await visitor.press("undo")
+            await stands(page, 0.0)
+
+    visited(app, hurry)
+
+
 def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(undo, "PAUSE", 0.1)
 
