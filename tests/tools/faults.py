@@ -2,7 +2,7 @@
 
 A fault is another operator, comparison, sign, number, truth or returned value at one place. A seed draws as many from
 each of `PARTS`. Each is written into a copy of the checkout, where the tests run that import the file, themselves or by
-way of others, nearest first, up to the first that fails.
+way of others, up to the first that fails: first those named after the file or that say the name, then the nearest.
 """
 
 import argparse
@@ -121,8 +121,10 @@ def tests_of(file: str, name: str, users: dict[str, set[str]]) -> list[str]:
         front = sorted({user for module in modules for user in users[module]} - seen)
         seen |= {*front}
         found += [one for one in front if re.match(r"tests/(rotor|explorer)/.*test_\w+\.py", one)]
-    said = re.compile(rf"\b{name}\b")
-    return sorted(found, key=lambda test: not said.search((ROOT / test).read_text("utf-8")))[:MOST]
+    said, own = re.compile(rf"\b{re.escape(name)}\b"), f"test_{Path(file).stem}.py"
+    return sorted(found, key=lambda test: not test.endswith(own) and not said.search((ROOT / test).read_text("utf-8")))[
+        :MOST
+    ]
 
 
 def run(checkout: Path, tests: list[str]) -> tuple[int, str]:
