@@ -21,10 +21,10 @@ solutions = {case.name: rotor.solve(case.design()) for case in CASES}
 def show(axes, name, quantity, r, mean=True):
     """Measured points and our line, with or without their means; the correlation of their harmonics."""
     measured = curves[name, quantity, r]
-    psi, ours = computed_curve(measured, solutions[name])
+    psi, computed = computed_curve(measured, solutions[name])
     theirs = measured.values if mean else measured.values - measured.values.mean()
     axes.plot(np.degrees(measured.psi), theirs, "k.", markersize=3)
-    axes.plot(np.degrees(psi), ours if mean else ours - ours.mean())
+    axes.plot(np.degrees(psi), computed if mean else computed - computed.mean())
     found = agreement(measured, solutions[name])
     axes.set_title(f"{name}, {r:g} R: correlation {found.correlation:.2f}")
     return found

@@ -57,8 +57,10 @@ class MeasuredChart:
         places = [wide * point[along] for point in measured.points]
         values = [size * point[measured.quantity] for point in measured.points]
         scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
-        ours = [(wide * point.given[along], size * point.ours[measured.quantity]) for point in known if point.ours]
-        ours.sort()
+        computed = [
+            (wide * point.given[along], size * point.computed[measured.quantity]) for point in known if point.computed
+        ]
+        computed.sort()
         x = (
             wide
             * {
@@ -69,7 +71,7 @@ class MeasuredChart:
             }[along]
         )
         y = size * now
-        seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
+        seen = [*values, *(value for _, value in computed), *([y] if math.isfinite(y) else [])]
         low, high = min(places), max(places)
         words = [
             _words(measured, value, point)
@@ -82,7 +84,7 @@ class MeasuredChart:
             Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
             Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
             (
-                role_line("saving", [place for place, _ in ours], [value_here for _, value_here in ours]),
+                role_line("saving", [place for place, _ in computed], [value_here for _, value_here in computed]),
                 Points("", places, values, INK, "ring", scatter, words, size=2.6),
                 now_dot(x, y),
             ),
@@ -130,16 +132,15 @@ def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
 
 
 def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> str:
-    """A measured value in words, with ours and the error where it is known."""
+    """A measured value in words, with the computed one and its error where they are known."""
     _, unit, size = _QUANTITIES[measured.quantity]
     words = f"{unit}: measured {value:.4g}"
     if point is None:
         return words
-    if point.ours is None or point.error_percent is None:
+    if point.computed is None or point.error_percent is None:
         return f"{words}; the computed case does not trim"
-    return (
-        f"{words}, computed {size * point.ours[measured.quantity]:.4g}, {number(point.error_percent, 1, sign=True)} %"
-    )
+    computed = size * point.computed[measured.quantity]
+    return f"{words}, computed {computed:.4g}, {number(point.error_percent, 1, sign=True)} %"
 
 
 def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
@@ -160,7 +161,7 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 
 @dataclass(frozen=True)
-class OurPower:
+class ComputedPower:
     """Our main-rotor power in a measured flight [W]."""
 
     power: float | None
@@ -173,15 +174,15 @@ class FlownPowers:
     """One session's: each flight is trimmed once for each choice of models."""
 
     def __init__(self) -> None:
-        self._ours: dict[Design, dict[str, OurPower]] = {}
+        self._computed: dict[Design, dict[str, ComputedPower]] = {}
 
     def marks(self, solution: Solution, units: Units) -> Points | None:
-        """The measured flights as far as ours are known; None unless the blade is that of the flights."""
+        """The measured flights as far as their powers are computed; None unless the blade is that of the flights."""
         design, unit = solution.design, units.power[0]
         flights = _shown(design)
         if not flights:
             return None
-        ours = self._ours.get(_any_flight(design), {})
+        known = self._computed.get(_any_flight(design), {})
         return Points(
             "",
             [flight.mu for flight in flights],
@@ -189,7 +190,7 @@ class FlownPowers:
             INK,
             "ring",
             words=[
-                f"{flight_words(flight, ours.get(flight.case) or _now(flight, solution), units)} Press to fly there."
+                f"{flight_words(flight, known.get(flight.case) or _now(flight, solution), units)} Press to fly there."
                 for flight in flights
             ],
             action="flown",
@@ -212,9 +213,9 @@ class FlownPowers:
         if not flights:
             return
         key = _any_flight(solution.design)
-        if len(self._ours) > _KEPT:
-            self._ours.clear()
-        known = self._ours.setdefault(key, {})
+        if len(self._computed) > _KEPT:
+            self._computed.clear()
+        known = self._computed.setdefault(key, {})
         if all(flight.case in known for flight in flights):
             return
         for flight in flights:
@@ -224,19 +225,19 @@ class FlownPowers:
                 trimmed = solve(key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude))
                 ends, power = between_drag_areas(trimmed), trimmed.power.main_rotor if trimmed.converged else None
                 band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
-                known[flight.case] = OurPower(power, band)
+                known[flight.case] = ComputedPower(power, band)
         shown()
 
 
-def flight_words(measured: MeasuredPower, ours: OurPower | None, units: Units) -> str:
-    """A measured flight in words, with ours where it is known."""
+def flight_words(measured: MeasuredPower, computed: ComputedPower | None, units: Units) -> str:
+    """A measured flight in words, with the computed power where it is known."""
     words = f"{measured.title}. Main rotor: measured {units.watts(measured.power, 1)}"
-    if ours is not None and ours.power is None:
+    if computed is not None and computed.power is None:
         words += "; the computed case does not trim"
-    elif ours is not None and ours.power is not None:
-        percent = number(100.0 * (ours.power / measured.power - 1.0), 1, sign=True)
-        words += f", computed {units.watts(ours.power, 1)}, {percent} %"
-        low, high = (units.watts(end, 1) for end in ours.band or (0.0, 0.0))
+    elif computed is not None and computed.power is not None:
+        percent = number(100.0 * (computed.power / measured.power - 1.0), 1, sign=True)
+        words += f", computed {units.watts(computed.power, 1)}, {percent} %"
+        low, high = (units.watts(end, 1) for end in computed.band or (0.0, 0.0))
         if low != high:
             words += f"; {low} to {high} for the drag areas of the sources"
     return f"{words}."
@@ -261,5 +262,5 @@ def _any_flight(design: Design) -> Design:
     return replace(design, condition=FlightCondition(0.0, design.aircraft.mass))
 
 
-def _now(measured: MeasuredPower, solution: Solution) -> OurPower | None:
-    return OurPower(solution.power.main_rotor, None) if measured.same_flight(solution.design) else None
+def _now(measured: MeasuredPower, solution: Solution) -> ComputedPower | None:
+    return ComputedPower(solution.power.main_rotor, None) if measured.same_flight(solution.design) else None

@@ -95,7 +95,7 @@ def total_power_chart(
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
-    `marks`: main-rotor power measured in flight; then there is a line of ours too. `design`: draws the power of its
+    `marks`: main-rotor power measured in flight; then the computed one is a line. `design`: draws the power of its
     engines, where the rotor file has it.
     """
     unit = units.power[0]

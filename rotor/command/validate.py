@@ -85,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
     for name in names if args.page else ():
         page = write_set(TRUST_SETS[name](), make_folder(args.page))
         print(f"page: {page}", file=sys.stderr)
-    return 0 if all(point.ours is not None for comparison in comparisons for point in comparison.judged) else 1
+    return 0 if all(point.computed is not None for comparison in comparisons for point in comparison.judged) else 1
 
 
 _DIFFERENCES = Column("correlation", ".2f"), Column("rms", ".4f"), Column("mean", ".4f"), Column("measured", ".4f")
@@ -122,16 +122,22 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 def power_report(rows: list[FlownPower]) -> str:
     columns = (
-        *(Column("rotor", LEFT), Column("case"), Column("mu", ".3f"), Column("measured", ".1f"), Column("ours", ".1f")),
+        *(
+            Column("rotor", LEFT),
+            Column("case"),
+            Column("mu", ".3f"),
+            Column("measured", ".1f"),
+            Column("computed", ".1f"),
+        ),
         *(Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for row in rows:
-        ours, error, words = None, None, "does not trim"
-        if row.ours is not None:
-            ours, error = row.ours / 1e3, 100.0 * (row.ours / row.measured - 1.0)
+        computed, error, words = None, None, "does not trim"
+        if row.computed is not None:
+            computed, error = row.computed / 1e3, 100.0 * (row.computed / row.measured - 1.0)
             words = row.band and f"{row.band[0] / 1e3:.1f} … {row.band[1] / 1e3:.1f}"
-        cells.append((row.rotor, row.case, row.mu, row.measured / 1e3, ours, error, words))
+        cells.append((row.rotor, row.case, row.mu, row.measured / 1e3, computed, error, words))
     title = f"{POWERS}: main-rotor power in level flight [kW]; never fitted"
     return f"{title}\n{table(columns, cells).text()}"
 
@@ -140,17 +146,22 @@ def report(comparison: Comparison) -> str:
     measured, quantity = comparison.measured, comparison.measured.quantity
     columns = (
         *(Column(name, ".5g") for name in measured.given),
-        *(Column("measured", ".6g"), Column("ours", ".6g"), Column("error %", "+.1f"), Column("within scatter", LEFT)),
+        *(
+            Column("measured", ".6g"),
+            Column("computed", ".6g"),
+            Column("error %", "+.1f"),
+            Column("within scatter", LEFT),
+        ),
     )
     cells: list[tuple[CellValue, ...]] = []
     for point in comparison.points:
-        ours, words = None, point.message
-        if point.ours is not None:
+        computed, words = None, point.message
+        if point.computed is not None:
             missed = "" if point.passed else ", misses the target"
             aside = "" if point.judged or measured.indicative else " (no target here)"
-            ours, words = point.ours[quantity], f"{'yes' if point.within_scatter else 'no'}{missed}{aside}"
+            computed, words = point.computed[quantity], f"{'yes' if point.within_scatter else 'no'}{missed}{aside}"
         where = (point.given[name] for name in measured.given)
-        cells.append((*where, point.measured[quantity], ours, point.error_percent, words))
+        cells.append((*where, point.measured[quantity], computed, point.error_percent, words))
     lines = [
         wrapped(f"{measured.name}: {measured.title}"),
         wrapped(measured.report),
@@ -158,7 +169,7 @@ def report(comparison: Comparison) -> str:
         table(columns, cells).text(),
     ]
     lines.append(wrapped(verdict(comparison)))
-    if lost := [point for point in comparison.points if point.ours is None]:
+    if lost := [point for point in comparison.points if point.computed is None]:
         counted = sum(point in comparison.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"
         lines.append(f"{len(lost)} of {len(comparison.points)} points do not trim, {where}.")
@@ -178,7 +189,7 @@ def verdict(comparison: Comparison) -> str:
 
 
 def draw(comparison: Comparison, folder: Path) -> Path:
-    """Measured points with their scatter, and ours, as `SET.png`."""
+    """Measured and computed points, with the scatter of the test, as `SET.png`."""
     measured = comparison.measured
     figure: Any = drawing_module().Figure(figsize=(7.0, 4.5), layout="constrained")
     draw_chart(comparison_chart([comparison]), figure.subplots()).set_title(

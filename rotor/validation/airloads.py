@@ -1,5 +1,5 @@
-"""Measured airloads, twist, flapping and pitch-link loads over the azimuth beside ours: HART II and the UH-60A in
-tunnels, the Gazelle in flight.
+"""Measured airloads, twist, flapping and pitch-link loads over the azimuth beside computed ones: HART II and the
+UH-60A in tunnels, the Gazelle in flight.
 
 Nothing is fitted to any of it.
 
@@ -115,7 +115,7 @@ class MeasuredCurve:
 
 @dataclass(frozen=True, eq=False)
 class CurveAgreement:
-    """A measured curve and ours by harmonics, without the mean."""
+    """A measured curve and the computed one by harmonics, without the mean."""
 
     case: FlownCase
     quantity: str
@@ -255,7 +255,7 @@ def azimuth_chart(title: str, label: str, series: Iterable[Series]) -> Chart:
 
 
 def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement]:
-    """Every measured curve of these tests beside ours; RuntimeError where a rotor does not trim."""
+    """Every measured curve of these tests beside the computed one; RuntimeError where a rotor does not trim."""
     for case in CASES:
         if case.test in tests:
             solution = solve(case.design()).require()
@@ -264,18 +264,18 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
     """A measured curve beside that of a solution."""
-    theirs, ours = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
-    computed, other = ours[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
-    size = math.sqrt((computed @ computed) * (other @ other))
+    theirs, computed = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
+    wave, other = computed[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
+    size = math.sqrt((wave @ wave) * (other @ other))
     return CurveAgreement(
         case=measured.case,
         quantity=measured.quantity,
         r=measured.r,
-        correlation=float(computed @ other / size) if size > 0.0 else 0.0,
-        rms=math.sqrt(0.5 * float((computed - other) @ (computed - other))),
+        correlation=float(wave @ other / size) if size > 0.0 else 0.0,
+        rms=math.sqrt(0.5 * float((wave - other) @ (wave - other))),
         measured_rms=math.sqrt(0.5 * float(other @ other)),
-        mean=float(ours[0]),
+        mean=float(computed[0]),
         measured_mean=float(theirs[0]),
-        waves=ours,
+        waves=computed,
         measured_waves=theirs,
     )

@@ -90,12 +90,12 @@ class MeasuredSet:
         inside = all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
         return inside and not self.indicative
 
-    def allows(self, measured: float, ours: float) -> bool:
+    def allows(self, measured: float, computed: float) -> bool:
         """Whether our value is within the target."""
         largest = self.tolerance
         if largest is None:
             largest = abs(measured) * (self.tolerance_percent or 0.0) / 100.0
-        return abs(ours - measured) <= largest
+        return abs(computed - measured) <= largest
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -140,11 +140,11 @@ def load_set(name: str) -> MeasuredSet:
 
 @dataclass(frozen=True)
 class ComparedPoint:
-    """One measured point with ours."""
+    """One measured point with the computed one."""
 
     given: dict[str, float]
     measured: dict[str, float]
-    ours: dict[str, float] | None
+    computed: dict[str, float] | None
     """Our values of the quantities measured; None where our rotor does not trim."""
     message: str
     """Why it does not."""
@@ -153,12 +153,12 @@ class ComparedPoint:
     judged: bool
     """Whether a target is set for this point."""
     passed: bool
-    """Whether ours is within the target; True where there is none."""
+    """Whether the computed value is within the target; True where there is none."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """A set of measured points with ours."""
+    """A set of measured points with the computed ones."""
 
     measured: MeasuredSet
     inflow: str
@@ -197,7 +197,9 @@ class Comparison:
         if self.measured.tolerance is None:
             return f"{self.worst_percent:+.1f} %"
         name = self.measured.quantity
-        differences = (point.ours[name] - point.measured[name] for point in self.judged if point.ours is not None)
+        differences = (
+            point.computed[name] - point.measured[name] for point in self.judged if point.computed is not None
+        )
         return f"{max(differences, key=abs):+.5f}"
 
     @property
@@ -213,7 +215,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """For `validate --json`."""
         rows = self.measured
-        shown = ("given", "measured", "ours", "error_percent", "within_scatter", "judged")
+        shown = ("given", "measured", "computed", "error_percent", "within_scatter", "judged")
         return {
             **{name: getattr(rows, name) for name in ("name", "title", "report", "rotor", "kind")},
             "inflow": self.inflow,
@@ -248,11 +250,11 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     wanted, judged = targets[measured.quantity], measured.is_judged(point)
     if not solution.converged:
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
-    ours = {name: quantity_of(name, solution, measured, given.get("r", math.nan)) for name in targets}
-    value = ours[measured.quantity]
+    computed = {name: quantity_of(name, solution, measured, given.get("r", math.nan)) for name in targets}
+    value = computed[measured.quantity]
     error, within = 100.0 * (value / wanted - 1.0), abs(value - wanted) <= measured.scatter_of(wanted)
     passed = not judged or measured.allows(wanted, value)
-    return ComparedPoint(given, targets, ours, "", error, within, judged, passed)
+    return ComparedPoint(given, targets, computed, "", error, within, judged, passed)
 
 
 def measured_set(name: str) -> TrustSet:
@@ -292,7 +294,7 @@ def _row(comparison: Comparison) -> TrustRow:
 
 
 def comparison_chart(comparisons: list[Comparison]) -> Chart:
-    """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
+    """Measured points with their scatter, and computed ones: a line where no two points share a place, else crosses."""
     measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
     along = measured.varied[0]
     values = tuple(point[quantity] for point in measured.points)
@@ -300,10 +302,10 @@ def comparison_chart(comparisons: list[Comparison]) -> Chart:
     scatter = tuple(map(measured.scatter_of, values))
     series: list[Series] = [Points("measured", places, values, scatter=scatter)]
     for k, comparison in enumerate(comparisons, start=1):
-        ours = sorted(
-            (point.given[along], point.ours[quantity]) for point in comparison.points if point.ours is not None
+        computed = sorted(
+            (point.given[along], point.computed[quantity]) for point in comparison.points if point.computed is not None
         )
-        x, y = zip(*ours, strict=True)
+        x, y = zip(*computed, strict=True)
         alone = len(set(x)) == len(x)
         label = f"computed, inflow {comparison.inflow}"
         series.append(Line(label, x, y, k, dots=True) if alone else Points(label, x, y, k, mark="cross"))
@@ -318,15 +320,15 @@ def _constant(measured: MeasuredSet) -> str:
 
 
 def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
-    """Every measured point beside ours, with what is not the same at all of them."""
+    """Every measured point beside the computed one, with what is not the same at all of them."""
     measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
     head = [*(LABELS[name] for name in measured.varied), "Measured"]
     rows = [[f"{point[name]:.5g}" for name in (*measured.varied, quantity)] for point in measured.points]
     for comparison in comparisons:
         head += [f"Ours, {comparison.inflow}", f"Error [%], {comparison.inflow}"]
         for row, point in zip(rows, comparison.points, strict=True):
-            ours = point.ours
-            row += [f"{ours[quantity]:.5g}", f"{point.error_percent:+.1f}"] if ours else ["no trim", ""]
+            computed = point.computed
+            row += [f"{computed[quantity]:.5g}", f"{point.error_percent:+.1f}"] if computed else ["no trim", ""]
     if not measured.indicative:
         head.append("Verdict")
         for row, point in zip(rows, comparisons[0].points, strict=True):

@@ -26,14 +26,14 @@ FLOWN = {"gazelle": "level flight", "bo105": "Bo 105, mass assumed"}
 
 @dataclass(frozen=True)
 class PointAndBand:
-    """One measured power beside ours with its band."""
+    """One measured power beside the computed one with its band."""
 
     name: str
     """Name of the set, or the helicopter."""
     kind: str
     """Kind of flight: of `POWERS` or `FLOWN`."""
     error: float
-    """Measured over ours, less 1."""
+    """Measured over computed, less 1."""
     band: float
     """Over our power."""
 
@@ -75,12 +75,12 @@ def _point_and_band(
 
     The band is that of the same power or difference, without that of the tail rotor.
     """
-    ours, total = solution.power.main_rotor, solution.power.total
+    computed, total = solution.power.main_rotor, solution.power.total
     if zero is not None:
-        ours, total = ours - zero.power.main_rotor, total - zero.power.total
+        computed, total = computed - zero.power.main_rotor, total - zero.power.total
     rows = [row for row in doubt(solution, zero).rows if row.name != "tail_rotor_percent"]
     band = math.hypot(*(row.power if row.change is None else row.change for row in rows))
-    return PointAndBand(name, kind, measured / ours - 1.0, band / abs(total))
+    return PointAndBand(name, kind, measured / computed - 1.0, band / abs(total))
 
 
 def doubt_set() -> TrustSet:
@@ -99,7 +99,7 @@ def doubt_set() -> TrustSet:
         band, mean = sum(point.band for point in points) / count, sum(errors) / count
         parts = f"{100 * band:.1f}", f"{100 * mean:+.1f}", f"{100 * max(errors, key=abs):+.1f}"
         cells.append((name, points[0].kind, f"{count}", f"{inside}", *parts))
-    chart = Chart("Error over band", Axis("(measured − ours)/band"), Axis(names=tuple(by_name)), tuple(series))
+    chart = Chart("Error over band", Axis("(measured − computed)/band"), Axis(names=tuple(by_name)), tuple(series))
     text = (paragraph.format(counted=count_by_kind(held)) for paragraph in words.text)
     return words.page(count_by_kind(held), rows, (chart,), text=text, points=cells)
 

@@ -1,4 +1,4 @@
-"""The SA349/2 Gazelle and the Bo 105 in level flight beside ours: section lift of the first, power and controls.
+"""The SA349/2 Gazelle and the Bo 105 in level flight beside this project's: section lift, power, controls.
 
 Nothing is fitted to any of it. The level of power is decided by drag that no source states, so it stands between the
 drag areas of the rotor file, and the Gazelle's target is set for its shape over speed: each power over the measured
@@ -106,7 +106,7 @@ class FlownPower:
     case: str
     mu: float
     measured: float
-    ours: float | None
+    computed: float | None
     """None where our rotor does not trim."""
     band: tuple[float, float] | None
     """Ours with the lowest and the highest drag area of the sources."""
@@ -124,32 +124,32 @@ class FlownAngle:
     quantity: str
     speed_kt: tuple[float, ...]
     measured: tuple[float, ...]
-    ours: tuple[float, ...]
+    computed: tuple[float, ...]
 
     @property
     def error(self) -> Array:
         """Ours less measured."""
-        return np.subtract(self.ours, self.measured)
+        return np.subtract(self.computed, self.measured)
 
 
 def flown_powers() -> Iterator[FlownPower]:
-    """Every measured power beside ours."""
+    """Every measured power beside the computed one."""
     for power in measured_powers():
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         ends, controls = between_drag_areas(solution), solution.controls
-        ours = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
+        computed = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
         main = solution.power.main_rotor if solution.converged else None
         band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
-        angles = tuple(map(math.degrees, ours)) if solution.converged else None
+        angles = tuple(map(math.degrees, computed)) if solution.converged else None
         yield FlownPower(power.rotor, power.case, power.mu, power.power, main, band, power.angles, angles)
 
 
-def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[float, float]:
+def shape_errors(computed: Sequence[float], measured: Sequence[float]) -> tuple[float, float]:
     """Root mean square of the errors of a curve's shape, and the mean error of its level.
 
     The quotient of each two values over the mean of all quotients, less 1; that mean less 1.
     """
-    quotient = np.divide(ours, measured)
+    quotient = np.divide(computed, measured)
     level = float(quotient.mean())
     return rms(quotient / level - 1.0), level - 1.0
 
@@ -157,10 +157,10 @@ def shape_errors(ours: Sequence[float], measured: Sequence[float]) -> tuple[floa
 def flown_angles() -> tuple[FlownAngle, ...]:
     """The four pitch angles of the Bo 105."""
     solutions = [solve(make_design(rotor="bo105", speed_kt=speed, mass_kg=MASS_KG)).require() for speed in SPEEDS_KT]
-    ours: Array = np.degrees(np.array([_angles(solution) for solution in solutions])).T
+    computed: Array = np.degrees(np.array([_angles(solution) for solution in solutions])).T
     rows = csv_rows(asset_path("measured/bo105_controls.csv"))
     angles: list[FlownAngle] = []
-    for name, values in zip(ANGLES, list(ours), strict=True):
+    for name, values in zip(ANGLES, list(computed), strict=True):
         mine = [row for row in rows if row["quantity"] == name]
         speeds = tuple(float(row["speed_kt"]) for row in mine)
         there = np.asarray(np.interp(speeds, SPEEDS_KT, values), dtype=np.float64)
@@ -205,9 +205,9 @@ def flown_set() -> TrustSet:
 
 
 def _trimmed(powers: Sequence[FlownPower], rotor: str) -> tuple[list[float], list[float]]:
-    """Our powers and the measured ones where ours trims."""
-    mine = [(row.ours, row.measured) for row in powers if row.rotor == rotor and row.ours is not None]
-    return [ours for ours, _ in mine], [measured for _, measured in mine]
+    """Computed and measured powers where the computation trims."""
+    mine = [(row.computed, row.measured) for row in powers if row.rotor == rotor and row.computed is not None]
+    return [computed for computed, _ in mine], [measured for _, measured in mine]
 
 
 def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
@@ -237,11 +237,11 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
 
 
 def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
-    mine = sorted((row for row in powers if row.rotor == rotor and row.ours is not None), key=lambda row: row.mu)
+    mine = sorted((row for row in powers if row.rotor == rotor and row.computed is not None), key=lambda row: row.mu)
     mu = [row.mu for row in mine]
     series: list[Series] = [
         Points("measured", mu, [row.measured / 1e3 for row in mine]),
-        Line("computed", mu, [(row.ours or math.nan) / 1e3 for row in mine], 1, dots=True),
+        Line("computed", mu, [(row.computed or math.nan) / 1e3 for row in mine], 1, dots=True),
     ]
     for k, word in enumerate(("lowest", "highest")):
         ends = [math.nan if row.band is None else row.band[k] / 1e3 for row in mine]
@@ -253,26 +253,26 @@ def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
     series: list[Series] = []
     for k, angle in enumerate(angles, start=1):
         series.append(Points(f"{ANGLES[angle.quantity]}, measured", angle.speed_kt, angle.measured, k))
-        series.append(Line("computed", angle.speed_kt, angle.ours, k))
+        series.append(Line("computed", angle.speed_kt, angle.computed, k))
     return Chart("Pitch angles of the Bo 105", Axis("airspeed [kt]"), Axis("pitch [°]"), tuple(series))
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
     rows = [("Helicopter", "Quantity", "At", "Measured", "Ours", "Band", "Error")]
     for row in powers:
-        ours = "no trim" if row.ours is None else f"{row.ours / 1e3:.1f}"
+        computed = "no trim" if row.computed is None else f"{row.computed / 1e3:.1f}"
         band = "" if row.band is None else f"{row.band[0] / 1e3:.1f}…{row.band[1] / 1e3:.1f}"
-        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", ours, band, ""))
+        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", computed, band, ""))
     for row in powers:
         if row.measured_angles and row.angles:
-            for name, theirs, ours in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
-                error = f"{ours - theirs:+.1f}"
-                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{ours:.1f}", "", error))
+            for name, theirs, computed in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
+                error = f"{computed - theirs:+.1f}"
+                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{computed:.1f}", "", error))
     for angle in angles:
-        for speed, theirs, ours in zip(angle.speed_kt, angle.measured, angle.ours, strict=True):
+        for speed, theirs, computed in zip(angle.speed_kt, angle.measured, angle.computed, strict=True):
             what = f"{ANGLES[angle.quantity]} [°]"
-            at, error = f"{speed:.1f} kt", f"{ours - theirs:+.1f}"
-            rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{ours:.1f}", "", error))
+            at, error = f"{speed:.1f} kt", f"{computed - theirs:+.1f}"
+            rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{computed:.1f}", "", error))
     return tuple(rows)
 
 

@@ -156,8 +156,8 @@ def _vortex_chart(solution: Solution) -> Chart:
         label = f"{'advancing' if plane > 0.0 else 'retreating'}, {abs(plane):g} R, measured"
         series.append(Points(label, x[here], z[here], k))
         along = np.linspace(-math.sqrt(1.0 - plane**2), float(x[here].max()), 30)
-        ours = height(course, along, np.full_like(along, plane))
-        series.append(Line("computed", along, ours, k))
+        computed = height(course, along, np.full_like(along, plane))
+        series.append(Line("computed", along, computed, k))
     return Chart("Tip vortices above the hub, BL", Axis("x/R, aft"), Axis("z/R of tip vortices, BL"), tuple(series))
 
 
@@ -170,8 +170,8 @@ def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
         rows.append((name, QUANTITIES[quantity], "mean", means[0], "", means[1], ""))
         for n in range(1, len(beside.waves) // 2 + 1):
             size, angle = beside.amplitude(n, measured=True), beside.phase_deg(n, measured=True)
-            ours = f"{beside.amplitude(n):{form}}", f"{beside.phase_deg(n):.0f}"
-            if float(ours[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
-                ours = "0", ""
-            rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *ours))
+            computed = f"{beside.amplitude(n):{form}}", f"{beside.phase_deg(n):.0f}"
+            if float(computed[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
+                computed = "0", ""
+            rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *computed))
     return tuple(rows)

@@ -115,13 +115,13 @@ def inflow_agreement() -> Iterator[InflowAgreement]:
     """Every model at every advance ratio; RuntimeError where the rotor does not trim."""
     for measured in measured_inflow():
         for name in INFLOW_MODELS:
-            ours = _time_mean(name, measured)
+            computed = _time_mean(name, measured)
             yield InflowAgreement(
                 mu=measured.mu,
                 model=name,
-                correlation=float(np.corrcoef(ours, measured.inflow)[0, 1]) if np.ptp(ours) > 1e-9 else None,
-                rms=rms(ours - measured.inflow),
-                mean=float(ours.mean()),
+                correlation=float(np.corrcoef(computed, measured.inflow)[0, 1]) if np.ptp(computed) > 1e-9 else None,
+                rms=rms(computed - measured.inflow),
+                mean=float(computed.mean()),
                 measured_mean=float(measured.inflow.mean()),
             )
 

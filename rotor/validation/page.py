@@ -2,9 +2,9 @@
 
 A further set is its words in `assets/trust_sets.toml` (`SetDescription`), and one function that returns a `TrustSet`,
 listed in `SETS` under its name. Its rows give the numbers and verdicts, its charts are drawn from the same numbers:
-`Points` for what was measured, `Line` for ours. The function runs when the page is made and may take its time. Each row
-names the test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust` makes all of
-it anew.
+`Points` for what was measured, `Line` for what is computed. The function runs when the page is made, and may be slow.
+Each row names the test that recomputes it. `python -m rotor validate NAME --page DIR` shows it alone; `make trust`
+makes all of it anew.
 """
 
 import re

@@ -48,9 +48,9 @@ class StallLoop:
         low, high = np.degrees([self.alpha.min(), self.alpha.max()])
         return f"by {0.5 * (high - low):.0f}° about {0.5 * (high + low):.0f}°"
 
-    def rms(self, ours: Array) -> tuple[float, float]:
+    def rms(self, computed: Array) -> tuple[float, float]:
         """Root mean square of the differences in C_n and C_m."""
-        apart = np.sqrt(np.mean((ours - self.measured) ** 2, axis=1))
+        apart = np.sqrt(np.mean((computed - self.measured) ** 2, axis=1))
         return float(apart[0]), float(apart[1])
 
 
@@ -65,7 +65,7 @@ def glasgow_section() -> SectionTable:
 
 
 def stall_loop(run: str) -> StallLoop:
-    """A run beside ours."""
+    """A run beside the computed one."""
     rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == run]
     alpha, cl, cd, cm = columns(rows, "alpha_deg", "cl", "cd", "cm")
     mean, amplitude, k = (float(rows[0][name]) for name in ("mean_deg", "amplitude_deg", "k"))

@@ -48,49 +48,49 @@ def public_data() -> dict[str, Any]:
 
 @cache
 def hover_comparison() -> tuple[list[float], list[float], list[float]]:
-    """C_T/σ, digitised C_P/σ and ours."""
+    """C_T/σ, digitised C_P/σ and the computed one."""
     points = public_data()["hover"]
     solidity = points["solidity"]
     base = make_design(mu=0.0)
     base = replace(base, models=replace(base.models, download=False))  # Measured is the rotor's own thrust.
-    ours: list[float] = []
+    computed: list[float] = []
     for ct in points["ct_over_sigma"]:
         mass = base.condition.mass * ct * solidity / base.weight_coefficient
         condition = replace(base.condition, mass=mass)
-        ours.append(solve(replace(base, condition=condition)).require().cp / solidity)
-    return list(points["ct_over_sigma"]), list(points["cp_over_sigma"]), ours
+        computed.append(solve(replace(base, condition=condition)).require().cp / solidity)
+    return list(points["ct_over_sigma"]), list(points["cp_over_sigma"]), computed
 
 
 @cache
 def model_curve_comparison(preset: str) -> tuple[list[float], list[float], list[float]]:
-    """Advance ratios, the public model curve and ours, main-rotor power [kW]."""
+    """Advance ratios, the public model curve and the computed one, main-rotor power [kW]."""
     curve = public_data()["forward"]
     tip_speed = make_design().rotor.tip_speed
     speeds = [knots * KNOT / tip_speed for knots in curve["speed_kt"]]
     designs = (
         make_design(preset=preset, mu=mu, mass_kg=curve["mass_kg"], altitude_m=curve["altitude_m"]) for mu in speeds
     )
-    ours = [solve(design).require().power.main_rotor / 1e3 for design in designs]
-    return speeds, [HORSEPOWER_KW * power for power in curve["main_rotor_hp"]], ours
+    computed = [solve(design).require().power.main_rotor / 1e3 for design in designs]
+    return speeds, [HORSEPOWER_KW * power for power in curve["main_rotor_hp"]], computed
 
 
 def model_curve_errors(preset: str = "flight") -> tuple[float, float]:
     """Root mean square and mean of a preset over the model's curve, less one, above `SLOWEST`."""
-    speeds, theirs, ours = map(np.array, model_curve_comparison(preset))
-    errors = (ours / theirs - 1.0)[speeds > SLOWEST]
+    speeds, theirs, computed = map(np.array, model_curve_comparison(preset))
+    errors = (computed / theirs - 1.0)[speeds > SLOWEST]
     return rms(errors), float(errors.mean())
 
 
 def hover_set() -> TrustSet:
     """Every point counts, whatever the test's own tolerance leaves out."""
-    words, (ct, cp, ours) = description("uh60a-hover"), hover_comparison()
-    ratio = np.array(ours) / np.array(cp) - 1.0
+    words, (ct, cp, computed) = description("uh60a-hover"), hover_comparison()
+    ratio = np.array(computed) / np.array(cp) - 1.0
     rows = (
         words.share("Hover C_P, worst of ten points", float(ratio.min()), 3e-3),
         words.share("Hover C_P, best of ten points", float(ratio.max()), 3e-3, note="best"),
     )
-    series = Points("measured, digitised", ct, cp), Line("computed, inflow annulus", ct, ours, 1, dots=True)
-    points = zip(ct, cp, ours, ratio, strict=True)
+    series = Points("measured, digitised", ct, cp), Line("computed, inflow annulus", ct, computed, 1, dots=True)
+    points = zip(ct, cp, computed, ratio, strict=True)
     return words.page(
         f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         rows,
@@ -102,20 +102,20 @@ def hover_set() -> TrustSet:
 
 def forward_set() -> TrustSet:
     """Power over speed beside another model's."""
-    words, (speeds, theirs, ours) = description("uh60a-forward"), model_curve_comparison("flight")
+    words, (speeds, theirs, computed) = description("uh60a-forward"), model_curve_comparison("flight")
     size, mean = model_curve_errors()
     rows = (
         words.share("Main-rotor power in forward flight, rms over seven speeds", size, 3e-3, note="rms"),
         words.share("Main-rotor power in forward flight, mean of seven speeds", mean, 3e-3),
     )
-    series = Points("public model curve", speeds, theirs), Line("computed", speeds, ours, 1, dots=True)
+    series = Points("public model curve", speeds, theirs), Line("computed", speeds, computed, 1, dots=True)
     return words.page(
         f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         rows,
         (Chart(words.title, Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series),),
         points=(("µ", "Model curve [kW]", "Ours [kW]", "Error [%]"),
                 *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f}")
-                  for mu, a, b in zip(speeds, theirs, ours, strict=True))),
+                  for mu, a, b in zip(speeds, theirs, computed, strict=True))),
     )  # fmt: skip
 
 
@@ -141,10 +141,10 @@ def _over_angle(name: str, label: str) -> Chart:
     mach = 0.4
     table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
     alpha = np.arange(-5.0, 9.1, 0.25)
-    ours = getattr(table(np.radians(alpha), mach), name)
+    computed = getattr(table(np.radians(alpha), mach), name)
     series = (
         Points("RANS, kept aside", [math.degrees(p.alpha) for p in aside], [getattr(p, name) for p in aside]),
-        Line("section table", alpha, ours, 1),
+        Line("section table", alpha, computed, 1),
     )
     return Chart(
         f"{label} of SC1095 at Mach {mach:g}", Axis("angle of attack [°]"), Axis(f"{label}, Mach {mach:g}"), series
@@ -195,7 +195,7 @@ class PitchLinkLoad:
     measured: airloads.MeasuredCurve
     psi: Array
     """[rad], (azimuths,)"""
-    ours: Array
+    computed: Array
     """[N], (azimuths,)"""
     torsion_alone: Array
     """Ours of a blade that twists but does not bend."""
@@ -203,11 +203,11 @@ class PitchLinkLoad:
 
     @property
     def half_peaks(self) -> tuple[float, float, float]:
-        """Half peak to peak [N]: measured, ours, ours without bending."""
-        measured, ours, rigid = (
-            0.5 * float(np.ptp(of)) for of in (self.measured.values, self.ours, self.torsion_alone)
+        """Half peak to peak [N]: measured, computed, computed without bending."""
+        measured, computed, rigid = (
+            0.5 * float(np.ptp(of)) for of in (self.measured.values, self.computed, self.torsion_alone)
         )
-        return measured, ours, rigid
+        return measured, computed, rigid
 
 
 def pitch_link_loads() -> Iterator[PitchLinkLoad]:
@@ -217,9 +217,9 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
             design = measured.case.design()
             solution = solve(design).require()
             rigid = solve(replace(design, models=replace(design.models, bending=False))).require()
-            psi, ours = airloads.computed_curve(measured, solution)
+            psi, computed = airloads.computed_curve(measured, solution)
             yield PitchLinkLoad(
-                design.condition.advance_ratio, measured, psi, ours, airloads.computed_curve(measured, rigid)[1],
+                design.condition.advance_ratio, measured, psi, computed, airloads.computed_curve(measured, rigid)[1],
                 airloads.agreement(measured, solution),
             )  # fmt: skip
 
@@ -227,7 +227,7 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
 def pitch_link_set() -> TrustSet:
     """For the trust page."""
     loads = list(pitch_link_loads())
-    errors = [ours / measured - 1.0 for measured, ours, _ in (load.half_peaks for load in loads)]
+    errors = [computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)]
     return description(airloads.PITCH_LINK).page(
         f"half peak to peak {100 * min(errors):+.0f} to {100 * max(errors):+.0f} %",
         _load_rows(loads),
@@ -239,8 +239,8 @@ def pitch_link_set() -> TrustSet:
 def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
     words = description(airloads.PITCH_LINK)
     for load in loads:
-        measured, ours, _ = load.half_peaks
-        yield words.share(f"Half peak to peak, µ {load.mu:g}", ours / measured - 1.0, 0.02, digits=0)
+        measured, computed, _ = load.half_peaks
+        yield words.share(f"Half peak to peak, µ {load.mu:g}", computed / measured - 1.0, 0.02, digits=0)
     for n in (1, 2):
         late = [load.beside.late_deg(n) for load in loads]
         mean = float(np.mean([load.beside.ratio(n) for load in loads]))
@@ -250,10 +250,10 @@ def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
 
 def _peak_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = [load.mu for load in loads]
-    measured, ours, rigid = 1e-3 * np.array([load.half_peaks for load in loads]).T
+    measured, computed, rigid = 1e-3 * np.array([load.half_peaks for load in loads]).T
     series = (
         Points("measured", mu, measured),
-        Line("computed", mu, ours, 1, dots=True),
+        Line("computed", mu, computed, 1, dots=True),
         Line("without bending", mu, rigid, 2, dashes=True),
     )
     title = "Half peak to peak of the pitch-link load"
@@ -264,11 +264,11 @@ def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = [load.mu for load in loads]
     series: list[Series] = []
     for n in LOAD_HARMONICS:
-        theirs, ours = (
+        theirs, computed = (
             [1e-3 * load.beside.amplitude(n, measured=measured) for load in loads] for measured in (True, False)
         )
         series.append(Points(f"{n}/rev, measured", mu, theirs, n))
-        series.append(Line("computed", mu, ours, n))
+        series.append(Line("computed", mu, computed, n))
     return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))
 
 
@@ -276,7 +276,7 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
     title = f"Pitch-link load, µ {load.mu:g}"
     series = (
         Points("measured", np.degrees(load.measured.psi), 1e-3 * load.measured.values),
-        Line("computed", *airloads.closed_around(load.psi, 1e-3 * load.ours), 1),
+        Line("computed", *airloads.closed_around(load.psi, 1e-3 * load.computed), 1),
         Line("without bending", *airloads.closed_around(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
     )
     return airloads.azimuth_chart(title, f"{title} [kN]", series)
@@ -287,12 +287,12 @@ def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
         ("µ", "Quantity", "Measured [kN]", "Measured φ [°]", "Ours [kN]", "Ours φ [°]", "Without bending [kN]")
     ]
     for load in loads:
-        measured, ours, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)
-        rows.append((f"{load.mu:g}", "half peak to peak", measured, "", ours, "", rigid))
+        measured, computed, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)
+        rows.append((f"{load.mu:g}", "half peak to peak", measured, "", computed, "", rigid))
         for n in LOAD_HARMONICS:
-            theirs, ours = (
+            theirs, computed = (
                 (f"{1e-3 * load.beside.amplitude(n, measured=of):.2f}", f"{load.beside.phase_deg(n, measured=of):.0f}")
                 for of in (True, False)
             )
-            rows.append((f"{load.mu:g}", f"{n}/rev", *theirs, *ours, ""))
+            rows.append((f"{load.mu:g}", f"{n}/rev", *theirs, *computed, ""))
     return tuple(rows)

@@ -185,8 +185,8 @@ def dynbem_set() -> TrustSet:
     """Pitt–Peters inflow in forward flight."""
     rows = _stored("dynbem")
     power = _percent(rows)
-    series = (Line("dynbem's torque over ours", SPEEDS, power, 1, dots=True),)
-    chart = Chart("Torque of dynbem over ours", Axis("advance ratio µ"), Axis("difference [%]"), series)
+    series = (Line("dynbem's torque over this project's", SPEEDS, power, 1, dots=True),)
+    chart = Chart("Torque of dynbem over this project's", Axis("advance ratio µ"), Axis("difference [%]"), series)
     return description("dynbem").page(f"{power[-1]:+.2f} % at most", rows, (chart,))
 
 
@@ -198,7 +198,7 @@ def ccblade_set() -> TrustSet:
         Line("without swirl", CCBLADE_MASSES, power[0::2], 1, dots=True),
         Line("with swirl", CCBLADE_MASSES, power[1::2], 2, dots=True),
     )
-    chart = Chart("Hover power of CCBlade over ours", Axis("mass [kg]"), Axis("difference [%]"), series)
+    chart = Chart("Hover power of CCBlade over this project's", Axis("mass [kg]"), Axis("difference [%]"), series)
     return description("ccblade").page(f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %", rows, (chart,))
 
 

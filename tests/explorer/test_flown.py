@@ -146,15 +146,15 @@ class TestAirloads:
 
 
 def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():
-    """Beside ours where the blade twists; a rigid one has none."""
+    """Beside the computed one where the blade twists; a rigid one has none."""
     inputs = at_test("uh60a", "µ 0.30")
     assert inputs.advance_ratio == 0.3
     solution = solve(inputs.design())
     beside = beside_measured(solution, 0.75)
     assert beside is not None
     assert beside.at_test
-    ((measured, _, ours),) = beside.curves
-    assert np.ptp(ours) == pytest.approx(np.ptp(solution.elastic.pitch_link_load))
+    ((measured, _, computed),) = beside.curves
+    assert np.ptp(computed) == pytest.approx(np.ptp(solution.elastic.pitch_link_load))
     assert "Pitch link [N]" in measured_panel(beside, 0.0)
     assert validated(solution).words == "pitch-link load measured"
     rigid = replace(inputs.design(), models=replace(inputs.design().models, elastic_twist=False))

@@ -121,8 +121,8 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert isinstance(marks, Points)
     assert marks.y == pytest.approx([5.7, 5.95, 6.2, 6.65])
     assert marks.scatter == pytest.approx([0.1] * 4)
-    ours = dict(zip(line.x, line.y, strict=True))
-    assert ours[FORWARD.advance_ratio] == pytest.approx(here.y[0], rel=1e-5)
+    computed = dict(zip(line.x, line.y, strict=True))
+    assert computed[FORWARD.advance_ratio] == pytest.approx(here.y[0], rel=1e-5)
     assert "computed 6.0" in marks.words[0]
 
 

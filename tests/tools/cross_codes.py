@@ -39,9 +39,9 @@ class CodeComparison:
 
     condition: str
     thrust: float
-    """Thrust of the other code over ours, minus one."""
+    """Thrust of the other code over this project's, minus one."""
     power: float
-    """Torque of the other code over ours, minus one."""
+    """Torque of the other code over this project's, minus one."""
     detail: str
     """Behind that of thrust in a remark."""
 
@@ -81,10 +81,10 @@ def moment_trimmed(mu: float) -> Solution:
     return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
 
 
-def dynbem_case(ours: Solution) -> tuple[Any, Any, Any]:
+def dynbem_case(solution: Solution) -> tuple[Any, Any, Any]:
     """Model, inputs and first inflow states of dynbem for a trim of `moment_trimmed`; ImportError without it."""
     dynbem: Any = importlib.import_module("dynbem")
-    design, controls, rotor = ours.design, ours.controls, ours.design.rotor
+    design, controls, rotor = solution.design, solution.controls, solution.design.rotor
     alpha = np.radians(np.arange(-180.0, 180.1, 0.25))
     polar = load_section(SECTION)(alpha, MACH)
     stations = np.linspace(rotor.blade.root_cutout, 1.0, 81)
@@ -112,25 +112,25 @@ def dynbem_case(ours: Solution) -> tuple[Any, Any, Any]:
 
 
 def _one_dynbem(mu: float) -> CodeComparison:
-    ours = moment_trimmed(mu)
-    design, controls = ours.design, ours.controls
-    forces, state = _settle(*dynbem_case(ours))
+    solution = moment_trimmed(mu)
+    design, controls = solution.design, solution.controls
+    forces, state = _settle(*dynbem_case(solution))
     thrust = -float(forces.F_world[2])
-    torque = ours.power.shaft / design.rotor.angular_speed
+    torque = solution.power.shaft / design.rotor.angular_speed
     lambda0, gradient, _ = (float(value) for value in state.to_array())
     return CodeComparison(
         condition=f"µ {mu:g}",
-        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
+        thrust=thrust / (solution.ct * design.thrust_unit) - 1.0,
         power=float(forces.Q_spin) / torque - 1.0,
         detail=f". λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
-        f"{_inflow_gradient(ours):.4f} λ0",
+        f"{_inflow_gradient(solution):.4f} λ0",
     )
 
 
-def _inflow_gradient(ours: Solution) -> float:
+def _inflow_gradient(solution: Solution) -> float:
     """k_x = 15π/32 tan(χ/2) at the trim."""
-    mu, tilt = ours.design.condition.advance_ratio, ours.controls.shaft_tilt
-    skew = math.atan2(mu * math.cos(tilt), mu * math.sin(tilt) + ours.controls.lambda0)
+    mu, tilt = solution.design.condition.advance_ratio, solution.controls.shaft_tilt
+    skew = math.atan2(mu * math.cos(tilt), mu * math.sin(tilt) + solution.controls.lambda0)
     return 15.0 * math.pi / 32.0 * math.tan(0.5 * skew)
 
 
@@ -164,7 +164,7 @@ def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
     ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
     design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass, airfoils=SECTION)
     models = replace(design.models, hover_inflow="annulus", hub_loss=False)
-    ours = solve(replace(design, models=models)).require()
+    solution = solve(replace(design, models=models)).require()
     rotor = design.rotor
     root = rotor.blade.root_cutout
     n = models.elements
@@ -175,16 +175,16 @@ def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
         wakerotation=swirl, usecd=True, shearExp=0.0,
     )  # fmt: skip
     rpm = rotor.angular_speed * 60.0 / (2.0 * math.pi)
-    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(ours.controls.collective), 0.0)
-    # Summed like ours, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
+    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(solution.controls.collective), 0.0)
+    # Summed as here, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
     width = rotor.radius * (1.0 - root) / n
     thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
     torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
     return CodeComparison(
         condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
-        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
-        power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,
-        detail=f", C_T/σ {ours.ct_over_sigma:.3f}",
+        thrust=thrust / (solution.ct * design.thrust_unit) - 1.0,
+        power=torque * rotor.angular_speed / solution.power.main_rotor - 1.0,
+        detail=f", C_T/σ {solution.ct_over_sigma:.3f}",
     )
 
 

@@ -1,6 +1,6 @@
 """Chapter 5: free strain of piezoelectric sheets, how far plies twist the blade, and whether it pays.
 
-Only the captions of the thesis are known; what is here is ours.
+Only the captions of the thesis are known; the rest is this project's.
 """
 
 import math

@@ -183,7 +183,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         name = checked.title.lower().replace(" ", "_").replace(".", "_")
         test = f"rotor/validation/thesis/test_chapter_{chapter}.py::test_{name}"
         row = words.row(
-            checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.ours, against=checked.statement
+            checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.finding, against=checked.statement
         )
         rows.append(replace(row, error=None))
     count = Counter(row.shown for row in rows)

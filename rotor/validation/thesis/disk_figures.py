@@ -67,10 +67,10 @@ def figure_2_8() -> Report:
     disk = solution.disk
     mu_x = FAST * math.cos(solution.controls.shaft_tilt)
     expected = _reverse_area(mu_x, float(disk.edges[0]))
-    ours = solution.reverse_flow_area
+    computed = solution.reverse_flow_area
     top, low = float(disk.u_t.max()), float(disk.u_t.min())
     # One cell is 1/40 of the blade by 1/120 of the turn: the border of the region cuts through about 60 of them.
-    good = abs(ours - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
+    good = abs(computed - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
     rows = [
         (r, math.degrees(psi), disk.u_t[i, 4 * j]) for i, r in enumerate(disk.r) for j, psi in enumerate(disk.psi[::4])
     ]
@@ -82,7 +82,7 @@ def figure_2_8() -> Report:
         judged(good),
         tables=[table("u_t", ("r", "psi_deg", "u_t"), rows)],
         panels=[panel("", "r/R", "U_T / ΩR", curves)],
-        numbers={"reverse_area": ours, "circle_area": expected, "largest": top, "least": low},
+        numbers={"reverse_area": computed, "circle_area": expected, "largest": top, "least": low},
     )
 
 
@@ -190,7 +190,7 @@ def elements_figure(number: str) -> Report:
     return report(
         number,
         tables=[table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True))],
-        panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: ours"), "the limit"),
+        panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: default"), "the limit"),
         numbers=numbers,
     )
 

@@ -123,7 +123,7 @@ def _record(chapter: str, report: Report) -> dict[str, Any]:
         "chapter": chapter,
         "caption": report.caption,
         "statement": report.statement,
-        "ours": typographic(report.ours),
+        "finding": typographic(report.finding),
         "verdict": report.verdict.value,
         "because": typographic(report.because),
         "numbers": {name: value if math.isfinite(value) else None for name, value in report.numbers.items()},

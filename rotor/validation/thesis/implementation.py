@@ -20,7 +20,7 @@ from rotor.validation.uh60a import SLOWEST, hover_comparison, model_curve_compar
 
 Coefficient = Literal["lift", "drag"]
 RANGES = ((-10.0, 15.0), (-10.0, 18.0))
-"""Ranges of the fit [deg]: ours, and one that reaches further into stall. The thesis states none."""
+"""Ranges of the fit [deg]: this project's, and one that reaches further into stall. The thesis states none."""
 GOOD = 0.01
 """Part of the coefficient's own spread over the range that a good compromise may miss."""
 ATTACHED_DEG = (-4.0, 8.0)
@@ -193,7 +193,7 @@ def tail_rotor() -> Report:
         rows.append((mu, power.main_rotor / 1e3, power.tail / 1e3, 100.0 * shares[-1]))
     low, high = min(shares), max(shares)
     curves = (
-        curve("ours, solved", TAIL_SPEEDS, [100 * share for share in shares], "both"),
+        curve("solved", TAIL_SPEEDS, [100 * share for share in shares], "both"),
         curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
     )
     return report(
@@ -218,7 +218,7 @@ def figure_3_10() -> Report:
     total = {
         name: [solve_variant(name, TWISTS[name], mu).require().power.total / 1e3 for mu in SPEEDS] for name in TWISTS
     }
-    ours = {name: model_curve_comparison(name)[2] for name in TWISTS}
+    computed = {name: model_curve_comparison(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = model_curve_comparison("flight")
     hover_ct, hover_cp, hover_ours = hover_comparison()
     error, mean = model_curve_errors()
@@ -235,7 +235,7 @@ def figure_3_10() -> Report:
             table(
                 "main_rotor_beside_model_kw",
                 ("mu", "public_model_curve", *TWISTS),
-                zip(rotor_speeds, theirs, *(ours[name] for name in TWISTS), strict=True),
+                zip(rotor_speeds, theirs, *(computed[name] for name in TWISTS), strict=True),
             ),
             table(
                 "hover_points",
@@ -255,7 +255,7 @@ def figure_3_10() -> Report:
                 "advance ratio µ",
                 "main-rotor power [kW]",
                 (
-                    *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(TWISTS)),
+                    *(curve(name, rotor_speeds, computed[name], colour=k) for k, name in enumerate(TWISTS)),
                     curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
                 ),
             ),

@@ -48,14 +48,14 @@ def rung_design(on: Collection[str], mu: float, twist: str = "linear:-16", inflo
     rotor = flight.rotor if "blade" in on else thesis.rotor
     if ("table" in on) != ("blade" in on):
         rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_READING.name,), ())
-    ours, stated = flight.models, thesis.models
+    own, stated = flight.models, thesis.models
     models = replace(
         flight.models,
-        inflow=inflow or (ours if "wake" in on else stated).inflow,
-        low_speed=(ours if "wake" in on else stated).low_speed,
-        loss_on=(ours if "wake" in on else stated).loss_on,
+        inflow=inflow or (own if "wake" in on else stated).inflow,
+        low_speed=(own if "wake" in on else stated).low_speed,
+        loss_on=(own if "wake" in on else stated).loss_on,
         # Equation (3.3) has one lift-curve slope, which a table over angle of attack does not.
-        hover_inflow=(ours if "table" in on else stated).hover_inflow,
+        hover_inflow=(own if "table" in on else stated).hover_inflow,
         trim="propulsive" if "cyclic" in on else "thrust",
         disk_axial_flow="axial" in on,
         blade_weight="blade" in on,

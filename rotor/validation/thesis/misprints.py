@@ -32,12 +32,12 @@ class Misprint:
     kind: str
     """`misprint`, `ambiguous`, or `omission`."""
     printed: str
-    ours: str
+    corrected: str
     """What this program computes, and why."""
     setting: str
     """First line: a statement."""
     showing: str
-    """Second line: an expression of two values, as printed and ours."""
+    """Second line: an expression of two values, as printed and corrected."""
     unit: str = ""
     page: str = ""
 
@@ -48,11 +48,11 @@ MISPRINTS = tuple(
 
 
 def shown_values(misprint: Misprint) -> tuple[float, float]:
-    """Run the two lines: the value as printed and ours."""
+    """Run the two lines: the value as printed and corrected."""
     names = dict(_names())
     exec(misprint.setting, names)
-    printed, ours = eval(misprint.showing, names)
-    return float(printed), float(ours)
+    printed, corrected = eval(misprint.showing, names)
+    return float(printed), float(corrected)
 
 
 @cache
@@ -82,7 +82,7 @@ def misprint_table() -> ReportTable:
             filter(None, (misprint.equation, f"p. {misprint.page}" if misprint.page else "", misprint.kind))
         )
         values = (f"{_short(value)}{unit}" for value in shown_values(misprint))
-        rows.append((where, misprint.printed, misprint.ours, f"{misprint.setting}\n{misprint.showing}", *values))
+        rows.append((where, misprint.printed, misprint.corrected, f"{misprint.setting}\n{misprint.showing}", *values))
     return table("misprints", ("Equation", "As printed", "Ours, and why", "Python", "Printed", "Ours"), rows)
 
 

@@ -56,7 +56,7 @@ class Report:
     """In our own words."""
     statement: str
     """What the thesis says."""
-    ours: str
+    finding: str
     """Our numbers, one or two sentences."""
     verdict: Agreement
     because: str
@@ -134,7 +134,7 @@ def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]
 
 @cache
 def thesis() -> dict[str, dict[str, Any]]:
-    """What the thesis says, and what is said of ours, by number: `assets/thesis.toml`; last `drawings`."""
+    """What the thesis says, and what this project finds, by number: `assets/thesis.toml`; last `drawings`."""
     return tomllib.loads(asset_path("thesis.toml").read_text(encoding="utf-8"))
 
 
@@ -152,7 +152,7 @@ def report(
     number: as the catalogue has it, for example `3.11`, `table 4.1`, `tail rotor`.
     """
     entry, numbers = thesis()[number], numbers or {}
-    caption, ours, because = (_filled(entry[key], {**numbers, **words}) for key in ("caption", "ours", "because"))
+    caption, finding, because = (_filled(entry[key], {**numbers, **words}) for key in ("caption", "finding", "because"))
     title = entry.get("title")
     known = f"{title}. Only this caption is known; the numbers of the thesis are not." if title else entry["statement"]
     return Report(
@@ -160,7 +160,7 @@ def report(
         kind="table" if number.startswith("table ") else "figure" if number[0].isdigit() else "claim",
         caption=caption,
         statement=known,
-        ours=ours,
+        finding=finding,
         verdict=verdict,
         because=because,
         tables=tuple(tables),

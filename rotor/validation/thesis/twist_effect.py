@@ -125,7 +125,7 @@ LOW = (0.075, 0.09, 0.105, 0.12, 0.135, 0.15, 0.1635)
 MEDIUM = (0.15, 0.17, 0.18, 0.19, 0.21, 0.23, 0.25)
 HIGH = (0.25, 0.27, 0.29, 0.31, 0.33, 0.35)
 """Advance ratios of the thesis' low, medium and high speed. It states 130 km/h for the first, which is µ 0.1635, and
-0.18; the other borders are ours."""
+0.18; the other borders are this project's."""
 
 
 def figure_3_12() -> Report:
@@ -311,7 +311,7 @@ def _path(values: list[int], speeds: tuple[float, ...]) -> str:
 
 SPEEDS_KMH = (0.0, 80.0, 160.0, 240.0, 280.0, 300.0, FAST_KMH)
 CLOSE = 0.5
-"""Part of a measured effect of twist by which ours may be off and agree: another rotor, so size and sign count."""
+"""Part of a measured effect of twist by which the computed one may be off and agree: another rotor's."""
 
 
 AREAS = (0.0, 0.5, 1.1, 2.0, 3.27)
@@ -354,8 +354,8 @@ def keys_1987() -> Report:
     percent = {name: [100.0 * strong_over_weak(on, kmh) for kmh in SPEEDS_KMH] for name, on in RUNGS_OF.items()}
     hover, fast = percent["flight"][0], percent["flight"][-1]
     near = [
-        abs(ours - 100.0 * measured) <= CLOSE * abs(100.0 * measured)
-        for ours, measured in ((hover, HOVER), (fast, FAST))
+        abs(computed - 100.0 * measured) <= CLOSE * abs(100.0 * measured)
+        for computed, measured in ((hover, HOVER), (fast, FAST))
     ]
     rotor = make_design().rotor
     force = [area / ((2.0 * rotor.radius) ** 2 * rotor.solidity) for area in AREAS]

@@ -98,10 +98,10 @@ def test_powers_of_flight():
     rows = list(flown_powers())
     assert [row.rotor for row in rows] == ["gazelle"] * 4 + ["bo105"] * 13
     for row in rows:
-        assert row.ours is not None
-        assert row.band[0] <= row.ours <= row.band[1]
+        assert row.computed is not None
+        assert row.band[0] <= row.computed <= row.band[1]
         if row.rotor == "gazelle":
-            assert abs(row.ours / row.measured - 1.0) < 0.15
+            assert abs(row.computed / row.measured - 1.0) < 0.15
 
 
 def test_shape_is_free_of_level():

@@ -1,4 +1,4 @@
-"""Measured points and ours: what the files say, what the comparison finds, and the command."""
+"""Measured and computed points: what the files say, what the comparison finds, and the command."""
 
 import math
 from collections.abc import Callable
@@ -57,7 +57,7 @@ def test_hover_of_the_xv15():
         if 0.004 <= point.given["ct"] <= 0.0121:
             assert point.within_scatter or abs(point.error_percent or math.inf) < 3.03
         if point.given["ct"] > 0.0135:
-            assert point.ours is None or (point.error_percent or 0.0) > 10.0
+            assert point.computed is None or (point.error_percent or 0.0) > 10.0
     assert found.rms_percent is not None
     assert found.rms_percent < 2.2
 
@@ -115,7 +115,7 @@ def test_validate_as_json(answer: Callable[..., Any]):
     assert [first[key] for key in ("name", "rotor", "kind")] == ["knight-hefner-3", "knight-hefner-3", "hover"]
     assert (first["fitted"], first["passed"], second["passed"]) == (False, False, None)
     for point in first["points"]:
-        error = 100.0 * (point["ours"]["cq_above_zero"] / point["measured"]["cq_above_zero"] - 1.0)
+        error = 100.0 * (point["computed"]["cq_above_zero"] / point["measured"]["cq_above_zero"] - 1.0)
         assert_allclose(point["error_percent"], error)
     judged = [point["error_percent"] for point in first["points"] if point["judged"]]
     assert_allclose(first["rms_percent"], math.sqrt(sum(error**2 for error in judged) / len(judged)))
@@ -192,8 +192,8 @@ def test_points_that_do_not_trim_are_counted_and_decide_only_where_a_target_is_s
         points: list[ComparedPoint] = []
         for k, point in enumerate(measured.points):
             trims, judged = k not in lost, measured.is_judged(point)
-            ours, said, error = (point, "", 0.0) if trims else (None, "Not trimmed.", None)
-            points.append(ComparedPoint(point, point, ours, said, error, trims, judged, trims or not judged))
+            computed, said, error = (point, "", 0.0) if trims else (None, "Not trimmed.", None)
+            points.append(ComparedPoint(point, point, computed, said, error, trims, judged, trims or not judged))
         return Comparison(measured, "annulus", tuple(points))
 
     for lost, code, words in (
