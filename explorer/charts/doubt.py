@@ -40,14 +40,14 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         for row, size in sizes
         if size >= _LEAST_PART * longest
     ]
-    said = f"Other models: {'; '.join(_said(each, units) for each in models)}."
+    words = f"Other models: {'; '.join(_in_words(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
-        said += " The band covers uncertain inputs of this model; other models may lie outside it."
-    with_others = tag("div.rx-dim", said) if models else Markup()
+        words += " The band covers uncertain inputs of this model; other models may lie outside it."
+    with_others = tag("div.rx-dim", words) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
 
-def _said(beside: OtherModels, units: Units) -> str:
+def _in_words(beside: OtherModels, units: Units) -> str:
     """`bending 1 368 kW, saves 2.3 %`."""
     words = f"{beside.name} {units.watts(beside.power)}"
     if beside.change is None:

@@ -175,7 +175,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     where = f"{count_text(verdict.installed)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
-    said = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."
+    sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."
     parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Extra power"), unit),
@@ -186,10 +186,10 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
         "section.actuator",
         title,
         tag("p.lead", f"{first}, {where}; {mass_words(verdict.installed)}"),
-        tag("p.lead", said, class_="less" if verdict.pays else "more", data_report="verdict"),
+        tag("p.lead", sentence, class_="less" if verdict.pays else "more", data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
         parts,
-        tag("ul.care", [tag("li", sentence) for sentence in cares]) if cares else None,
+        tag("ul.care", [tag("li", care) for care in cares]) if cares else None,
     )
 
 
@@ -218,6 +218,6 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
         drawn.append(tag("text", name, x=0, y=top + 20, font_weight=weight))
         look = {"text_anchor": "end", "class_": kind, "font_weight": weight, "data_report": "balance"}
         drawn.append(tag("text", text, x=_WIDE, y=top + 20, **look))
-    said = ", ".join(f"{name} {text}" for name, _, text in rows)
-    label, box = f"{said} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
+    listed = ", ".join(f"{name} {text}" for name, _, text in rows)
+    label, box = f"{listed} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
     return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)

@@ -93,12 +93,12 @@ def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> Markup:
     if stage is None:
         return Markup()
     tabs = [tag("button", entry.title, type="button", data_scene=k) for k, entry in enumerate(report.shown)]
-    said = tag("span.dim", "Drag to turn, right button to move, wheel to zoom.")
+    hint = tag("span.dim", "Drag to turn, right button to move, wheel to zoom.")
     shown = FIELDS[report.view.field]
     return tag(
         "section.stage",
         tag("h2", "The rotor in trim"),
-        tag("div.tabs", tabs if len(report.shown) > 1 else None, said),
+        tag("div.tabs", tabs if len(report.shown) > 1 else None, hint),
         tag("iframe", id="viewer", title="The rotor in three dimensions"),
         tag("div.scale", figures.bar(shown, report.colour_range(shown), "stage-bar")),
         web.json_block("stage", asdict(stage)),

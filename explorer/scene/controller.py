@@ -75,10 +75,10 @@ class PageScene:
         def numbers(values: Array | None, digits: int) -> Any:
             return None if values is None else values.round(digits).tolist()
 
-        told = {
+        shapes = {
             node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)] for node, form in forms.items()
         }
-        call(self._client, "rotorDisk.form", told)
+        call(self._client, "rotorDisk.form", shapes)
 
     def paint(
         self,
@@ -118,7 +118,7 @@ class PageScene:
         return self._motion is not None and (self._played or self._spun)
 
     def play(self, playing: bool) -> None:
-        """Let the page move the blades as it is told to, or leave them to the scene again."""
+        """Let the page move the blades as it will, or leave them to the scene again."""
         self._switch(playing, self._spun)
 
     def spin(self, spinning: bool) -> None:

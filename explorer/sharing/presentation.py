@@ -122,9 +122,9 @@ class Presentations:
             away = name not in self._presenters
         if away:
             listener("away")
-        told = None
-        while (shown := self._shown.get(name)) is not None and shown is not told:  # It may change meanwhile.
-            told = shown
+        sent = None
+        while (shown := self._shown.get(name)) is not None and shown is not sent:  # It may change meanwhile.
+            sent = shown
             listener(shown)
         self._count(name)
 

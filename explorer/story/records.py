@@ -13,7 +13,7 @@ def step_record(step: LectureStep, facts: StepFacts | None, units: Units) -> Ste
     """What is said before the guess. `facts`: None while they are computed; a sentence that needs them is empty."""
     known, text, control = None if facts is None else facts.words(units), step.text, step.control
 
-    def said(sentence: str) -> str:
+    def filled(sentence: str) -> str:
         if known is None:
             return "" if "{" in sentence else sentence
         return sentence.format_map(known)
@@ -21,12 +21,12 @@ def step_record(step: LectureStep, facts: StepFacts | None, units: Units) -> Ste
     return StepPart(
         name=step.name,
         title=text.title,
-        watch=said(text.watch),
-        a=said(text.a),
-        b=said(text.b),
-        question=said(text.question),
-        options=[said(option) for option in text.options],
-        todo=said(text.todo),
+        watch=filled(text.watch),
+        a=filled(text.a),
+        b=filled(text.b),
+        question=filled(text.question),
+        options=[filled(option) for option in text.options],
+        todo=filled(text.todo),
         control=StepControl(
             label=control.label, kind=control.kind, words=[stop.words for stop in facts.stops] if facts else []
         ),

@@ -1,6 +1,6 @@
 """The lecture: steps that each set the page, ask for a guess, and answer it with computed numbers.
 
-`steps.toml` says what each sets, moves and shows. What is said at it is in its file in the folder `text`; every number
+`steps.toml` says what each sets, moves and shows. Its words are in its file in the folder `text`; every number
 in it is a name in braces, which `facts` finds.
 """
 
@@ -26,7 +26,7 @@ MOVED = frozenset({"law"}.union(*(law.inputs for law in LAWS.values())))
 
 @dataclass(frozen=True)
 class StepText:
-    """What is said at a step, with names of numbers in braces."""
+    """The words of a step, with names of numbers in braces."""
 
     title: str
     watch: str
@@ -56,20 +56,20 @@ def step_text(name: str) -> StepText:
     text = (_TEXT / f"{name}.md").read_text(encoding="utf-8")
     first, *rest = re.split(r"\n## (\w+)\n", text)
     head = re.fullmatch(r"# ([^\n]+)\n\n(.+)", first, re.DOTALL)
-    said = dict(zip(rest[::2], map(str.strip, rest[1::2]), strict=True))
-    guess = re.fullmatch(r"(.+?)\n\n((?:- [^\n]+\n?)+)", said.get("Guess", ""), re.DOTALL)
-    pair = re.fullmatch(r"A: (.+)\n\nB: (.+)", said.get("Compare", "A: -\n\nB: -"))
-    wanted = [heading for heading in _HEADINGS if heading in said or heading != "Compare"]
-    if head is None or guess is None or pair is None or rest[::2] != wanted or not all(said.values()):
+    sections = dict(zip(rest[::2], map(str.strip, rest[1::2]), strict=True))
+    guess = re.fullmatch(r"(.+?)\n\n((?:- [^\n]+\n?)+)", sections.get("Guess", ""), re.DOTALL)
+    pair = re.fullmatch(r"A: (.+)\n\nB: (.+)", sections.get("Compare", "A: -\n\nB: -"))
+    wanted = [heading for heading in _HEADINGS if heading in sections or heading != "Compare"]
+    if head is None or guess is None or pair is None or rest[::2] != wanted or not all(sections.values()):
         raise ValueError(
             f"{name}.md is no step of the lecture: write '# title', a text, '## Compare' with 'A: …' and 'B: …' or "
             "without it, '## Guess' with a question and a list, '## Answer' and '## Try'"
         )
     options = tuple(line.removeprefix("- ") for line in guess[2].splitlines())
     title, watch, question, answer, todo = (
-        " ".join(part.split()) for part in (head[1], head[2], guess[1], said["Answer"], said["Try"])
+        " ".join(part.split()) for part in (head[1], head[2], guess[1], sections["Answer"], sections["Try"])
     )
-    compared = (pair[1], pair[2]) if "Compare" in said else ("", "")
+    compared = (pair[1], pair[2]) if "Compare" in sections else ("", "")
     return StepText(title, watch, question, options, answer, todo, *compared)
 
 

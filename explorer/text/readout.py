@@ -310,8 +310,8 @@ def needs_words(net: float, band: float | None, units: Units) -> str:
     if band is not None:
         size += f" ± {number(math.ceil(10.0**digits * unit.of(band)) / 10.0**digits, digits)}"
     words = f"saves {size} {unit.symbol}" if net > 0.0 else f"needs {size} {unit.symbol} more"
-    told = "sure" if band is None else sureness(net, band)
-    return words if told == "sure" else f"{words} ({told})"
+    word = "sure" if band is None else sureness(net, band)
+    return words if word == "sure" else f"{words} ({word})"
 
 
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:

@@ -131,13 +131,13 @@ def parse_polars(text: str, name: str) -> PolarSet:
             f"write a CSV headed {COLUMNS}"
         )
     groups: dict[tuple[float, float], list[Row]] = {}
-    begin, said, assumed = 0, (np.nan, np.nan), dict[str, None]()
+    begin, stated, assumed = 0, (np.nan, np.nan), dict[str, None]()
     for heading, end in zip(headings, [*(after.line for after in headings[1:]), len(lines)], strict=True):
-        said = _stated(name, lines[max(begin, heading.line - _HEAD) : heading.line], said)
+        stated = _stated(name, lines[max(begin, heading.line - _HEAD) : heading.line], stated)
         begin = heading.line + 1
         for number, (mach, reynolds, *values) in _rows(name, lines, heading, end):
             begin = number
-            mach, reynolds = said[0] if np.isnan(mach) else mach, said[1] if np.isnan(reynolds) else reynolds
+            mach, reynolds = stated[0] if np.isnan(mach) else mach, stated[1] if np.isnan(reynolds) else reynolds
             if np.isnan(mach):
                 assumed["names no Mach number: it is taken as incompressible"] = None
             if "cm" not in heading.at:

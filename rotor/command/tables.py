@@ -329,8 +329,8 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
     if as_json:
         print(json.dumps({"cl": cl, "cd": cd, "cm": cm}))
         return
-    said = "no moment in its source" if cm is None else f"cm {cm:+.4f}"
-    print(f"{name}, Mach {mach:g}, {alpha:g} deg: cl {cl:.4f}, cd {cd:.5f}, {said}")
+    words = "no moment in its source" if cm is None else f"cm {cm:+.4f}"
+    print(f"{name}, Mach {mach:g}, {alpha:g} deg: cl {cl:.4f}, cd {cd:.5f}, {words}")
 
 
 def _show_section(section: Section, as_json: bool) -> None:

@@ -40,8 +40,8 @@ def uh60a_rotor(preset: str) -> Rotor:
 
 def _other_way(name: str) -> str:
     """How to say what is asked for by a name that is not ours."""
-    said = {"isa", "temperature", "temp", "oat"} & set(name.lower().split("_"))
-    return "isa_offset_c=20, the difference from the standard atmosphere in °C" if said else ""
+    named = {"isa", "temperature", "temp", "oat"} & set(name.lower().split("_"))
+    return "isa_offset_c=20, the difference from the standard atmosphere in °C" if named else ""
 
 
 @takes(SWEPT, after="hover", elsewhere=_other_way)
