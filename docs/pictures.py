@@ -5,7 +5,7 @@ from html import escape
 import numpy as np
 
 import rotor
-from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
+from explorer.charts.svg import HALF_EDGE, bar_drawing, disk_drawing, key_entries
 from explorer.colours import PARTS
 from explorer.export.figures import figure
 from explorer.picture.fields import FIELDS
@@ -82,9 +82,10 @@ def disk_figure(solution: rotor.Solution, field: str, title: str = "") -> str:
     )
     drawn = disk_drawing(solution, shown, colour_range, 400, letters=10.0)
     bar = bar_drawing(shown, colour_range, 200.0, name, 10.0)
+    box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
     return (
         f"<figure><figcaption><b>{escape(title or shown.title)}</b>{key}</figcaption>"
-        f'<svg viewBox="{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}" role="img" aria-label="{escape(shown.title)}">'
+        f'<svg viewBox="{box}" role="img" aria-label="{escape(shown.title)}">'
         f'{drawn}</svg><svg class="bar-svg" viewBox="-14 0 228 40">{bar}'
         "</svg></figure>"
     )

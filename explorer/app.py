@@ -35,7 +35,7 @@ from rotor.support.compiled import compiling
 from rotor.support.processes import Processes
 from rotor.trim.newton import SolverOptions
 
-FIRST = 0.6
+FIRST_SOLUTION_S = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
 _TELL_EVERY = 10.0
 """[s] between two sentences about values that no page of ours sends."""
@@ -47,7 +47,7 @@ _FIRST_ANSWERS = 32
 """Addresses whose first answer is kept."""
 _WORKERS = 2
 """Processes for the long work of all pages."""
-_SWITCH = 1e-3
+_THREAD_SWITCH_S = 1e-3
 """[s] after which a thread that computes lets another run: what sends frames must not wait for its default."""
 
 
@@ -82,7 +82,7 @@ class ClientConnection:
                     _log.exception("a page could not be made")
                     show_dialogue(self.client, web.fill("crashed.html", {"error": type(error).__name__}))
                     return
-                self.session.until_shown(FIRST)
+                self.session.until_shown(FIRST_SOLUTION_S)
 
     def turn_away(self, places: int) -> None:
         """All places are taken: the page says so, asks now and then, and loads again once there is one."""
@@ -176,7 +176,7 @@ class App:
 
     def __init__(self, host: str, port: int, start: Inputs | None = None, limits: ServerLimits | None = None) -> None:
         _check_free(host, port)
-        sys.setswitchinterval(_SWITCH)
+        sys.setswitchinterval(_THREAD_SWITCH_S)
         self._start = start or OPENING
         self._limits = limits or ServerLimits()
         limit_caches(self._limits.cache_bytes)

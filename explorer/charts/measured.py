@@ -22,7 +22,7 @@ _AT_ONCE = ("ct", "cp", "cq_over_sigma", "cp_drag")
 """Quantities that a solution has by itself; the others need further trims."""
 _KEPT = 20
 """Curves remembered per session, and models whose flights are."""
-_PACE = 0.3
+_REDRAW_S = 0.3
 """[s] between two drawings of a curve that grows."""
 _MILLE = "×10³"
 _AXES = {"ct": ("CT ×10³", 1e3), "ct_over_sigma": ("CT/σ", 1.0), "mu": ("µ", 1.0), "collective_deg": ("θ₀ [°]", 1.0)}
@@ -114,7 +114,7 @@ class MeasuredChart:
                 return
             points.append(compare_point(measured, point, key[1]))
             self._points[key] = tuple(points)
-            if time.monotonic() - begun > _PACE:
+            if time.monotonic() - begun > _REDRAW_S:
                 begun = time.monotonic()
                 shown()
         shown()

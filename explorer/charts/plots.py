@@ -63,9 +63,9 @@ def lift_along(solution: Solution, azimuth_deg: float) -> Array:
 
 SWEEP = tuple(round(0.025 * k, 3) for k in range(19))
 """Advance ratios of the power curve."""
-PATIENCE = 0.6
+OLD_CURVE_S = 0.6
 """A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
-HASTE = 0.08
+COARSE_SWEEP_S = 0.08
 """[s] that such a sweep may take once a slider has moved; if it needs longer, frames come first."""
 _FEW = (0, 1, 3, 6, 9, 12, 15, 18)
 """Places in `SWEEP` computed first; a smooth line joins them where time is short."""
@@ -104,7 +104,7 @@ class PowerCurve:
 class PowerCurves:
     """The curves of one session, total and ideal power; a curve belongs to a design at any speed."""
 
-    def __init__(self, haste: float = HASTE) -> None:
+    def __init__(self, haste: float = COARSE_SWEEP_S) -> None:
         self._haste = haste
         self._curves: dict[Design, Array] = {}
         """(3, points): total, ideal and main-rotor power [kW]."""
@@ -125,7 +125,7 @@ class PowerCurves:
     @property
     def recent(self) -> bool:
         """Whether the last sweep is so fresh that the next can wait until a drag ends."""
-        return time.monotonic() - self._tried < PATIENCE
+        return time.monotonic() - self._tried < OLD_CURVE_S
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
         """The curves of a design and of its reference; until the design is swept, the curve before it."""

@@ -123,9 +123,9 @@ def image(x: float, y: float, wide: float, high: float, png: bytes) -> Markup:
 
 Range = tuple[float, float]
 
-HALF = 134.0
+HALF_EDGE = 134.0
 """Half the edge of the drawing, where the rotor's radius is 100."""
-_STOPS = 25
+_GRADIENT_STOPS = 25
 
 
 def disk_drawing(
@@ -136,7 +136,7 @@ def disk_drawing(
     letters: float = 9.0,
     units: Units = SI,
 ) -> Markup:
-    """The inside of an SVG that spans −HALF…HALF: nose up, advancing side right.
+    """The inside of an SVG that spans −HALF_EDGE…HALF_EDGE: nose up, advancing side right.
 
     `pixels`: along each edge of the field's picture; `letters`: their height.
     """
@@ -189,8 +189,8 @@ def _flight(solution: Solution, size: float, units: Units) -> Markup:
 def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> Markup:
     """A colour bar `wide` across with its label above and its numbers below: 4 × `size` high. `name`: unique."""
     stops = [
-        tag("stop", offset=f"{k / (_STOPS - 1):.4f}", stop_color=css(colour))
-        for k, colour in enumerate(colour_map(field.colours, _STOPS).tolist())
+        tag("stop", offset=f"{k / (_GRADIENT_STOPS - 1):.4f}", stop_color=css(colour))
+        for k, colour in enumerate(colour_map(field.colours, _GRADIENT_STOPS).tolist())
     ]
     scale: list[Markup] = []
     for percent, word in bar_ticks(*colour_range):

@@ -10,7 +10,7 @@ from scipy.interpolate import PchipInterpolator
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurves, held_range
 from explorer.charts.strip import lift_per_metre
-from explorer.charts.svg import HALF, bar_drawing, disk_drawing, key_entries
+from explorer.charts.svg import HALF_EDGE, bar_drawing, disk_drawing, key_entries
 from explorer.colours import BASELINE, IDEAL
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units
@@ -124,7 +124,7 @@ def disks(report: DesignReport, entry: ReportEntry, k: int) -> Markup:
     solution = entry.solution
     drawings: list[Markup] = []
     keys: dict[str, Markup] = {}
-    box = f"{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}"
+    box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
     for n, field in enumerate(fields_of(report)):
         colour_range, label = report.colour_range(field), f"{field.title} over the disk"
         drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)

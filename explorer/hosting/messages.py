@@ -25,7 +25,7 @@ LONGEST_PRESS = 300
 """Characters of a press: name and value as JSON."""
 LONGEST_SHOWN = 60
 """Characters of a refused value that its sentence repeats."""
-_READABLE = 1000
+_LOGGED_BYTES = 1000
 """[bytes] of a refused field that the log repeats in part."""
 _log = logging.getLogger(__name__)
 
@@ -34,7 +34,7 @@ Number = Annotated[float, Meta(gt=-1e15, lt=1e15)]
 Count = Annotated[int, Meta(ge=0, lt=10**15)]
 Side = Annotated[int, Meta(ge=1, le=2**15)]
 """[px] of the canvas."""
-_SLIMMEST = 32.0
+_LARGEST_ASPECT = 32.0
 """Ratio of the sides of a canvas, at most."""
 Name = Annotated[str, Meta(max_length=300)]
 Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
@@ -65,9 +65,11 @@ class ViewerCameraMessage(_Sent):
     up_direction: Point
 
     def fault(self) -> str:
-        fits = 1.0 / _SLIMMEST <= self.image_width / self.image_height <= _SLIMMEST
+        fits = 1.0 / _LARGEST_ASPECT <= self.image_width / self.image_height <= _LARGEST_ASPECT
         return (
-            "" if fits else f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_SLIMMEST:g}"
+            ""
+            if fits
+            else f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_LARGEST_ASPECT:g}"
         )
 
 
@@ -169,7 +171,7 @@ def message_fault(message: bytes) -> str:
         parts = msgspec.msgpack.decode(message, type=dict[str, msgspec.Raw])
         kind, part = msgspec.msgpack.decode(parts["type"]), parts[field[0]]
         size = len(memoryview(part))
-        shown = _shown(msgspec.msgpack.decode(part)) if size <= _READABLE else f"{size} bytes"
+        shown = _shown(msgspec.msgpack.decode(part)) if size <= _LOGGED_BYTES else f"{size} bytes"
         (fields,) = (get_type_hints(one) for one in get_args(Sent) if one.__name__ == kind)
         return f"{kind}: {field[0]} is {shown}: {reason}{_choices(reason, fields[field[0]])} at {place}"
     fault = sent.fault()

@@ -31,7 +31,7 @@ from rotor.support.markup import end_of, start_of, with_title
 
 _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _DEFAULT_PORTS = {"http": 80, "https": 443}
-_SHOWN = 80
+_NAME_LENGTH = 80
 """Characters of a foreign name that a refusal repeats."""
 
 
@@ -62,11 +62,13 @@ class AllowedHosts:
         """
         name, port = _split(host or "")
         if not name or not self._answers_to(name):
-            shown = (host or "")[:_SHOWN]
-            return f"This server does not answer to the name {shown!r}: start it with --allow-host {name[:_SHOWN]}"
+            shown = (host or "")[:_NAME_LENGTH]
+            return (
+                f"This server does not answer to the name {shown!r}: start it with --allow-host {name[:_NAME_LENGTH]}"
+            )
         if origin is None or self._is_own(origin, name, port):
             return None
-        return f"Pages of {origin[:_SHOWN]!r} may not use this server."
+        return f"Pages of {origin[:_NAME_LENGTH]!r} may not use this server."
 
     def _answers_to(self, name: str) -> bool:
         if name in _LOOPBACK or name == self.host.lower() or name in self._also:
@@ -176,7 +178,7 @@ Answer = Callable[[ServerConnection, Request], Response | None]
 Handler = Callable[[ServerConnection], Awaitable[None]]
 
 _FLOOD = "Rate limit exceeded; the page starts again."
-_CLOSING = 1.0
+_CLOSING_S = 1.0
 """[s] a client has to complete the closing handshake."""
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -354,7 +356,7 @@ def _contained(handler: Handler) -> Handler:
 
 async def _close(connection: ServerConnection, code: CloseCode, reason: str) -> None:
     with contextlib.suppress(TimeoutError):
-        await asyncio.wait_for(connection.close(code, reason), _CLOSING)
+        await asyncio.wait_for(connection.close(code, reason), _CLOSING_S)
     connection.transport.abort()
 
 

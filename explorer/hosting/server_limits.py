@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from rotor.support.bytes_cache import CACHE_BYTES
 
-_PAUSE = 5.0
+_COLLECT_AFTER_S = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
 _M_ARENA_MAX = -8
 """Option of `mallopt`, from glibc's malloc.h."""
@@ -44,7 +44,7 @@ def release_memory_soon() -> None:
     global _due
     with _lock:
         if _due is None:
-            _due = threading.Timer(_PAUSE, release_memory)
+            _due = threading.Timer(_COLLECT_AFTER_S, release_memory)
             _due.name, _due.daemon = "give-back", True
             _due.start()
 
@@ -62,7 +62,7 @@ def release_memory() -> None:
 
 SESSIONS = 24
 """Pages at work by default: a class."""
-_SPARE = 40
+_SPARE_CONNECTIONS = 40
 """Connections beyond the pages at work: pages that were turned away, or have only just connected."""
 
 
@@ -79,7 +79,7 @@ class ServerLimits:
     @property
     def connections(self) -> int:
         """WebSockets at once."""
-        return 2 * self.sessions + _SPARE
+        return 2 * self.sessions + _SPARE_CONNECTIONS
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class RateLimiter:
 
 LARGEST_FILE = 4 * 2**20
 """[bytes]; ten times the largest published table of section data."""
-_PARTS = 64
+_UPLOAD_PARTS = 64
 """The page sends parts of half a megabyte. A million small parts would take a hundred times their size in memory."""
 UPLOADS_AT_ONCE = 2
 """Files on their way from one page."""
@@ -138,8 +138,8 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
         return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:
         return f"{shown} must wait for the files before it: try again when they have arrived."
-    if size < 0 or not 0 <= parts <= _PARTS:
-        return f"{shown} comes in {parts} parts: {_PARTS} are allowed."
+    if size < 0 or not 0 <= parts <= _UPLOAD_PARTS:
+        return f"{shown} comes in {parts} parts: {_UPLOAD_PARTS} are allowed."
     return None
 
 
@@ -151,7 +151,7 @@ def _is_accepted(name: str, accepts: str) -> bool:
 
 _MOST, _WINDOW = 3, 60.0
 """Records of one kind, within so many seconds."""
-_KINDS = 200
+_COUNTED_KINDS = 200
 """Kinds that are counted at once."""
 
 
@@ -176,7 +176,7 @@ class RepeatFilter(logging.Filter):
             if now - begun > self._window:
                 skipped, begun, count = max(count - self._most, 0), now, 0
             self._seen[kind] = (begun, count + 1)
-            if len(self._seen) > _KINDS:
+            if len(self._seen) > _COUNTED_KINDS:
                 self._seen.popitem(last=False)
         if skipped:
             record.msg = f"{record.msg} ({skipped} more like this were not written)"

@@ -168,7 +168,7 @@ class Pinboard:
         return self.answer
 
 
-_SHOWN = 4
+_KEPT_SOLUTIONS = 4
 """Solutions at once: of the sliders, the reference, the optimiser's, and one that is on its way."""
 
 
@@ -192,7 +192,7 @@ class Analyses:
         self._kept = tuple(one for one in self._kept if one.solution in shown)
 
     def _keep(self, analysis: Analysis) -> Analysis:
-        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_SHOWN]
+        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_KEPT_SOLUTIONS]
         return analysis
 
 

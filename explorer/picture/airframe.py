@@ -82,7 +82,7 @@ def _absorber(blades: int) -> list[Mesh]:
 
 SHAFT_FORWARD = math.radians(3.0)
 """How far the shaft leans forward in the airframe [rad]: the airframe pitches by the shaft tilt less this. UH-60A."""
-_LARGE = 6.0
+_WHEELS_ABOVE_M = 6.0
 """Rotor radius [m] above which a generic airframe has wheels instead of skids."""
 
 
@@ -106,7 +106,7 @@ def airframe(rotor: Rotor) -> Airframe:
     scale = size(rotor.radius)
     if rotor.name == "UH-60A":
         name, body, dark = "uh60a", parts["uh60a-body"], parts["uh60a-dark"]
-    elif rotor.radius > _LARGE:
+    elif rotor.radius > _WHEELS_ABOVE_M:
         name, body, dark = (
             "generic",
             joined_meshes((parts["generic-body"], parts["generic-legs"])),

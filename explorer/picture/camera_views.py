@@ -195,7 +195,7 @@ def _blade(radius: float, azimuth: float) -> Array:
 
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 """Times a unit quaternion: the rotation back."""
-_BESIDE = 0.02
+_REACH_MARGIN = 0.02
 """A click this far [R] beside the blade's reach still means its end."""
 
 
@@ -253,6 +253,6 @@ def pick(solution: Solution, origin: ArrayLike, direction: ArrayLike) -> tuple[f
         return None  # The disk is behind the viewer.
     x, y, _ = (start + distance * along) / rotor.radius
     r, cutout = math.hypot(x, y), rotor.blade.root_cutout
-    if not cutout - _BESIDE <= r <= 1.0 + _BESIDE:
+    if not cutout - _REACH_MARGIN <= r <= 1.0 + _REACH_MARGIN:
         return None
     return min(max(r, cutout), 1.0), math.atan2(y, x) % (2.0 * math.pi)

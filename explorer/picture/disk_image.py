@@ -47,7 +47,7 @@ RING_SIZE = 1792
 SHADOW_HALF, SHADOW_CENTRE = 1.72, 0.27
 """Half the edge of the shadow's picture and how far aft of the hub its middle lies, in radii."""
 _SHADOW_SIZE = 384
-_SHARP = 2
+_OVERSAMPLING = 2
 """The words are drawn this many times as large and reduced: lines and arcs have no smooth edges of their own."""
 
 
@@ -216,7 +216,7 @@ def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
 @lru_cache(maxsize=1)
 def ring_mask() -> Bytes:
     """Rim, azimuth ticks, sense of rotation and four words, shape (RING_SIZE, RING_SIZE). Row 0 is at the nose."""
-    ring = _Ring(RING_SIZE * _SHARP)
+    ring = _Ring(RING_SIZE * _OVERSAMPLING)
     ring.circle(1.012, 0.0035, 150)
     for degrees in range(0, 360, 10):
         long, medium = degrees % 90 == 0, degrees % 30 == 0
@@ -278,7 +278,7 @@ class _Ring:
             self._image.paste(ImageChops.lighter(under, tile), corner)
 
     def reduced(self) -> Bytes:
-        return np.asarray(self._image.reduce(_SHARP))
+        return np.asarray(self._image.reduce(_OVERSAMPLING))
 
     def _at(self, degrees: float, r: float) -> tuple[float, float]:
         psi, middle = math.radians(degrees), 0.5 * self._size

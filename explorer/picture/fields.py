@@ -192,7 +192,7 @@ def fitted_range(field: Field, values: Array, trim: float = 0.005) -> tuple[floa
     return step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
 
 
-TRIM = 0.02
+CLIPPED_SHARE = 0.02
 """Share of the disk at each end that a range the page fits by itself leaves beyond it, for the sake of the rest."""
 
 
@@ -202,8 +202,8 @@ def keeps_range(field: Field, values: Array, held: tuple[float, float]) -> bool:
     if not values.size:
         return True
     beyond = np.count_nonzero(values < low) + np.count_nonzero(values > high)
-    fitted = fitted_range(field, values, trim=TRIM)
-    return bool(beyond <= 3.0 * TRIM * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
+    fitted = fitted_range(field, values, trim=CLIPPED_SHARE)
+    return bool(beyond <= 3.0 * CLIPPED_SHARE * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
 
 
 def usual_range(field: Field, rotor: Rotor) -> tuple[float, float]:
@@ -223,7 +223,7 @@ def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:
     return bool(np.count_nonzero(values < held[0]) > least), bool(np.count_nonzero(values > held[1]) > least)
 
 
-_PART = 0.1
+_FIRST_DIFFERENCE = 0.1
 """Part of a field's range, to either side, over which a difference is first shown."""
 _NAMES = ("Mach", "M²")
 """What begins a title and stays capital within one."""
@@ -249,7 +249,7 @@ def difference(field: Field, pinned: Solution) -> Field:
         return _absent(field, a, grid)
 
     name = field.title if field.title.startswith(_NAMES) else field.title[0].lower() + field.title[1:]
-    half = round_up(_PART * (field.high - field.low))
+    half = round_up(_FIRST_DIFFERENCE * (field.high - field.low))
     return replace(
         field,
         title=f"Δ {name}",

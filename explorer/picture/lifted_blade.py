@@ -1,6 +1,6 @@
 """The blade lifted out of the rotor, as arrays: skin, spar, web and actuator from the true sections, and its camera.
 
-Axes of a blade: x outward, y to the leading edge, z up. It is drawn `WIDER` times as wide as it is long.
+Axes of a blade: x outward, y to the leading edge, z up. It is drawn `CHORD_SCALE` times as wide as it is long.
 """
 
 import math
@@ -19,14 +19,14 @@ from rotor.actuator.section import SectionSpec, section_spec, skin
 from rotor.dynamics.structure import structure_data, uh60a_structure
 from rotor.support.arrays import Array
 
-WIDER = 2.7
+CHORD_SCALE = 2.7
 """A blade is sixteen times as long as it is wide: drawn so, its plies would be threads."""
-THICKER = 5.0
+PLY_SCALE = 5.0
 """Plies are drawn this much thicker, or they would be lines."""
 SIDES = ("upper", "lower")
 LIFT = 0.0008
 """Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
-MIDDLE = 0.55
+ORIGIN_R = 0.55
 """r/R of the origin."""
 Span = tuple[float, float]
 
@@ -62,7 +62,7 @@ class LiftedBlade:
 
     def outward(self, r: Array | float) -> Array:
         """x of a station [m]."""
-        return self.radius * (np.asarray(r, dtype=float) - MIDDLE)
+        return self.radius * (np.asarray(r, dtype=float) - ORIGIN_R)
 
     @property
     def spans(self) -> list[Span]:
@@ -85,7 +85,7 @@ def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     pieces = [BladePart("skin", -1, r, rings), BladePart("spar", -1, r, spar), _web(spec, rotor, web, r)]
     driven = [(k, span) for k, span in enumerate(placement.segments) if span[1] - span[0] > 1e-6]
     if isinstance(actuator, PiezoPly):
-        far = LIFT + THICKER * placement.plies * actuator.thickness
+        far = LIFT + PLY_SCALE * placement.plies * actuator.thickness
         pieces += [_ply(spec, rotor, side, placement.chord, span, far, k) for k, span in driven for side in SIDES]
     elif isinstance(actuator, TorqueTube):
         del pieces[1]  # The spar would hide what it carries.
@@ -265,7 +265,7 @@ def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float
 def _turned(blade: LiftedBlade, r: Array, lines: Array, twist: Array) -> Array:
     """(stations, points, 2) with a nose-up twist at each → (stations, points, 3), drawn wider."""
     cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
-    y, z = WIDER * lines[..., 0], WIDER * lines[..., 1]
+    y, z = CHORD_SCALE * lines[..., 0], CHORD_SCALE * lines[..., 1]
     x = np.broadcast_to(blade.outward(r)[:, None], y.shape)
     return np.stack((x, y * cos - z * sin, y * sin + z * cos), axis=-1)
 
@@ -322,7 +322,7 @@ def lifted_pose(radius: float) -> Pose:
 def fit_lifted(radius: float, aspect: float) -> Camera:
     """The nearest view of the lifted blade: root at the far left, tip at the near right, the helicopter beyond."""
     pose = lifted_pose(radius)
-    ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
+    ends = (radius * (r - ORIGIN_R) for r in (0.03, 1.02))
     box = np.array(
         [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
     )

@@ -44,7 +44,7 @@ FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
-TIMES = 8.0
+TWIST_SCALE = 8.0
 """By how much the actuator's part of the twist is exaggerated; the numbers stay true."""
 
 
@@ -101,7 +101,7 @@ def lifted_picture(
     *,
     pays: bool = False,
 ) -> LiftedPicture:
-    """The blade with the actuator's part of its twist `TIMES` as large; `design` is without actuator.
+    """The blade with the actuator's part of its twist `TWIST_SCALE` as large; `design` is without actuator.
 
     With `flown` blade and overlay have their elastic twist; the overlay is the blade without voltage. `pays`: a
     supposed actuator does, and what is driven lights green.
@@ -117,7 +117,7 @@ def lifted_picture(
         return inputs.change(installed, r) if flown is None else np.interp(r, flown.r, flown.moved)
 
     def twist(r: Array) -> Array:
-        return still(r) + TIMES * moved(r)
+        return still(r) + TWIST_SCALE * moved(r)
 
     shares = inputs.drive_shares(installed)
     solids: dict[str, StyledMesh] = {}
@@ -213,7 +213,7 @@ def _labels(
         text = f"{_what(inputs, installed, named)}, {drive}" if not k else f"{k + 1}: {drive}"
         put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
-        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TIMES:g}"
+        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_SCALE:g}"
         put(words, 1.0, -0.52, 0.0, -0.45, "tip")
     lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
     return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE

@@ -198,7 +198,7 @@ DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
 LINE_LIFT = 0.02
 """How far lines lie above the disk [m]."""
-_SLOW = 0.2
+_LEAST_U_T = 0.2
 """U_T/ΩR below which a field without meaning in reverse flow does not count for its range."""
 _LINE_PIXELS = 1.4
 """Half the width of the lines on the disk, in pixels of its picture at rest."""
@@ -321,5 +321,5 @@ def field_values(solution: Solution, field: Field) -> Array:
     values, void = field.sample(drawn, grid)[rows], field.void(drawn, grid)
     if void is None:
         return values.ravel()
-    beside = void | (drawn.flow(grid).u_t < _SLOW) if field.void_in_reverse_flow else void
+    beside = void | (drawn.flow(grid).u_t < _LEAST_U_T) if field.void_in_reverse_flow else void
     return values[~beside[rows]]

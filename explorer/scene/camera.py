@@ -27,9 +27,9 @@ _LEAST_COVER = 1e-3
 """A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
-_FLIGHT = 1.0
+_LONGEST_FLIGHT_S = 1.0
 """A flight of the camera takes no longer [s]."""
-_RESHAPED = 0.01
+_ASPECT_CHANGE = 0.01
 """A smaller change of width over height is none: the page draws fewer pixels while something is dragged."""
 
 
@@ -147,7 +147,7 @@ class FittedCamera:
             if self._reshaped:
                 self._put = camera.aspect
             target = self._fit(self._put or camera.aspect)
-            self._arrives = time.monotonic() + _FLIGHT if eased else 0.0
+            self._arrives = time.monotonic() + _LONGEST_FLIGHT_S if eased else 0.0
             if eased:
                 call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
                 return
@@ -157,7 +157,7 @@ class FittedCamera:
     @property
     def _reshaped(self) -> bool:
         """Whether the canvas has another shape than it was aimed for."""
-        return self._put is None or abs(self._client.camera.aspect / self._put - 1.0) > _RESHAPED
+        return self._put is None or abs(self._client.camera.aspect / self._put - 1.0) > _ASPECT_CHANGE
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if self._following and not self._held and self._reshaped:

@@ -20,7 +20,16 @@ from explorer.model.inputs import ViewState, baseline_of
 from explorer.picture.blade_mesh import BladeForm
 from explorer.picture.camera_views import View
 from explorer.picture.disk_numbers import disk_ink, disk_numbers
-from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field, usual_range
+from explorer.picture.fields import (
+    CLIPPED_SHARE,
+    FIELDS,
+    Field,
+    fitted_range,
+    keeps_range,
+    over_range,
+    shown_field,
+    usual_range,
+)
 from explorer.picture.picture import field_values, make_picture, marks_of, pitch_series, turned_blades
 from explorer.picture.polar import NO_MARKS
 from explorer.picture.wake import tip_vortex_path
@@ -254,7 +263,7 @@ class SceneController:
         field = _field(view, drawn.pinned)
         values = field_values(solution, field)
         if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
-            fitted = fitted_range(field, values, trim=TRIM)
+            fitted = fitted_range(field, values, trim=CLIPPED_SHARE)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
             self._page.paint(solution, field, fitted, view)
         self._show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
@@ -338,7 +347,7 @@ class SceneController:
             return self._ranges[field.title]
         usual = usual_range(field, solution.design.rotor)
         self._ranges[field.title] = (
-            fitted_range(field, field_values(solution, field), trim=TRIM) if field.note else usual
+            fitted_range(field, field_values(solution, field), trim=CLIPPED_SHARE) if field.note else usual
         )
         return self._ranges[field.title]
 

@@ -32,7 +32,7 @@ from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_t
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"
 """Actuator of the last step."""
-_FLAT = 0.001
+_FLAT_SHARE = 0.001
 """Part of the least power within which an optimum is called flat, as everywhere in the program."""
 _HARMONICS, _REACH = (2, 3), 1.0
 """Active twist of the front: harmonics, and the largest amplitude of each [°]."""
@@ -252,12 +252,12 @@ def _two_segments(step: LectureStep) -> StepFacts:
     flat = [
         rate
         for rate, solution in zip(step.control.values, blades.b, strict=True)
-        if solution.power.total < (1.0 + _FLAT) * min(other.power.total for other in blades.b)
+        if solution.power.total < (1.0 + _FLAT_SHARE) * min(other.power.total for other in blades.b)
     ]
     inputs = step.begin()
     numbers = (
         _named(step, a, b)
-        | _of("percent", flat=_FLAT, **{"break": inputs.two_division})
+        | _of("percent", flat=_FLAT_SHARE, **{"break": inputs.two_division})
         | _said(twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer))
         | _said(twist_a=angle_words(_against(step).linear))
         | _of("angle", flat_low=min(flat), flat_high=max(flat))
@@ -290,7 +290,7 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
         | _of("fine", fixed_saving=1.0 - moving.fixed_kw / moving.baseline_kw)
         | _of("count", wakes=len(gains), inside=inside, speeds=len(SPEEDS))
         | _of("power", gain_power=1e3 * moving.gain * moving.fixed_kw, fixed_power=1e3 * moving.fixed_kw)
-        | _of("percent", band=_FLAT)
+        | _of("percent", band=_FLAT_SHARE)
         | _said(fixed=angle_words(round(fixed, 1)))
         | _said(baseline=f"a fixed {angle_words(round(math.degrees(baseline.rate), 1))}")
     )

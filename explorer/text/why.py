@@ -19,7 +19,7 @@ from rotor.support.arrays import Array, Booleans
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
-_MOVED = 3e-4
+_LEAST_SHIFT = 3e-4
 """Smallest movement of the lift that is mentioned, as a fraction of R; 0.1° of linear twist in hover gives 5e-4."""
 _DIVERGENCE = 0.1
 """∂C_d/∂M at drag divergence."""
@@ -57,9 +57,9 @@ def lift_movement(before: Solution, after: Solution) -> str:
         return "a new twist"
     outboard, across = new[0] - old[0], new[1] - old[1]
     places: list[str] = []
-    if abs(outboard) >= max(_MOVED, 0.5 * abs(across)):
+    if abs(outboard) >= max(_LEAST_SHIFT, 0.5 * abs(across)):
         places.append("outboard" if outboard > 0.0 else "inboard")
-    if abs(across) >= max(_MOVED, 0.5 * abs(outboard)):
+    if abs(across) >= max(_LEAST_SHIFT, 0.5 * abs(outboard)):
         places.append(f"towards the {'advancing' if across > 0.0 else 'retreating'} side")
     return f"Lift moved {' and '.join(places)}" if places else "Lift hardly moved"
 

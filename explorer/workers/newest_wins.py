@@ -21,9 +21,9 @@ next [s]. None: what waited before goes on."""
 
 _FRAMES_IN_A_ROW = 20
 """Frames after which a step of what can wait has its turn, in a crowd. A step is charts of some three frames' time."""
-_SLOW = 0.15
+_SLOW_FRAME_S = 0.15
 """[s] of processor time that a frame takes which does not converge, or with a costly model."""
-_IDLE = 10.0
+_IDLE_S = 10.0
 """[s] after which a thread without work ends."""
 
 
@@ -79,7 +79,7 @@ class UpdatePool:
             while True:
                 while self._steps and not self._steps[0][2].waits(self._steps[0][1]):
                     heapq.heappop(self._steps)
-                wait = self._steps[0][0] - time.monotonic() if self._steps and not self._step_runs else _IDLE
+                wait = self._steps[0][0] - time.monotonic() if self._steps and not self._step_runs else _IDLE_S
                 if self._frames and not (wait <= 0.0 and self._frames_in_a_row >= _FRAMES_IN_A_ROW):
                     worker, is_step = self._frames.popleft(), False
                     self._frames_in_a_row += 1
@@ -87,7 +87,7 @@ class UpdatePool:
                     worker, is_step = heapq.heappop(self._steps)[2], True
                     self._frames_in_a_row, self._step_runs = 0, True
                 else:
-                    woken = self.change.wait(min(wait, _IDLE))
+                    woken = self.change.wait(min(wait, _IDLE_S))
                     if not (woken or self._frames or self._steps):
                         self._threads -= 1
                         return None
@@ -216,6 +216,6 @@ class NewestWins:
 
     def _line_up_for_frame(self) -> None:
         """Frames of a page whose trims take long are steps: only one of these is computed at a time."""
-        slow = min(self._took) > _SLOW
+        slow = min(self._took) > _SLOW_FRAME_S
         self._state = "step" if slow else "frame"
         self._ticket = self._pool.queue(self, time.monotonic() if slow else None)

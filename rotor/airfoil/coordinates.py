@@ -12,18 +12,18 @@ import numpy as np
 from rotor.support.arrays import Array
 
 _FEWEST, _MOST = 20, 2000
-_JUMP = 0.5
+_SIDE_GAP = 0.5
 """[chord] between rows that are no neighbours on the section: the other side begins, or the row is no point."""
-_SAME = 1e-6
+_SAME_POINT = 1e-6
 """[chord] between two points that are one."""
 _LEAST_COUNT = 5
-_STRAY = 0.03
+_ZERO_ROW_DETOUR = 0.03
 """[chord] of further way by a last row 0 0 that is no point of the outline."""
-_OFF = 0.05
+_POINT_DETOUR = 0.05
 """[chord] of further way by a point that is none of the section's."""
-_TAIL = 0.05
+_TRAILING_EDGE = 0.05
 """[chord] ahead of the last point where a step up is that across a blunt trailing edge."""
-_LONGEST_WAY = 3.0
+_LONGEST_OUTLINE = 3.0
 """[chord] round a section: 2 for a flat plate, 2.4 for an ellipse of 50 %. Points out of order need far more."""
 _LEAST_AREA = 0.22
 """Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, 0.25 for Eppler 376, whose tail
@@ -45,7 +45,9 @@ def read_coordinates(text: str, name: str) -> Array:
     chord = float(np.ptp(points[1:-1, 0]))  # The first or the last row may be a heading of two numbers, or a stray 0 0.
     if not chord > 0.0:
         raise ValueError(f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point per line")
-    runs = np.split(np.arange(len(points)), 1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _JUMP * chord))
+    runs = np.split(
+        np.arange(len(points)), 1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _SIDE_GAP * chord)
+    )
     starts = {int(run[0]) for run in runs}
     for at, number in words.items():
         if at not in starts:
@@ -55,12 +57,12 @@ def read_coordinates(text: str, name: str) -> Array:
         line = lines[int(min(runs[1:], key=len)[0])]
         raise ValueError(f"{name}, line {line}: the outline jumps to this point: correct it, or {_ORDER}")
     order = np.concatenate((runs[0][::-1], runs[1])) if len(runs) == 2 else runs[0]
-    if not points[order[-1]].any() and _detours(points[order])[-1] > _STRAY * chord:
+    if not points[order[-1]].any() and _detours(points[order])[-1] > _ZERO_ROW_DETOUR * chord:
         order = order[:-1]
-    if len(runs) == 1 and np.hypot(*(points[order[0]] - points[order[-1]])) > _JUMP * chord:
+    if len(runs) == 1 and np.hypot(*(points[order[0]] - points[order[-1]])) > _SIDE_GAP * chord:
         raise ValueError(f"{name} {_NOT_ROUND}")
     loop = _from_trailing_edge(_once(points[order], chord), chord)
-    off = _detours(loop) > _OFF * chord
+    off = _detours(loop) > _POINT_DETOUR * chord
     off[0] = off[-1] = off[int(np.argmin(loop[:, 0]))] = False  # A coarse outline turns back at nose and trailing edge.
     if off.any():
         line = lines[int(np.argmin(np.hypot(*(points - loop[np.argmax(off)]).T)))]
@@ -69,7 +71,7 @@ def read_coordinates(text: str, name: str) -> Array:
     loop = loop / chord if chord >= 1.1 else loop
     if chord <= 0.9 or np.abs(loop).max() >= 1.5:
         raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
-    if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_WAY or _area(loop) < _LEAST_AREA * _thickest(loop):
+    if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_OUTLINE or _area(loop) < _LEAST_AREA * _thickest(loop):
         raise ValueError(f"{name} {_NOT_ROUND}")
     return loop
 
@@ -117,7 +119,7 @@ def _detours(loop: Array) -> Array:
 def _once(loop: Array, chord: float) -> Array:
     """Without points that repeat the one before, or the first at the end; counter-clockwise with y up."""
     steps = np.hypot(*(loop - np.roll(loop, 1, axis=0)).T)
-    loop = loop[steps > _SAME * chord]
+    loop = loop[steps > _SAME_POINT * chord]
     return loop if _area(loop) > 0.0 else loop[::-1]
 
 
@@ -125,7 +127,7 @@ def _from_trailing_edge(loop: Array, chord: float) -> Array:
     """A counter-clockwise loop opened at its trailing edge: without the points on a blunt one, at the last x of a sharp
     one, which becomes first and last."""
     x, step = loop[:, 0], np.roll(loop, -1, axis=0) - loop
-    tail = x > x.max() - _TAIL * chord
+    tail = x > x.max() - _TRAILING_EDGE * chord
     across = tail & np.roll(tail, -1) & (step[:, 1] > np.abs(step[:, 0]))  # From this point to the next.
     if not across.any():
         loop = np.roll(loop, -int(np.argmax(x)), axis=0)

@@ -25,7 +25,7 @@ WIDEST = np.deg2rad(50.0)
 """Angle from zero lift within which f and m are used; see `rotor.aero.dynamic_stall`."""
 ATTACHED = np.deg2rad(2.0)
 """Angle from zero lift from which secants of C_n are taken: C_nα is the largest up to stall, so f = 1 is reached."""
-_CENTRE = 0.1
+_LEAST_C_N = 0.1
 """C_n below which the place where it acts passes over to the quarter chord. Our choice."""
 
 ONSET = (SLOPE, POSITIVE, NEGATIVE, ZERO, LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, TRAVEL) = tuple(range(8))
@@ -70,7 +70,7 @@ def stall_onset(table: SectionTable) -> StallOnset:
     f[inside] = np.clip((2.0 * np.sqrt(np.maximum(ratio, 0.25)) - 1.0) ** 2, LEAST_SEPARATION, 1.0)[inside]
     if moment is not None:
         of_lift = moment - moment[len(x) // 2]
-        m = np.where(np.abs(x) <= WIDEST, of_lift * force / (force * force + _CENTRE**2), 0.0)
+        m = np.where(np.abs(x) <= WIDEST, of_lift * force / (force * force + _LEAST_C_N**2), 0.0)
     numbers = np.empty((len(ONSET), N_MACH + 1))
     numbers[SLOPE], numbers[ZERO] = slope, zero
     numbers[POSITIVE] = _normal_force(table, positive, mach) / slope

@@ -315,7 +315,7 @@ def _finite_numbers(text: str, by: str) -> tuple[float, ...]:
     return values if all(map(math.isfinite, values)) else ()
 
 
-_TWICE = 0.5
+_SECOND_SIGNAL_S = 0.5
 """[s]"""
 STOPPED = 130
 """Exit code after Ctrl-C or SIGTERM; results so far are printed."""
@@ -345,7 +345,7 @@ def interruptible() -> Generator[Callable[[], bool]]:
 
     def ask(number: int, frame: FrameType | None) -> None:
         now = time.monotonic()
-        if asked and now - asked[0] > _TWICE:
+        if asked and now - asked[0] > _SECOND_SIGNAL_S:
             signal.default_int_handler(number, frame)
         if not asked:
             asked.append(now)

@@ -25,9 +25,9 @@ from rotor.support.table import Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text
 
-_SENTENCES = 3
+_MOST_MESSAGES = 3
 """Largest number of different failure messages printed."""
-_ENOUGH = 100
+_ENOUGH_POINTS = 100
 """Points from which shares of a sample hold: of 20 points an axis that has two thirds once got half a per cent."""
 
 
@@ -44,7 +44,7 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
         "points": results.points,
         "done": results.rows,
         "failed": int((~results.good).sum()),
-        "sentences": dict(Counter(messages).most_common(_SENTENCES)),
+        "sentences": dict(Counter(messages).most_common(_MOST_MESSAGES)),
         "caveats": dict(caveats.most_common()),
         "least": least,
         "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
@@ -90,9 +90,9 @@ def report(results: Results, shown: dict[str, Any]) -> str:
                 f"{value(row['least'])} at {_text(row['least_at'])} … {value(row['most'])} at {_text(row['most_at'])}"
             )
             lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
-        if results.sampled and results.good.sum() < _ENOUGH:
+        if results.sampled and results.good.sum() < _ENOUGH_POINTS:
             points = _count(int(results.good.sum()), "point")
-            lines.append(f"  rough: {points} of a sample; with fewer than {_ENOUGH}, chance decides the shares")
+            lines.append(f"  rough: {points} of a sample; with fewer than {_ENOUGH_POINTS}, chance decides the shares")
     if shown["caveats"]:
         each = ", ".join(f"{name} at {count:,}" for name, count in shown["caveats"].items())
         one = "DIR:N" if best is None else f"DIR:{best['point']:.0f}"
@@ -145,9 +145,9 @@ _PLAIN = (
 )
 _SAY_EVERY = 60.0
 """[s] between lines of progress without a terminal."""
-_PLACES = 8
+_TIMED_PLACES = 8
 """All over a study at which a dry run takes the time of some points,"""
-_RUN = 8
+_TIMED_SEARCHES = 8
 """this many searches at each, three times as many trims."""
 
 
@@ -334,8 +334,8 @@ def estimate(study: Study) -> tuple[float, int]:
     Chunks from the first to the last, for the corners of crossed axes are where trims are hardest: near the limit of
     thrust a point may cost eight times the usual.
     """
-    last, run = study.chunks - 1, _RUN if study.optimum is not None else 3 * _RUN
-    places = sorted({round(last * k / (_PLACES - 1)) for k in range(_PLACES)})
+    last, run = study.chunks - 1, _TIMED_SEARCHES if study.optimum is not None else 3 * _TIMED_SEARCHES
+    places = sorted({round(last * k / (_TIMED_PLACES - 1)) for k in range(_TIMED_PLACES)})
     costs: list[float] = []
     count = 0
     for place in places:

@@ -26,15 +26,15 @@ from rotor.support.arrays import Array
 
 BAND = 1e-3
 """Relative rise of the objective that defines the band of each parameter."""
-_NEAR = 0.02
+_FULL_WEIGHT_RAD = 0.02
 """Distance [rad], about 10°/R of a straight blade, within which trims have full weight for the second derivatives."""
-_SAME = 1e-6
+_SAME_BLADE_RAD = 1e-6
 """Distance [rad] within which two blades are the same."""
-_PRIOR = 1e-3
+_PRIOR_WEIGHT = 1e-3
 """Weight of the mean curvature in directions without trims, beside 1 of a trim."""
 _FIRST_CURVATURE = 200.0
 """Curvature [1/rad²] over the objective, while there is one trim only: some per cent over half the range of a rate."""
-_FLATTEST = 2e-3
+_LEAST_CURVATURE = 2e-3
 """Least curvature over the largest; flatter directions are left to the descent."""
 
 
@@ -47,8 +47,8 @@ def second_derivatives(steps: Array, changes: Array, weights: Array, elsewhere: 
     scale = (np.sqrt(weights) / length)[:, None]
     s, y = scale * steps, scale * changes
     curvature = max(float(np.vdot(s, y) / np.vdot(s, s)), 0.0) if len(steps) and elsewhere else elsewhere
-    size, axes = np.linalg.eigh(s.T @ s + _PRIOR * np.eye(steps.shape[1]))
-    right = y.T @ s + s.T @ y + 2.0 * _PRIOR * curvature * np.eye(len(size))
+    size, axes = np.linalg.eigh(s.T @ s + _PRIOR_WEIGHT * np.eye(steps.shape[1]))
+    right = y.T @ s + s.T @ y + 2.0 * _PRIOR_WEIGHT * curvature * np.eye(len(size))
     return axes @ (axes.T @ right @ axes / (size[:, None] + size)) @ axes.T
 
 
@@ -98,10 +98,10 @@ class LocalModel:
             for other in others
             if other.rotor == centre.rotor and _known(other.measured)[0] < 1.5 * value
             for step in [(other.pitch - centre.pitch) * metric]
-            if (length := float(np.linalg.norm(step))) > _SAME
+            if (length := float(np.linalg.norm(step))) > _SAME_BLADE_RAD
         ]
         steps = np.array([step for _, step, _ in pairs]).reshape(-1, len(metric))
-        weights = 1.0 / (1.0 + (np.array([length for _, _, length in pairs]) / _NEAR) ** 2) ** 2
+        weights = 1.0 / (1.0 + (np.array([length for _, _, length in pairs]) / _FULL_WEIGHT_RAD) ** 2) ** 2
 
         def fit(slope: Array, slopes: Sequence[Array], elsewhere: float) -> Array:
             changes = np.array([(other - slope) / metric for other in slopes]).reshape(steps.shape)
@@ -109,7 +109,7 @@ class LocalModel:
 
         first = _FIRST_CURVATURE * value
         size, axes = np.linalg.eigh(fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first))
-        size = np.maximum(size, _FLATTEST * max(size[-1], first))
+        size = np.maximum(size, _LEAST_CURVATURE * max(size[-1], first))
         self.objective = QuadraticMeasure(
             centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric
         )
@@ -133,7 +133,7 @@ class LocalModel:
         """Columns are steps of x that raise the objective by BAND from a minimum, (parameters, parameters)."""
         by = self.evaluate.pitch_slopes(x)
         size, axes = np.linalg.eigh(by @ self.objective.second @ by.T)
-        size = np.maximum(size, _FLATTEST * size[-1])
+        size = np.maximum(size, _LEAST_CURVATURE * size[-1])
         return axes * np.sqrt(2.0 * BAND * self.objective.value / size)
 
     def margins(self, x: Array) -> tuple[Array, Array]:

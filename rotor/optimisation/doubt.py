@@ -22,7 +22,7 @@ from rotor.trim.solution import Solution
 
 _STEP = 0.03
 """Step of a parameter, as a part of its range: 0.9° of a rate."""
-MOST = 2
+MOST_INPUTS = 2
 """Inputs named beside the band of a parameter."""
 
 
@@ -119,7 +119,7 @@ def best_twist_doubt(
             parameter.name,
             float(max(centre - half, least)),
             float(min(centre + half, most)),
-            tuple((words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST]),
+            tuple((words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST_INPUTS]),
         )
         for parameter, centre, shift, half, least, most in zip(
             concept.parameters, x, shifts, np.sqrt(np.square(shifts).sum(axis=1)), low, high, strict=True

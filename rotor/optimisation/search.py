@@ -29,16 +29,16 @@ from rotor.trim.doubt import Doubt, other_models
 
 STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""
-_AHEAD = 12
+_TRIMMED_STARTS = 12
 """Starts trimmed before the first descent, which their gradients serve: of power, which far gradients tell of. Our
 choice."""
 _SAME_PLACE = 0.05
 """Ends whose parameters agree within this fraction of their ranges are one minimum."""
-_BESIDE = 1e-4
+_SAME_MINIMUM_RISE = 1e-4
 """Relative rise above a minimum within which a descent is taken to end in it."""
-_PLACES = 12
+_MODEL_STARTS = 12
 """Points from which the model is searched for further minima."""
-_RISE = 1e-6
+_HALF_WAY_RISE = 1e-6
 """Relative rise allowed half-way between two ends of one minimum."""
 MASSES = (0.8, 1.2)
 """Masses of the flights beside the design's, over its own."""
@@ -103,7 +103,7 @@ def run_search(
         evaluate.phase = "search"
         starts = _starts(search, evaluate)
         if objective.quantity != "vibration" and not len(evaluate.largest):
-            evaluate.trim_ahead(starts[:_AHEAD])
+            evaluate.trim_ahead(starts[:_TRIMMED_STARTS])
         for k, x in enumerate(starts):
             evaluate.start = k
             run.descend_from(k, x)
@@ -165,8 +165,8 @@ class _Run:
 
     def look_elsewhere(self) -> None:
         """Descend where the model foresees less than the best: laws with movable breaks have many minima."""
-        places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_PLACES)
-        for _ in range(_PLACES):
+        places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_MODEL_STARTS)
+        for _ in range(_MODEL_STARTS):
             if self.best is None:
                 return
             model = LocalModel(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
@@ -192,7 +192,7 @@ class _Run:
         if np.abs(lead.x - x).max() < _SAME_PLACE:
             return True
         model = LocalModel(self.evaluate, lead.blade, self.evaluate.trimmed.all)
-        return model.cost(x) <= lead.cost * (1.0 + _BESIDE)
+        return model.cost(x) <= lead.cost * (1.0 + _SAME_MINIMUM_RISE)
 
     def _gather(self, start: int, end: Evaluation) -> None:
         """Add an end to its minimum, or begin a new one."""
@@ -210,7 +210,7 @@ class _Run:
         if np.abs(a.x - b.x).max() < _SAME_PLACE:
             return True
         half = self.evaluate(0.5 * (a.x + b.x))
-        return half.feasible and half.cost <= higher * (1.0 + _RISE)
+        return half.feasible and half.cost <= higher * (1.0 + _HALF_WAY_RISE)
 
     def _fallback(self) -> Array:
         known = self.evaluate.best

@@ -371,7 +371,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     here, family = (WeightedCondition(design.condition),), find_concept(concept)
     start = _trimmed(analyse(design))
     plain = Search(design, family, Objective("total", here), starts=3, band=False)
-    least = run_search(replace(plain, limits=Limits(index=_ANY)))
+    least = run_search(replace(plain, limits=Limits(index=_UNREACHED_PERCENT)))
     calm = run_search(replace(plain, objective=Objective("vibration", here)))
     searches, trimmed = [least, calm], TrimHistory()
     front, (high, low) = [_best(least)], (_best(search).index or 0.0 for search in searches)
@@ -387,7 +387,7 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
     return _over_inflows(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 
-_ANY = 1e3
+_UNREACHED_PERCENT = 1e3
 """A limit of the index [%] that no rotor reaches, so that it is measured."""
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from rotor.support.user_input import extra_module
 
-_ASK = 5.0
+_COUNT_WORKERS_S = 5.0
 """[s] between the questions how many workers there are."""
-_ANSWER = 10.0
+_ANSWER_S = 10.0
 """[s] until an answer counts as missing."""
 _PATIENCE = 300.0
 """[s] a run waits for workers that went, or for its scheduler's answer: both may come back."""
@@ -68,7 +68,7 @@ class ClusterWatch:
 
     def look(self) -> None:
         """Call often while nothing comes. ExecutorLost where nobody has been there for too long."""
-        if self._client is None or time.monotonic() - self._asked < _ASK:
+        if self._client is None or time.monotonic() - self._asked < _COUNT_WORKERS_S:
             return
         missing = self._missing()
         now = self._asked = time.monotonic()
@@ -87,7 +87,7 @@ class ClusterWatch:
 
     def _missing(self) -> str:
         try:
-            return "" if self._client.sync(self._client.scheduler.ncores, callback_timeout=_ANSWER) else _NO_WORKERS
+            return "" if self._client.sync(self._client.scheduler.ncores, callback_timeout=_ANSWER_S) else _NO_WORKERS
         except (OSError, TimeoutError, RuntimeError, BrokenExecutor):
             return "the scheduler does not answer"
 

@@ -20,9 +20,9 @@ from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.support.arrays import Array, Booleans, Integers
 from rotor.support.user_input import is_file, shorten
 
-_MANY = 20
+_DIVIDED_FROM = 20
 """Number of values from which an axis is divided into ten parts."""
-_FEW = 10
+_LEAST_PER_PART = 10
 """Least mean number of values per part of a sampled axis: with fewer, noise looks like an effect."""
 
 
@@ -280,8 +280,8 @@ def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> Main
 def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Integers]:
     """The values of an axis, or the middles of parts of its range where it has many; and which one each row has."""
     levels, code = np.unique(at if at.dtype == np.float64 else at.astype(str), return_inverse=True)
-    if at.dtype == np.float64 and (sampled or len(levels) > _MANY):
-        parts = min(10, max(2, len(levels) // _FEW)) if sampled else 10
+    if at.dtype == np.float64 and (sampled or len(levels) > _DIVIDED_FROM):
+        parts = min(10, max(2, len(levels) // _LEAST_PER_PART)) if sampled else 10
         low, part = float(levels[0]), float(levels[-1] - levels[0]) / parts or 1.0
         middles = [low + (k + 0.5) * part for k in range(parts)]
         return middles, np.clip(np.floor((at - low) / part), 0, parts - 1).astype(np.int64)

@@ -30,9 +30,9 @@ from rotor.study.study_file import StudyFile, read_study
 from rotor.support.assets import commit, package_version
 from rotor.support.processes import Processes
 
-_LOOK = 0.1
+_POLL_S = 0.1
 """[s] between the questions whether to stop."""
-_TRIES = 3
+_MOST_WORKERS_LOST = 3
 """Workers that a chunk may cost."""
 
 
@@ -174,7 +174,7 @@ def run_chunks(
                 ended.stopped = True
                 break
             try:
-                future = finished.get(timeout=_LOOK)
+                future = finished.get(timeout=_POLL_S)
             except Empty:
                 watch.look()
                 continue
@@ -187,7 +187,7 @@ def run_chunks(
                     watch.came()
                     store.keep(done.chunk, done.content)
                     notify(done)
-                case BrokenExecutor() | MemoryError() if tries[chunk] < _TRIES:
+                case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_WORKERS_LOST:
                     submit(chunk)
                 case BrokenExecutor() | MemoryError():
                     ended.lost.append(chunk)

@@ -38,9 +38,9 @@ from rotor.support.assets import SHIPPED_ROTORS, asset_path
 from rotor.support.user_input import did_you_mean, is_file, parse_range, read_text, refusing, shorten
 
 _MANY = 10**10
-_STEEPEST = 100.0
+_STEEPEST_TWIST = 100.0
 """Twist rates beyond this [°/R] are an error of writing, as in `--twist`."""
-_Rate = Annotated[float, Meta(ge=-_STEEPEST, le=_STEEPEST)]
+_Rate = Annotated[float, Meta(ge=-_STEEPEST_TWIST, le=_STEEPEST_TWIST)]
 _Seed = Annotated[int, Meta(ge=0, le=2**31)]
 
 

@@ -26,9 +26,9 @@ CACHE_BYTES = 256 * 2**20
 """By default: room for tables of the five shipped rotors, and for a lifting line in tens of conditions."""
 LEAST = 64 * 2**20
 """[bytes]; with less, tables would be made anew in each trim."""
-_LONG = 1000
+_LONG_TEXT = 1000
 """Characters of a text from which it is counted by itself."""
-_SMALL = 64
+_OBJECT_BYTES = 64
 """[bytes] of any other object, an estimate."""
 _NUMBERS = frozenset((float, int, bool, complex, type(None)))
 
@@ -57,11 +57,11 @@ class _Result:
                 while isinstance(owner.base, np.ndarray):
                     owner = owner.base
                 self.buffers[id(owner)] = owner, owner.nbytes
-            elif isinstance(one, (str, bytes)) and len(one) >= _LONG:
+            elif isinstance(one, (str, bytes)) and len(one) >= _LONG_TEXT:
                 self.buffers[id(one)] = one, len(one)
             else:
                 parts = gc.get_referents(one)
-                self.rest += _SMALL * (1 + len(parts))
+                self.rest += _OBJECT_BYTES * (1 + len(parts))
                 left += [part for part in parts if type(part) not in _NUMBERS]
 
 

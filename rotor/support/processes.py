@@ -23,17 +23,17 @@ from rotor.support.worker_process import Stop, Task, Tell, WorkerProcess
 Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items."""
 
-_PATIENCE = 0.12
+_STOP_ANSWER_S = 0.12
 """[s] a process has to answer the stop of a job with a limit; then the job ends with what was reported."""
-_GRACE = 3.0
+_KILL_AFTER_S = 3.0
 """[s] after that stop until a process that goes on is killed."""
-_IDLE = 2.0
+_IDLE_CHECK_S = 2.0
 """[s] between the checks of an idle thread whether its prepared process still runs."""
-_HEAR = 0.01
+_LIMITED_POLL_S = 0.01
 """[s] between two looks at what ends a job with a limit."""
-_LOOK = 0.1
+_POLL_S = 0.1
 """[s] between the questions whether to stop, for all others."""
-_START = 300.0
+_START_S = 300.0
 """[s] a new process may take to prepare, on a busy machine: it may have to compile."""
 
 
@@ -220,7 +220,7 @@ class Processes(Executor):
         try:
             while under_way:
                 with suppress(Empty):
-                    match events.get(timeout=_LOOK):
+                    match events.get(timeout=_POLL_S):
                         case JobProgress(item):
                             deliver(item)
                         case JobFailed(message, error):
@@ -260,7 +260,9 @@ class Processes(Executor):
     def next(self, worker: "_Worker") -> Job | None:
         """The next job of an idle thread; None when none came in time, or ever will."""
         with self._change:
-            self._change.wait_for(lambda: self._waiting or self._closed, _IDLE if self.prepare is not None else None)
+            self._change.wait_for(
+                lambda: self._waiting or self._closed, _IDLE_CHECK_S if self.prepare is not None else None
+            )
             job = self._waiting.pop(0) if self._waiting else None
             worker.idle = job is None
         if job is not None:
@@ -361,7 +363,7 @@ class _Worker(threading.Thread):
         self._pool.keep(self, process)
         if self._pool.prepare is not None:
             process.begin(_Called(self._pool.prepare))
-            if process.receive(_START) is None:
+            if process.receive(_START_S) is None:
                 self._drop()  # Its answer would be taken for that of the next job.
                 raise EOFError
         return process
@@ -390,12 +392,12 @@ class _Worker(threading.Thread):
             if job.stopping.is_set() and asked is None:
                 asked = now
                 process.ask_to_stop()
-            if job.limit is not None and asked is not None and now - asked > _PATIENCE:
+            if job.limit is not None and asked is not None and now - asked > _STOP_ANSWER_S:
                 job.tell(JobEnded(None, stopped=True, late=late))
-                if now - asked > _GRACE:
+                if now - asked > _KILL_AFTER_S:
                     self._drop()
                     return
-            reply = process.receive(_LOOK if job.limit is None else _HEAR)
+            reply = process.receive(_POLL_S if job.limit is None else _LIMITED_POLL_S)
             if reply is None:
                 continue
             match reply.kind:

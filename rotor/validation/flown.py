@@ -31,7 +31,7 @@ POWERS = "flown-power"
 TITLES = {"gazelle": "SA349/2 Gazelle", "bo105": "Bo 105"}
 ANGLES = {"theta0": "collective", "theta1c": "cyclic 1c", "theta1s": "cyclic 1s", "theta0_tail": "tail rotor"}
 """Angles of the Bo 105: of the main rotor collective at its centre, and cyclic; of the tail rotor collective."""
-SHAPE = 0.08
+SHAPE_TARGET = 0.08
 """Target for the Gazelle: root mean square of the shape's error."""
 SPEEDS_KT = (0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 105.0)
 """At which the angles of the Bo 105 are computed; linear between."""
@@ -39,7 +39,7 @@ MASS_KG = 2200.0
 """Mass of the Bo 105, assumed: the source states none."""
 AIRLOADS = "gazelle-airloads"
 """Name of the set of the Gazelle's section lift."""
-LEAST = 0.9
+LEAST_CORRELATION = 0.9
 """Target: correlation of c_l at each radius."""
 _LIFT = {"cl": "c_l", "cl_u2": "c_l (r + µ sin ψ)²"}
 
@@ -214,7 +214,9 @@ def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
     words, test = description(POWERS), "test_powers_of_flight"
     for rotor, title in TITLES.items():
         shape, level = shape_errors(*_trimmed(powers, rotor))
-        judged: dict[str, Any] = {"target": f"{100 * SHAPE:g} %", "met": shape <= SHAPE} if rotor == "gazelle" else {}
+        judged: dict[str, Any] = (
+            {"target": f"{100 * SHAPE_TARGET:g} %", "met": shape <= SHAPE_TARGET} if rotor == "gazelle" else {}
+        )
         what, shown = f"{title}: power over speed, shape", f"rms {100 * shape:.1f} %"
         yield words.row(what, shown, shape, 5e-3, test=test, note=rotor, **judged)
         yield words.share(f"{title}: power over speed, level", level, 5e-3, test=test)
@@ -299,8 +301,8 @@ def _lift_row(name: str, quantity: str, agreements: Sequence[airloads.CurveAgree
         ", ".join(f"{curve.correlation:.2f}" for curve in mine),
         least,
         0.02,
-        target=f"at least {LEAST:g} at each" if judged else "",
-        met=least >= LEAST if judged else None,
+        target=f"at least {LEAST_CORRELATION:g} at each" if judged else "",
+        met=least >= LEAST_CORRELATION if judged else None,
     )
 
 

@@ -74,7 +74,7 @@ def measured_inflow() -> tuple[MeasuredInflow, ...]:
     return tuple(inflows)
 
 
-RADIUS = 0.74
+CHART_R = 0.74
 """r/R of the charts of the trust page."""
 
 
@@ -101,13 +101,13 @@ def inflow_set() -> TrustSet:
 
 def _chart(measured: MeasuredInflow) -> Chart:
     """Measured and computed inflow over azimuth."""
-    here = [k for k, r in enumerate(measured.r) if r == RADIUS]
+    here = [k for k, r in enumerate(measured.r) if r == CHART_R]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
-    ring = MeasuredInflow(measured.mu, np.full_like(psi, RADIUS), psi, np.zeros_like(psi))
+    ring = MeasuredInflow(measured.mu, np.full_like(psi, CHART_R), psi, np.zeros_like(psi))
     series: list[Series] = [Points("measured", np.degrees(measured.psi)[here], measured.inflow[here])]
     for k, name in enumerate(usual_inflows(), start=1):
         series.append(Line(name, np.degrees(psi), _time_mean(name, ring), k))
-    title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
+    title = f"Inflow at r/R {CHART_R:g}, µ {measured.mu:g}"
     return azimuth_chart(title, f"inflow over ΩR, µ {measured.mu:g}", series)
 
 

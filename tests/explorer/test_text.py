@@ -155,7 +155,7 @@ class TestPowerCurves:
 
     def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(self, monkeypatch: pytest.MonkeyPatch):
         """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""
-        monkeypatch.setattr("explorer.charts.plots.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
+        monkeypatch.setattr("explorer.charts.plots.OLD_CURVE_S", math.inf)  # A busy machine sweeps more slowly.
         curves, design, next_one = PowerCurves(haste=math.inf), LINEAR, replace(LINEAR, twist=LinearTwist(-0.16))
         assert curves.sweep(design, baseline_of(design), lambda: True)
         assert not curves.sweep(next_one, baseline_of(next_one), lambda: True)

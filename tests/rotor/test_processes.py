@@ -337,7 +337,7 @@ def test_a_page_that_cannot_hear_spoils_no_other_job(pool: Processes):
 
 
 def test_a_start_that_takes_too_long_shifts_no_answers(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("rotor.support.processes._START", 0.05)
+    monkeypatch.setattr("rotor.support.processes._START_S", 0.05)
     pool = Processes(1, settings)
     try:
         pool.warm()

@@ -127,4 +127,4 @@ class LiftedScene:
     def _move(self, out: bool, radius: float) -> None:
         pose = lifted.lifted_pose(radius)
         held = {"wxyz": pose.wxyz.tolist(), "position": pose.position.tolist()}
-        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIES, held, lifted.MIDDLE * radius)
+        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIES, held, lifted.ORIGIN_R * radius)

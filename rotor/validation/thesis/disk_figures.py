@@ -19,9 +19,9 @@ from rotor.trim.solve import solve
 from rotor.validation.thesis.report import Report, curve, judged, panel, report, table
 from rotor.validation.thesis.runs import FLIGHT_LINEAR, variant
 
-FINE = 200
+FINE_ELEMENTS = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""
-FAST = 0.30
+FAST_MU = 0.30
 """Advance ratio of fig. 2.8; the thesis states none."""
 
 
@@ -33,7 +33,7 @@ def figure_2_7() -> Report:
     numbers: dict[str, float] = {}
     for k, (preset, twist) in enumerate((("thesis", "linear:-16"), ("flight", "uh60a"))):
         design = make_design(preset=preset, twist=twist, mu=0.0)
-        disk = solve(replace(design, models=replace(design.models, elements=FINE, azimuths=8))).require().disk
+        disk = solve(replace(design, models=replace(design.models, elements=FINE_ELEMENTS, azimuths=8))).require().disk
         lift = disk.dct[:, 0]
         inner, outer = _share(disk, lift, 0.5, 0.9), _share(disk, lift, 0.9, 1.0)
         at_peak = float(disk.r[int(lift.argmax())])
@@ -63,9 +63,9 @@ def figure_2_7() -> Report:
 def figure_2_8() -> Report:
     """Velocities in forward flight, with the reverse-flow region."""
     # The figure shows the geometry: without the swirl, which takes 0.0005 ΩR off U_T and widens the region by 2 %.
-    solution = solve(with_switches(make_design(mu=FAST), ("swirl",))).require()
+    solution = solve(with_switches(make_design(mu=FAST_MU), ("swirl",))).require()
     disk = solution.disk
-    mu_x = FAST * math.cos(solution.controls.shaft_tilt)
+    mu_x = FAST_MU * math.cos(solution.controls.shaft_tilt)
     expected = _reverse_area(mu_x, float(disk.edges[0]))
     computed = solution.reverse_flow_area
     top, low = float(disk.u_t.max()), float(disk.u_t.min())
@@ -107,7 +107,7 @@ AZIMUTHS = (8, 12, 16, 24, 36, 48, 72, 100, 120, 180, 360)
 FINEST_AZIMUTHS = 720
 FORWARD = 0.30
 """Advance ratio of figs. 3.8 and 3.9: "high speed forward flight" in the thesis (p. 21)."""
-ENOUGH = 1e-3
+CONVERGED_PART = 1e-3
 """Part of the power that counts as converged."""
 CASES = (("thesis", "linear:-16"), (FLIGHT_LINEAR, "uh60a"))
 """Both with linear inflow: the lifting line has a grid of its own."""
@@ -160,7 +160,7 @@ def figure_3_9() -> Report:
     worst, needed = (max(numbers[f"{name}_{key}"] for name, _ in CASES) for key in ("error_at_100", "needed"))
     return report(
         "3.9",
-        judged(worst < ENOUGH and needed >= 100),
+        judged(worst < CONVERGED_PART and needed >= 100),
         tables=[table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True))],
         panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
         numbers=numbers,
@@ -216,5 +216,5 @@ def _grid_panels(
 
 
 def _needed(grid: tuple[int, ...], errors: list[float]) -> float:
-    """The first grid from which on every error stays within `ENOUGH`; infinite where none is."""
-    return next((grid[k] for k in range(len(grid)) if max(errors[k:]) < ENOUGH), math.inf)
+    """The first grid from which on every error stays within `CONVERGED_PART`; infinite where none is."""
+    return next((grid[k] for k in range(len(grid)) if max(errors[k:]) < CONVERGED_PART), math.inf)

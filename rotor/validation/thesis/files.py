@@ -36,14 +36,14 @@ _STYLE = {
 }
 _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
-FEW = 3
+NAMED_CURVES = 3
 """Curves for whose names there is room in a panel."""
 
 
 def _same_key(panels: tuple[Chart, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
     keys = [tuple(series.label for series in panel.series) for panel in panels]
-    return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
+    return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > NAMED_CURVES
 
 
 def draw(report: Report, folder: Path) -> None:

@@ -21,7 +21,7 @@ from rotor.validation.uh60a import SLOWEST, hover_comparison, model_curve_compar
 Coefficient = Literal["lift", "drag"]
 RANGES = ((-10.0, 15.0), (-10.0, 18.0))
 """Ranges of the fit [deg]: this project's, and one that reaches further into stall. The thesis states none."""
-GOOD = 0.01
+GOOD_MISS = 0.01
 """Part of the coefficient's own spread over the range that a good compromise may miss."""
 ATTACHED_DEG = (-4.0, 8.0)
 """Where a blade flies: drag there decides power."""
@@ -53,7 +53,7 @@ def error_figure(number: str) -> Report:
         }
     spread = _spread(which)
     knee = knee_of([(study.order, _rms(study, which)) for study in studies[RANGES[0]]])
-    enough = next(study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD * spread)
+    enough = next(study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD_MISS * spread)
     rows = [
         (study.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, study in enumerate(studies[RANGES[0]])
     ]
@@ -79,7 +79,7 @@ def error_figure(number: str) -> Report:
         numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
         mach=polar.mach,
         reynolds=(polar.reynolds or 0.0) / 1e6,
-        good=GOOD,
+        good=GOOD_MISS,
         enough=enough,
     )
 
@@ -208,7 +208,7 @@ def tail_rotor() -> Report:
     )
 
 
-RAISED = 0.2
+RAISED_MU = 0.2
 """µ at which two assumptions are changed alone."""
 TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
 
@@ -223,7 +223,7 @@ def figure_3_10() -> Report:
     hover_ct, hover_cp, hover_ours = hover_comparison()
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
-    plain, *raised = (solve(rung_design(on, RAISED)).require().power.total for on in ((), ("table",), ("wake",)))
+    plain, *raised = (solve(rung_design(on, RAISED_MU)).require().power.total for on in ((), ("table",), ("wake",)))
     section, line = (power / plain - 1.0 for power in raised)
     hover_ratio = np.array(hover_ours) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}

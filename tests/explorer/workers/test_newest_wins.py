@@ -191,7 +191,7 @@ class TestCrowd:
 
     def test_of_slow_pages_one_computes_at_a_time(self, monkeypatch: pytest.MonkeyPatch):
         """So a quick page finds the other thread free."""
-        monkeypatch.setattr(newest_wins, "_SLOW", 0.01)
+        monkeypatch.setattr(newest_wins, "_SLOW_FRAME_S", 0.01)
         pool, lock, now, most, ended = UpdatePool(2), threading.Lock(), 0, 0, threading.Event()
         slow: list[NewestWins] = []
         rounds = [0, 0, 0]
@@ -219,7 +219,7 @@ class TestCrowd:
 
     def test_one_slow_frame_does_not_put_a_page_behind_the_charts_of_others(self, monkeypatch: pytest.MonkeyPatch):
         """The first frame of each page is slow: who moves a slider then does not wait for what others still compute."""
-        monkeypatch.setattr(newest_wins, "_SLOW", 0.01)
+        monkeypatch.setattr(newest_wins, "_SLOW_FRAME_S", 0.01)
         pool, go, begun, ended, frames = UpdatePool(2), threading.Event(), threading.Event(), list[bool](), [0]
 
         def opened() -> None:
