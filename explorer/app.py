@@ -155,7 +155,7 @@ class FirstAnswers:
 def _first_words(query: str, start: Inputs) -> str:
     """Power, design and flight in three lines; empty where the page shows another's design, or there is no trim."""
     if parameter(query, FOLLOW):
-        return ""  # Another page says what is shown.
+        return ""  # A presenter's page decides what is shown.
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
     design = (start if code is None else inputs_from(code)).design()
     units = units_of(view_from(view).units if view is not None else SI.title, design.aircraft)
@@ -252,7 +252,7 @@ class App:
             connection.begin(self._session)
         else:
             connection.turn_away(self._limits.sessions)
-        if connection.client.client_id not in self._connections:  # It left before it had a place.
+        if connection.client.client_id not in self._connections:  # The browser left before its turn came.
             self._leave(connection)
 
     def _leave(self, connection: ClientConnection) -> None:
@@ -267,11 +267,11 @@ class App:
 
     def _warm(self) -> None:
         try:
-            picture.warm()  # With the trim that a page opens on; then what only later steps need.
+            picture.warm()  # First the trim that a page opens on, then what later steps need.
             solver.warm()
         except Exception:  # The sessions will meet the same error and show it.
             _log.exception("warming the solver and the picture failed")
-        self.pool.warm()  # Only now, so that it does not compete with the first page.
+        self.pool.warm()  # Not earlier: it would compete with the first page for the processor.
         self._warmed.set()
 
 

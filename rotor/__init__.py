@@ -22,7 +22,7 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
-from rotor.support.terminal import stop_while_read  # Before the large modules.
+from rotor.support.terminal import stop_while_read  # Before the large modules are imported.
 
 stop_while_read()
 

@@ -33,7 +33,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
         return previous or (0.0, 1.0)
     if previous is not None and previous[0] <= low and high <= previous[1] <= previous[0] + 2.5 * (high - low):
         return previous
-    # A little room, except below a zero that is a floor.
+    # Leave a margin, but not below zero where no value is negative.
     span = max(high - low, 1e-6)
     foot = 0.0 if low == 0.0 else 0.04 * span
     step = 10.0 ** math.floor(math.log10(span / 2.0))
@@ -229,12 +229,12 @@ class PowerCurves:
             starts = before if k in before else points
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
-                # Without its derivatives, which are large.
+                # Drop the derivatives, which take much memory.
                 points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
                 continue
             lost += 1
             if lost == 2 or (points and k in few):
-                end = k  # Faster flight does not trim either, and each failed trim takes long.
+                end = k  # Faster flight will not trim either, and each failed trim is slow.
         self._starts, self._fine = points, (family, values)
         return values, False
 

@@ -31,7 +31,7 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
 }
 """Colour, width [px] and dashes by role."""
 _LEAST_SWEPT = 4
-"""Trims of a sweep, at least, of which speeds are told."""
+"""Fewest points of a sweep from which its best speeds are shown."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 
@@ -103,7 +103,7 @@ def total_power_chart(
     power = here.design
     mus, now = np.array(SWEEP), math.nan if total is None else unit.of(total)
     flown = ((), ()) if marks is None else (marks.x, marks.y)
-    fastest = max(flown[0], default=0.4)  # Flights are slow, and their points low, beside 0.4.
+    fastest = max(flown[0], default=0.4)  # Measured flights end far below µ 0.4, so their axis is shorter.
     values = (*power[mus <= max(fastest + 0.03, mu)], now, *flown[1])
     seen = [value for value in values if math.isfinite(value)]
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))

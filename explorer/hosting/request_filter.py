@@ -79,7 +79,7 @@ class AllowedHosts:
     def _is_own(self, origin: str, name: str, port: int | None) -> bool:
         scheme, separator, place = origin.partition("://")
         if not separator or scheme not in _DEFAULT_PORTS:
-            return False  # Also "null": a sandboxed frame or a file.
+            return False  # "null" is the origin of a sandboxed frame or a file.
         theirs, their_port = _split(place)
         if theirs in self._also:
             return True  # A proxy may have put another Host in place of the browser's.
@@ -182,7 +182,7 @@ _CLOSING_S = 1.0
 """[s] a client has to complete the closing handshake."""
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "same-origin",  # An address may hold a design.
+    "Referrer-Policy": "same-origin",  # The address of a page may hold a design.
     "Content-Security-Policy": "frame-ancestors 'self'",  # No foreign page puts ours under its buttons.
 }
 
@@ -244,7 +244,7 @@ class RequestFilter:
                 return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
                 served = inner(connection, request)
-            except (OSError, ValueError):  # A path that no file can have: too long, or with a zero byte.
+            except (OSError, ValueError):  # No file can have this path: it is too long or has a zero byte.
                 served = _plain(http.HTTPStatus.NOT_FOUND, "There is no such page.")
             if served is not None:
                 for name, value in self._headers.items():
@@ -333,7 +333,7 @@ class GuardedConnection(ServerConnection):
                 _log.warning("a browser sent too much; its connection was closed")
                 # The page shows the reason for this code alone.
                 await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)
-            fault = message_fault(message) if isinstance(message, bytes) else ""  # A text is no message of viser's.
+            fault = message_fault(message) if isinstance(message, bytes) else ""  # viser's messages are binary.
             if not fault:
                 return message
             log_dropped(fault)
@@ -375,7 +375,7 @@ def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Respon
 
 
 def _plain(status: http.HTTPStatus, sentence: str, **others: str) -> Response:
-    body = (sentence + "\n").encode(errors="replace")  # It may repeat bytes of the request that are no text.
+    body = (sentence + "\n").encode(errors="replace")  # The message may repeat bytes of the request that are not text.
     kind = {"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body))}
     headers = Headers({**kind, **_HEADERS, **others})
     return Response(status, status.phrase, headers, body)

@@ -206,7 +206,7 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         state = under_way.get(message.transfer_uuid)
         button: Any = gui._gui_input_handle_from_uuid.get(message.source_component_uuid or "")
         if state is None or not isinstance(button, viser.GuiUploadButtonHandle):
-            return  # Refused, or never begun: dropped.
+            return  # The upload was refused or never begun.
         left = state["total_bytes"] - state["transferred_bytes"] - len(message.content)
         if left < 0 or (left and len(state["parts"]) + 1 == state["part_count"]):
             refuse(message.source_component_uuid, message.transfer_uuid, "A file was not as long as announced.")

@@ -190,7 +190,7 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
     conditions: list[MeasuredCondition] = []
     for measured in sets_of(rotor):
         if measured.against is not None:
-            continue  # Its conditions are those of another set.
+            continue  # The conditions belong to another measured set.
         names = [name for name in measured.given if name != "tip_mach"]
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):

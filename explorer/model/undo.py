@@ -150,7 +150,7 @@ class PowerTracker:
         `pause`: the longest rest of the inputs [s] since the last call, as `LongestPause` measures it.
         """
         if self._inputs is not None and inputs.aircraft != self._inputs.aircraft:
-            self._clear()  # Another rotor: its power is no change of this one's.
+            self._clear()  # The powers of two rotors are not compared.
         if self._inputs is None:
             self._inputs, self._power = inputs, power
             if self._held:  # Grabbed before the new design had a power: it counts from the first one known.

@@ -223,7 +223,7 @@ def ring_mask() -> Bytes:
         reach = 0.034 if long else 0.024 if medium else 0.013
         ring.tick(degrees, 1.024, 1.024 + reach, 0.0040 if long else 0.0027, 215 if long else 125)
     ring.word("NOSE", 180.0, 1.122, 0.084, outward=True)
-    # Beside the boom, where neither the fin nor the stabilator hides it.
+    # Beside the boom, neither fin nor stabilator hides it.
     ring.word("TAIL", 15.0, 1.122, 0.084, outward=False)
     ring.word("ADVANCING", 90.0, 1.122, 0.079, outward=False)
     ring.word("RETREATING", 270.0, 1.122, 0.079, outward=True)

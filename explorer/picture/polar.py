@@ -394,7 +394,7 @@ def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_wid
             if near[i, j] and where[i, j]:
                 along = (values[outer, j] - values[inner, j]) / (r[outer] - r[inner])
                 around = (values[i, (j + 1) % azimuths] - values[i, j - 1]) / (step * r[i])
-                # Without reach the line is no wider than the points are apart.
+                # With no reach, the line is as wide as the points are apart.
                 if reach == 0 or abs(values[i, j]) < half_width * math.hypot(along, around):
                     codes[i, j] = code
 

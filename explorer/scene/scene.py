@@ -65,7 +65,7 @@ class RotorNodes:
             self._blades.append(blade)
             psi = math.radians(ViewState.azimuth_deg) + k * 2.0 * math.pi / rotor.blades
             hinge = rotor.blade.flap_hinge * radius * np.array([math.cos(psi), math.sin(psi), 0.0])
-            place_node(blade, Pose(axis_rotation(2, psi), hinge))  # Until the first solution says more.
+            place_node(blade, Pose(axis_rotation(2, psi), hinge))  # Replaced at the first solution.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
         self.words.render_width = self.words.render_height = 2.0 * disk_image.REACH * radius

@@ -123,7 +123,9 @@ class Presentations:
         if away:
             listener("away")
         sent = None
-        while (shown := self._shown.get(name)) is not None and shown is not sent:  # It may change meanwhile.
+        while (
+            shown := self._shown.get(name)
+        ) is not None and shown is not sent:  # The state may change during the send.
             sent = shown
             listener(shown)
         self._count(name)

@@ -14,7 +14,7 @@ class Call:
 
     def run(self, tell: object = None, stop: object = None) -> Any:
         """What the function returns; for a ValueError or RuntimeError its sentence."""
-        del tell, stop  # It ends soon.
+        del tell, stop  # The process ends soon.
         try:
             return self.function(*self.arguments)
         except (ValueError, RuntimeError) as error:

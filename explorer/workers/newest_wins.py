@@ -60,7 +60,7 @@ class UpdatePool:
         if self._threads < self._most:
             self._threads += 1
             threading.Thread(target=self._run, name="update", daemon=True).start()
-        self.change.notify_all()  # Who waits for an answer listens too.
+        self.change.notify_all()  # The thread that waits for an answer is a listener, too.
         return number
 
     def _run(self) -> None:

@@ -155,7 +155,7 @@ def _through_knots(mach: Array, values: Array, grid: Array) -> Array:
     share = np.stack([np.interp(grid, mach[inside], one) for one in np.eye(int(inside.sum()))])
     for _ in range(_CORRECTIONS):
         slopes = np.asarray(scipy.interpolate.PchipInterpolator(grid, made, axis=1).derivative()(grid))
-        slopes[:, [0, -1]] = 0.0  # As in `section_table`.
+        slopes[:, [0, -1]] = 0.0  # Zero slope at both ends, as in `section_table`.
         curve = scipy.interpolate.CubicHermiteSpline(grid, made, slopes, axis=1)
         made = made + (values[:, inside] - np.asarray(curve(mach[inside]))) @ share
     return made
@@ -294,7 +294,7 @@ def assemble_deck(title: str, polars: Sequence[Polar], correct: Correction) -> C
         cl_here, cd_here, cm_here = blend(alpha, full[0], full[1], full[2])
         columns.append((cl_here, _drag_grows_to_broadside(alpha_deg, cd_here), cm_here))
     cl, cd, cm = (np.stack([column[k] for column in columns], axis=1) for k in range(3))
-    cl[[0, -1]] = cl[[0, -1]].mean(axis=0)  # The two ends are one angle.
+    cl[[0, -1]] = cl[[0, -1]].mean(axis=0)  # −180° and 180° are one angle.
     cm[[0, -1]] = cm[[0, -1]].mean(axis=0)
     deck = C81Deck(title, *(C81Block(DECK_MACH, alpha_deg, values) for values in (cl, cd, cm)))
     return parse_c81(format_c81(deck), title)

@@ -65,7 +65,7 @@ def stall_onset(table: SectionTable) -> StallOnset:
     negative, positive = table.stall_alpha(mach)
     attached = (np.abs(x) >= ATTACHED) & (x <= positive - zero) & (x >= negative - zero)
     slope = np.where(attached, secant, 0.0).max(axis=0)
-    slope = np.where(slope > 0.0, slope, table.lift_slope(mach))  # Where stall begins at once.
+    slope = np.where(slope > 0.0, slope, table.lift_slope(mach))  # Stall begins at the first angle.
     ratio = np.divide(force, slope * x, out=np.ones_like(force), where=inside)
     f[inside] = np.clip((2.0 * np.sqrt(np.maximum(ratio, 0.25)) - 1.0) ** 2, LEAST_SEPARATION, 1.0)[inside]
     if moment is not None:

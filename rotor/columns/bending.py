@@ -143,7 +143,7 @@ class Bending(Freedom):
             for h in range(self.functions):
                 self._balance(s, k, h)
         if has_hub_loads(self._hub[0], harmonic_of(self.functions - 1)):
-            HubLoadTerms(s, *self._hub)  # Its measures.
+            HubLoadTerms(s, *self._hub)  # Adds its measures to the structure.
 
     def _balance(self, s: Structure, k: int, h: int) -> None:
         """The equation of one mode and one wave."""

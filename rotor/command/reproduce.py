@@ -25,7 +25,7 @@ def add_parser(commands: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
-    # Here, because no other command needs the catalogue.
+    # Imported here: no other command needs the catalogue.
     from rotor.support.plots import drawing_module
     from rotor.support.units import typographic
     from rotor.validation.page import SETS, write_trust
@@ -34,7 +34,7 @@ def run(args: argparse.Namespace) -> int:
     from rotor.validation.thesis.report import Report
     from rotor.validation.thesis.runs import compute_ahead
 
-    drawing_module()  # Missing, it is said before the searches.
+    drawing_module()  # Fails before the long searches if matplotlib is missing.
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
     processes = processes_from(args)

@@ -116,7 +116,7 @@ def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None
 
 
 def _plain(value: Any) -> Any:
-    if isinstance(value, float):  # numpy's own are floats as well.
+    if isinstance(value, float):  # numpy's floats are floats as well.
         return float(value) if math.isfinite(value) else None
     return value
 

@@ -43,7 +43,7 @@ def run(args: argparse.Namespace) -> int:
     Of a set without a target every point counts.
     """
     if args.plot:
-        drawing_module()  # Missing, it is said before the trims.
+        drawing_module()  # Fails before the trims if matplotlib is missing.
     names = args.sets or [*SETS, *FIELDS]
     known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
     for name in names:

@@ -130,7 +130,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         known, column = basis[: k + 1], hessenberg[:, k]
         steps[k] = near.solve(basis[k], transposed=True)
         new = transposed(point, steps[k])[0]
-        for _ in range(2):  # Once leaves them orthogonal to few digits.
+        for _ in range(2):  # One pass of Gram–Schmidt loses digits, so do two.
             shares = known @ new
             new -= shares @ known
             column[: k + 1] += shares

@@ -193,7 +193,7 @@ class StudyFolder:
             self._lock = _hold(self.folder)
             write_whole(
                 self.folder / ABOUT, _about(file.study, provenance, known)
-            )  # First: a folder without it is not a study's.
+            )  # Written first: a folder without it is not a study.
             write_whole(self.folder / SOURCE, file.text)
             for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()

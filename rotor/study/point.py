@@ -181,7 +181,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     arguments |= {name: int(values[name]) for name in _GRID if name in values}
     return make_design(
         preset=preset,
-        rotor=aircraft.get(rotor) or shipped_aircraft(rotor),  # No path: results may come from others.
+        rotor=aircraft.get(rotor) or shipped_aircraft(rotor),  # No path of the machine: results are passed on.
         **arguments,
         models=replace(models, **changed) if changed else models,
         stand=stand or None,
@@ -208,7 +208,7 @@ def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis |
     None where a point has to be trimmed by itself.
     """
     designs = list[Design]()
-    with suppress(Exception):  # The row of the point that means no design tells of it.
+    with suppress(Exception):  # The row of the point says why it has no design.
         for values in points if study.optimum is None else ():
             design = trim_of(values, study)
             if design.hovering or (designs and as_built(design) != as_built(designs[0])):
@@ -218,7 +218,7 @@ def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis |
         return [None]
     try:
         return analyse_in_step(designs, [None] * len(designs))
-    except Exception:  # The row of the point that it comes from tells of it.
+    except Exception:  # The row of the point reports the error.
         return [None] * len(designs)
 
 
@@ -255,7 +255,7 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
             warm.keep(values, solution)
     except Exception as error:  # An unexpected error of one point must not stop its chunk.
         raise_interrupt(error)
-        if lacks_means(error):  # No result: another worker, or the next run, has the row.
+        if lacks_means(error):  # Another worker or the next run computes the row.
             raise MemoryError(str(error)) from error
         bad, told = isinstance(error, ValueError), f"{type(error).__name__}: {error}"
         row |= {"status": "bad-input", "message": str(error)} if bad else {"status": "error", "message": told}
@@ -362,6 +362,6 @@ def _vibration(trim: Analysis) -> Row:
             kind, _, number = name.rpartition("_")
             row[f"{name}_per_rev"] = getattr(frequencies, kind)[int(number) - 1]
     loads = hub_loads(trim, band=False)
-    if loads is None:  # A caveat says why.
+    if loads is None:  # A caveat gives the reason.
         return row
     return row | {"index_percent": loads.index, **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True))}

@@ -86,7 +86,7 @@ def read_results(folder: str | Path) -> Results:
     for path in paths:
         try:
             tables.append(_read_chunk(path))
-        except MemoryError:  # One of Arrow's exceptions too.
+        except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
             raise
         except (OSError, ValueError, arrow.ArrowException) as error:
             raise ValueError(
@@ -120,7 +120,7 @@ def read_file(path: str | Path) -> Results:
         results = Results(about, tuple(about["axes"]), columns_from(table))
         if not {"point", "status", *results.axes} <= results.columns.keys():
             raise KeyError(path)
-    except MemoryError:  # One of Arrow's exceptions too.
+    except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
         raise
     except (OSError, KeyError, ValueError, arrow.ArrowException):
         raise ValueError(

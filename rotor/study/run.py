@@ -117,7 +117,7 @@ def run_study(
 
 def open_study_folder(file: StudyFile, out: str | Path | None) -> StudyFolder:
     """The folder of a study, by default named as its file. ValueError with one sentence where it cannot be used."""
-    arrow_modules()  # Before a folder is made.
+    arrow_modules()  # Check before the folder is made.
     provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
     return StudyFolder(out or Path(file.path).stem, file, provenance)
 

@@ -312,7 +312,7 @@ def _label(design: Design) -> str:
 def _swept(solutions: Sequence[Solution]) -> Quantity:
     """What varies; the advance ratio where nothing does."""
     rotors: dict[str, list[Solution]] = {}
-    for solution in solutions:  # The mass of another rotor is another by itself.
+    for solution in solutions:  # Another rotor has its own mass.
         rotors.setdefault(solution.design.rotor.name, []).append(solution)
     varied = (row for row in CONDITION.values() if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values()))
     return next(varied, CONDITION["mu"])

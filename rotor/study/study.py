@@ -159,7 +159,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 @read_only
 def _spread(sample: StudySample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours adjacent."""
-    from scipy.stats import qmc  # Here, for it is slow to import.
+    from scipy.stats import qmc  # Imported here: it is slow to import.
 
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":

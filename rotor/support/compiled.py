@@ -160,7 +160,7 @@ class _Watch(event.Listener):
 
     def _show(self) -> None:
         stream, words = sys.stderr, self.words
-        with suppress(Exception):  # Closed, or none: nobody looks.
+        with suppress(Exception):  # The stream is closed or missing: nobody reads it.
             if stream.isatty() or "ipykernel" in sys.modules:
                 print(f"\r{words:<{self._width}}\r{words}", end="", file=stream, flush=True)
                 self._width = len(words)
@@ -206,7 +206,7 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
         except Exception as error:  # No folder to write to, or a source without a file.
             _log.debug("no place to keep %s (%s)", function.__name__, error)
             _watch.unkept = True
-        if options.get("inline") != "always":  # Such a one is part of those that call it.
+        if options.get("inline") != "always":  # An inlined function is compiled into its callers.
             _watch.kernels.append(compiled)
         return compiled
 

@@ -332,7 +332,7 @@ class _Worker(threading.Thread):
         while not self._pool.ends():
             if self._pool.prepare is not None:
                 with suppress(OSError, EOFError):
-                    self._ready()  # Before it is needed, and again after it was lost.
+                    self._ready()  # Start a process ahead of the next job, also after one was lost.
                 self._pool.ready()
             job = self._pool.next(self)
             if job is None:
@@ -364,7 +364,7 @@ class _Worker(threading.Thread):
         if self._pool.prepare is not None:
             process.begin(_Called(self._pool.prepare))
             if process.receive(_START_S) is None:
-                self._drop()  # Its answer would be taken for that of the next job.
+                self._drop()  # Its late answer would be taken for the next job's.
                 raise EOFError
         return process
 

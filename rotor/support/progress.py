@@ -8,7 +8,7 @@ from tqdm import tqdm
 if TYPE_CHECKING:
     _Bar = tqdm[Any]
 else:
-    _Bar = tqdm  # It takes no subscript.
+    _Bar = tqdm  # tqdm takes no subscript at run time.
 
 
 class ProgressBar(_Bar):
@@ -16,6 +16,6 @@ class ProgressBar(_Bar):
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)  # pyright: ignore[reportUnknownMemberType]
-        if not self.disable:  # Else it has no clock.
+        if not self.disable:  # A disabled bar has no clock.
             self._time = time.monotonic
             self.start_t = self.last_print_t = time.monotonic()

@@ -31,7 +31,7 @@ def extra_module(name: str, what: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise  # The module is there, and something else is missing.
-        package = name.partition(".")[0]  # Also its name on the index, which this package is not on.
+        package = name.partition(".")[0]  # The module has the same name on the package index.
         raise MissingExtra(f"{what} needs {package}: pip install {package}") from None
 
 
@@ -126,7 +126,7 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
         reason = "the name is too long" if error.errno == errno.ENAMETOOLONG else error.strerror
         raise ValueError(f"{what} {name} cannot be read ({reason}): {remedy}") from None
     except ValueError as error:
-        if "null" in str(error):  # From os.open.
+        if "null" in str(error):  # os.open raises these.
             raise ValueError(f"{what} {name} cannot be read ({error}): {remedy}") from None
         raise
     if len(content) > most:

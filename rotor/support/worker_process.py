@@ -178,6 +178,6 @@ def _send_error(pipe: "Connection[Any, Any]", error: Exception, number: int = 0)
     error.add_note(traceback.format_exc())
     try:
         pickle.loads(pickle.dumps(error))
-    except Exception:  # Some exceptions cannot be pickled, or cannot be made again from what was.
+    except Exception:  # Some exceptions cannot be pickled or unpickled.
         error = RuntimeError(f"{type(error).__name__}: {error}")
     pipe.send(Reply("error", error, number))

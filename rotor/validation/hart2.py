@@ -171,7 +171,7 @@ def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
         for n in range(1, len(beside.waves) // 2 + 1):
             size, angle = beside.amplitude(n, measured=True), beside.phase_deg(n, measured=True)
             computed = f"{beside.amplitude(n):{form}}", f"{beside.phase_deg(n):.0f}"
-            if float(computed[0]) == 0.0:  # Of rounding: blades without bending flap at 1/rev alone.
+            if float(computed[0]) == 0.0:  # Rigid blades flap at 1/rev alone: the rest is rounding.
                 computed = "0", ""
             rows.append((name, QUANTITIES[quantity], f"{n}", f"{size:{form}}", f"{angle:.0f}", *computed))
     return tuple(rows)

@@ -160,7 +160,7 @@ def set_page(data: TrustSet) -> str:
         "Remark": remarks,
     }
     if len({*columns["Against"]}) == 1:
-        del columns["Against"]  # It is the source, named above.
+        del columns["Against"]  # The source is named above.
     if not judged:
         del columns["Target"], columns["Verdict"]
     notes: dict[str, list[str]] = {}
