@@ -339,9 +339,8 @@ def parse_twist(
 ) -> TwistLaw:
     """The twist law of a SPEC. Angles in the SPEC are degrees, stations are r/R; the law returns radians.
 
-    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between the points) · `ideal:6.4` · `uh60a`, `r22` or `s61`, the
-    built-in twist of a shipped rotor · `table:FILE`. A plus sign adds laws: `uh60a+linear:-2`.
+    The forms are `SPEC_FORMS`: `linear:-8`, `segments:-12,-4@0.5`; `points` has straight lines between its stations;
+    `uh60a` is the built-in twist of a shipped rotor. A plus sign adds laws: `uh60a+linear:-2`.
     `builtin` is the law that the SPEC `builtin` stands for; `ideal_tip_pitch` gives the angle [rad] of `ideal` without
     a number. `make_design` and `Design.with_twist` supply both.
 

@@ -196,17 +196,9 @@ def on_top(concept: Concept, law: TwistLaw) -> Concept:
     return replace(concept, title=f"{concept.title}, on top", explanation=explanation, base=law)
 
 
-def restrict(
-    concept: Concept,
-    fixed: Mapping[str, float],
-    *,
-    name: str | None = None,
-    title: str | None = None,
-    explanation: str | None = None,
-) -> Concept:
+def restrict(concept: Concept, fixed: Mapping[str, float]) -> Concept:
     """The concept with some parameters fixed (SI); ValueError for an unknown name or a value out of bounds."""
-    known = {parameter.name: parameter for parameter in concept.parameters}
-    name = name or concept.name
+    known, name = {parameter.name: parameter for parameter in concept.parameters}, concept.name
     for key, value in fixed.items():
         if key not in known:
             raise ValueError(f"concept {name} has no parameter {key!r}: it has {', '.join(known)}")
@@ -216,11 +208,4 @@ def restrict(
             raise ValueError(f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside")
     if len(fixed) >= len(known):
         raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
-    return replace(
-        concept,
-        name=name,
-        title=title or concept.title,
-        explanation=explanation or concept.explanation,
-        fixed=(*concept.fixed, *fixed.items()),
-        page="",
-    )
+    return replace(concept, fixed=(*concept.fixed, *fixed.items()), page="")

@@ -98,26 +98,18 @@ THREE_SEGMENT_FREE = Concept(
 
 
 def _two_segment(division: float) -> Concept:
-    return restrict(
-        TWO_SEGMENT_FREE,
-        {"division": division},
-        name="two-segment",
-        title="Two segments",
-        explanation=f"Two straight segments that meet at {division:g} R.",
-    )
+    words = f"Two straight segments that meet at {division:g} R."
+    free = replace(TWO_SEGMENT_FREE, name="two-segment", title="Two segments", explanation=words)
+    return restrict(free, {"division": division})
 
 
 def _three_segment(inner: float, outer: float) -> Concept:
     if not 0.15 <= inner < outer <= 0.97:
         raise ValueError(f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them")
+    words = f"Three straight segments that meet at {inner:.3g} and {outer:.3g} R, where the airfoils change."
     anywhere = tuple(one if one.angular else replace(one, low=0.15, high=0.97) for one in THREE_SEGMENT_FREE.every)
-    return restrict(
-        replace(THREE_SEGMENT_FREE, every=anywhere),
-        {"inner_break": inner, "outer_break": outer},
-        name="three-segment",
-        title="Three segments",
-        explanation=f"Three straight segments that meet at {inner:.3g} and {outer:.3g} R, where the airfoils change.",
-    )
+    free = Concept("three-segment", "Three segments", words, PiecewiseLinearTwist, anywhere)
+    return restrict(free, {"inner_break": inner, "outer_break": outer})
 
 
 CONCEPTS: dict[str, Concept] = {
