@@ -27,7 +27,7 @@ from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim import PitchGradient
 
-_FLAT = 0.05
+_NO_EFFECT = 0.05
 """Power changes per step below this, in the unit of power of the page, are no effect: less than the last digit
 shown."""
 _HALVINGS = 6
@@ -86,7 +86,7 @@ class SliderSensitivity:
     def saving_direction(self, units: Units = SI) -> int:
         """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes nothing that is shown."""
         change = units.power[0].of(self.watts(units))
-        return 0 if abs(change) < _FLAT else -1 if change > 0.0 else 1
+        return 0 if abs(change) < _NO_EFFECT else -1 if change > 0.0 else 1
 
     def value_text(self, units: Units = SI) -> str:
         """The change of power for one step up, signed, one decimal: `−2.6`."""
@@ -189,10 +189,10 @@ _GAP = 0.02
 """Least distance of two divisions [R]."""
 DETENT = 0.35
 """Half the width of the hold at the best angle of the grabbed station [°]."""
-_APART = 0.15
-"""Turns less apart [°] say nothing about a slope: the trims close less well."""
-_FARTHEST = 12.0
-"""A best angle further away than this [°] is not foreseen."""
+_LEAST_TURN = 0.15
+"""A smaller change of turn [°] gives no slope: the residuals of the trims are too large for it."""
+_LARGEST_TURN = 12.0
+"""No best angle is given further away than this [°]."""
 
 
 @dataclass(frozen=True)
@@ -337,7 +337,7 @@ class BestTurn:
         if not self.seen:
             return self
         at, there, slope = min(self.seen, key=lambda point: abs(point[0] - turn))
-        if abs(turn - at) < _APART:
+        if abs(turn - at) < _LEAST_TURN:
             return replace(self, now=None)
         return replace(self, now=(turn, power, 2.0 * (power - there) / (turn - at) - slope))
 
@@ -367,12 +367,12 @@ class BestTurn:
             pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
         else:
             near = sorted(seen, key=lambda point: abs(point[2]))
-            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _APART), near[1])
+            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _LEAST_TURN), near[1])
         (t1, p1, s1), (t2, p2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.
         best = t1 - s1 * (t2 - t1) / (s2 - s1)
-        if abs(best - now) >= _FARTHEST:
+        if abs(best - now) >= _LARGEST_TURN:
             return None
         t, p, s = min((t1, p1, s1), (t2, p2, s2), key=lambda point: abs(point[0] - best))
         return best, p + 0.5 * s * (best - t)
