@@ -23,6 +23,7 @@ import explorer.__main__
 import rotor
 import rotor.validation
 from explorer.export import blade, report
+from explorer.model.inputs import LAWS, ROWS
 from rotor.__main__ import build_parser
 from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
@@ -76,7 +77,8 @@ def test_each_public_type_has_an_entry():
 
 def names_of_the_page() -> set[str]:
     """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its elements."""
-    found = {row.title for row in BY_INPUT.values()} | {row.slider.label for row in BY_INPUT.values() if row.slider}
+    rows = (BY_INPUT | ROWS).values()
+    found = {row.title for row in (*rows, *LAWS.values())} | {row.slider.label for row in rows if row.slider}
     page = ROOT / "explorer"
     for path in (*(page / "tabs").rglob("*.py"), *(page / "model").glob("*.py"), page / "page.py"):
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))

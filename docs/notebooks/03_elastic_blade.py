@@ -2,8 +2,8 @@
 What does the blade's own elasticity do to the optimum?
 =======================================================
 
-In flight a blade twists under aerodynamic, inertial and centrifugal moments. The flown twist is the jig twist, which is
-the twist as built, plus this elastic twist. So the best jig twist changes.
+In flight a blade twists under aerodynamic, inertial and centrifugal moments. The flown twist is the built-in twist
+plus this elastic twist. So the best built-in twist changes.
 """
 
 from dataclasses import replace
@@ -18,7 +18,7 @@ elastic = rotor.make_design(twist="linear:-12", mu=0.3)
 rigid = replace(elastic, models=replace(elastic.models, elastic_twist=False))
 
 # %%
-# The same jig twist, rigid and elastic.
+# The same built-in twist, rigid and elastic.
 
 solutions = {"rigid": rotor.solve(rigid).require(), "elastic": rotor.solve(elastic).require()}
 for name, one in solutions.items():
@@ -33,7 +33,7 @@ print(f"elastic twist at the tip: mean {tip.mean():.2f}째, from {tip.min():.2f}�
 rotor.plot_field(solutions["elastic"], "elastic_twist")
 
 # %%
-# Power over jig twist, with the best twist of each blade.
+# Power over built-in twist, with the best twist of each blade.
 
 rates = np.arange(-20.0, -3.9, 2.0)
 best = {}
@@ -42,9 +42,9 @@ for name, design in (("rigid", rigid), ("elastic", elastic)):
     fit = np.poly1d(np.polyfit(rates, power, 4))
     fine = np.linspace(rates[0], rates[-1], 500)
     best[name] = fine[np.argmin(fit(fine))]
-    print(f"{name:8s} least power {fit(best[name]) / 1e3:.1f} kW at a jig twist of {best[name]:.1f}째")
+    print(f"{name:8s} least power {fit(best[name]) / 1e3:.1f} kW at a built-in twist of {best[name]:.1f}째")
     plt.plot(rates, power / 1e3, "o-", label=name)
-plt.xlabel("Linear jig twist [째]")
+plt.xlabel("Linear built-in twist [째]")
 plt.ylabel("Total power [kW]")
 plt.legend()
 

@@ -136,7 +136,7 @@ def _widths(dr: Array) -> str:
 
 
 def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:
-    """The charts along the blade: jig and flown twist, angle of attack with its stall angles, lift coefficient.
+    """The charts along the blade: built-in and flown twist, angle of attack with its stall angles, lift coefficient.
 
     `reference`: what the page compares with, A or the baseline.
     """

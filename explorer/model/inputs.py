@@ -5,7 +5,7 @@ One file, for the fields, their rows of the table of quantities and the design t
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass, make_dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -15,22 +15,14 @@ from explorer.hosting.messages import NoDesign
 from explorer.model.stand import StandInputs, stand_of, tested
 from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design import (
-    ActiveTwist,
-    Harmonic,
-    IdealTwist,
-    LinearTwist,
-    PiecewiseLinearTwist,
-    QuadraticTwist,
-    SumTwist,
-    TwistLaw,
-)
+from rotor.design import ActiveTwist, Harmonic, IdealTwist, SumTwist, TwistLaw
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, grid_asked, preset_models, with_grid
 from rotor.design.quantities import CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
+from rotor.optimisation.concepts import CONCEPTS, TWO_SEGMENT_FREE, Concept, Parameter
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.support.bytes_cache import bytes_cache
 
@@ -75,35 +67,50 @@ INFLOW_MENUS = {
 """Inputs that choose the inflow: name → title of each choice."""
 
 
-def _twist(
-    name: str, default: float, label: str, low: float = -30.0, high: float = 10.0, step: float = 0.1
-) -> Quantity:
-    """Degrees, or degrees per radius: the label says which."""
-    per = f" per {label.partition('[')[2].rstrip(']')}"
-    return Quantity(name, "number", default=default, input=name, slider=Slider(label, low, high, step, per=per))
-
-
-def _break(name: str, default: float, label: str = "Break point [r/R]") -> Quantity:
-    return Quantity(name, "number", default=default, input=name, slider=Slider(label, 0.2, 0.95, 0.01, 0.1, "/0.1 R"))
-
-
-_TWISTS = (
-    _twist("built_inner", 0.0, "Δ inboard [°/R]", -20.0, 20.0),
-    _twist("built_outer", 0.0, "Δ outboard [°/R]", -20.0, 20.0),
-    _break("built_division", 0.5),
-    _twist("linear", -12.0, "Rate [°/R]"),
-    _twist("quadratic_curvature", 8.0, "Curvature [°/R²]", -40.0, 40.0, 0.5),
-    _twist("quadratic_difference", -14.0, "Tip−root [°]"),
-    _twist("two_inner", -14.0, "Inboard [°/R]"),
-    _twist("two_outer", -8.0, "Outboard [°/R]"),
-    _break("two_division", 0.5),
-    _twist("three_inner", -16.0, "Inboard [°/R]"),
-    _twist("three_middle", -12.0, "Middle [°/R]"),
-    _twist("three_outer", -6.0, "Outboard [°/R]"),
-    _break("three_first", 0.4, "Break 1 [r/R]"),
-    _break("three_second", 0.75, "Break 2 [r/R]"),
+_CHANGE = (
+    "Change of twist rate inboard or outboard of the break point, in degrees per radius; 0 is the blade as built. "
+    "| section 4"
 )
-"""The page's own: parameters of its twist laws."""
+
+
+def _change(one: Parameter) -> Parameter:
+    """A parameter of two segments as one of the change on top of the blade as built."""
+    name = (one.input or f"two_{one.name}").replace("two_", "built_")
+    if not one.angular:
+        return replace(one, input=name)
+    steepest = math.radians(20.0)
+    return replace(
+        one, low=-steepest, high=steepest, start=0.0, help=_CHANGE, short=f"Δ {one.short.lower()}", input=name
+    )
+
+
+def _laws() -> Iterator[Concept]:
+    changed = tuple(map(_change, TWO_SEGMENT_FREE.every))
+    yield replace(TWO_SEGMENT_FREE, page="builtin", title="As built + two-segment change", every=changed)
+    yield from (replace(law, title=law.title.partition(",")[0]) for law in CONCEPTS.values() if law.page)
+    titles = {"ideal": "Ideal (θtip/r)", "given": "From the design file", "optimised": "From the optimiser"}
+    yield from (Concept(name, title, "", IdealTwist, (), name) for name, title in titles.items())
+
+
+LAWS = {law.page: law for law in _laws()}
+"""Twist laws of the menu, by `Inputs.law`."""
+NOT_ALWAYS = ("given", "optimised")
+"""Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
+
+
+def _row(name: str, one: Parameter) -> Quantity:
+    """A parameter of a twist law on its slider: in degrees, or r/R."""
+    label, unit = one.short or one.title, one.shown_unit
+    if one.angular:
+        low, high = (round(one.shown(end), 9) for end in (one.low, one.high))
+        form = Slider(f"{label} [{unit}]", low, high, 0.5 if unit == "°/R²" else 0.1, per=f" per {unit}")
+    else:
+        form = Slider(f"{label} [r/R]", 0.2, 0.95, 0.01, 0.1, "/0.1 R")
+    return Quantity(name, "number", default=one.start, input=name, slider=form, hint=one.help)
+
+
+TWISTS = {name: _row(name, one) for law in LAWS.values() for name, one in zip(law.inputs, law.parameters, strict=True)}
+"""Parameters of the twist laws, by input."""
 FLIGHT = {row.input: row for row in CONDITION.values()}
 """Quantities of the flight condition, by input."""
 MODELS = {
@@ -111,7 +118,7 @@ MODELS = {
 }
 """Quantities that are fields of `rotor.design.design.Models`."""
 _PRESET = QUANTITIES["preset"]
-ROWS = {row.input: row for row in (_PRESET, *_TWISTS)} | FLIGHT | MODELS
+ROWS = {row.input: row for row in (_PRESET, *TWISTS.values())} | FLIGHT | MODELS
 """Quantities on the sliders, menus and boxes of Explore, by the field of `Inputs`."""
 
 
@@ -144,7 +151,7 @@ class Inputs(_Quantities):
     optimised: TwistLaw | None = None
     """A twist from the optimiser that none of the laws holds."""
     airfoils: str = ""
-    """SPEC of the airfoils that go with `given` or `found`; empty: the preset's."""
+    """SPEC of the airfoils that go with `given` or `optimised`; empty: the preset's."""
     pitch_per_rev: tuple[Harmonic, ...] = ()
     """Root pitch at harmonics of rotor speed."""
     twist_per_rev: tuple[Harmonic, ...] = ()
@@ -163,7 +170,24 @@ class Inputs(_Quantities):
 
     def twist(self) -> TwistLaw | str:
         """The law on the sliders, or the SPEC of one that the rotor supplies."""
-        return LAWS[self.law].make(self)
+        if self.law in NOT_ALWAYS:
+            return getattr(self, self.law) or self.aircraft.twist_for(self.preset)
+        if self.law == "ideal" or self.idle:
+            return self.law
+        law, base = LAWS[self.law], _builtin_twist(self) if self.law == "builtin" else None
+        breaks = [getattr(self, name) for name in law.breaks]
+        if any(high - low < 0.02 for low, high in pairwise(breaks)):
+            raise ValueError(
+                f"The break points at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
+                "keep the second at least 0.02 R outboard of the first."
+            )
+        return replace(law, base=base).twist(self.parameters)
+
+    @property
+    def parameters(self) -> list[float]:
+        """Those of the law on the sliders, SI."""
+        law = LAWS[self.law]
+        return [one.from_shown(getattr(self, name)) for name, one in zip(law.inputs, law.parameters, strict=True)]
 
     def design(self) -> Design:
         """The design these inputs mean; NoDesign with one sentence for inputs that mean none."""
@@ -221,61 +245,6 @@ class Inputs(_Quantities):
 OPENING = Inputs(law="builtin")
 """What the page opens with: the first rotor as built."""
 
-
-@dataclass(frozen=True)
-class MenuLaw:
-    """A twist law of the menu, and the fields of `Inputs` that belong to it."""
-
-    title: str
-    make: Callable[[Inputs], TwistLaw | str]
-    angles: tuple[str, ...] = ()
-    """Degrees, or degrees per radius; of straight pieces from the root outboard."""
-    breaks: tuple[str, ...] = ()
-    """r/R where straight pieces meet."""
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """All of them, in the order of the page."""
-        return (*self.angles, *self.breaks)
-
-
-def _radians(inputs: Inputs) -> list[float]:
-    return [math.radians(getattr(inputs, name)) for name in LAWS[inputs.law].angles]
-
-
-def _segments(inputs: Inputs) -> PiecewiseLinearTwist:
-    breaks = tuple(getattr(inputs, name) for name in LAWS[inputs.law].breaks)
-    if any(high - low < 0.02 for low, high in pairwise(breaks)):
-        raise ValueError(
-            f"The break points at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
-            "keep the second at least 0.02 R outboard of the first."
-        )
-    return PiecewiseLinearTwist(tuple(_radians(inputs)), breaks)
-
-
-def _built(inputs: Inputs) -> TwistLaw | str:
-    """The blade as built, and on top of it a change in two straight pieces where there is one."""
-    if inputs.built_inner == inputs.built_outer == 0.0:
-        return "builtin"
-    return SumTwist(_builtin_twist(inputs), _segments(inputs))
-
-
-LAWS: dict[str, MenuLaw] = {
-    "builtin": MenuLaw("As built + two-segment change", _built, ("built_inner", "built_outer"), ("built_division",)),
-    "linear": MenuLaw("Linear", lambda i: LinearTwist(*_radians(i)), ("linear",)),
-    "quadratic": MenuLaw(
-        "Quadratic", lambda i: QuadraticTwist(*_radians(i)), ("quadratic_curvature", "quadratic_difference")
-    ),
-    "two": MenuLaw("Two segments", _segments, ("two_inner", "two_outer"), ("two_division",)),
-    "three": MenuLaw(
-        "Three segments", _segments, ("three_inner", "three_middle", "three_outer"), ("three_first", "three_second")
-    ),
-    "ideal": MenuLaw("Ideal (θtip/r)", lambda i: "ideal"),
-    "given": MenuLaw("From the design file", lambda i: i.given or i.aircraft.twist_for(i.preset)),
-    "optimised": MenuLaw("From the optimiser", lambda i: i.optimised or i.aircraft.twist_for(i.preset)),
-}
-NOT_ALWAYS = ("given", "optimised")
-"""Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
 TWIST_SHOWN = 1.0, 6.0
 """Least and most times its twist that a blade is drawn with."""
@@ -358,22 +327,17 @@ def _own_airfoils(design: Design) -> str:
 
 def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
     """The inputs moved to the law that holds `twist`; None where none does."""
-    match twist:
-        case LinearTwist(rate):
-            name, angles, breaks = "linear", (rate,), ()
-        case QuadraticTwist(curvature, difference):
-            name, angles, breaks = "quadratic", (curvature, difference), ()
-        case PiecewiseLinearTwist(angles, breaks) if len(breaks) in (1, 2):
-            name = "two" if len(breaks) == 1 else "three"
-        case SumTwist(base, PiecewiseLinearTwist(angles, (_,) as breaks)) if base == _builtin_twist(inputs):
-            name = "builtin"
-        case IdealTwist():
-            name, angles, breaks = "ideal", (), ()
-        case _:
-            return None
-    degrees = [round(math.degrees(angle), 4) for angle in angles]
-    values = dict(zip(LAWS[name].inputs, (*degrees, *breaks), strict=True))
-    return replace(inputs, law=name, **values)
+    if isinstance(twist, IdealTwist):
+        return replace(inputs, law="ideal")
+    change, laws = twist, [law for law in LAWS.values() if law.page != "builtin"]
+    if isinstance(twist, SumTwist) and twist.base == _builtin_twist(inputs):
+        change, laws = twist.change, [LAWS["builtin"]]
+    for law in laws:
+        if values := law.values_of(change):
+            pairs = zip(law.parameters, values, strict=True)
+            shown = (round(one.shown(value), 4) if one.angular else value for one, value in pairs)
+            return replace(inputs, law=law.page, **dict(zip(law.inputs, shown, strict=True)))
+    return None
 
 
 def _builtin_twist(inputs: Inputs) -> TwistLaw:

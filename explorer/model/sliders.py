@@ -13,6 +13,7 @@ it, so the station turns by that angle relative to its neighbours. Sliding a div
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -23,19 +24,10 @@ from explorer.model.units import AVIATION, POUND, SI, Units, form_of, meant, num
 from rotor import Aircraft, Solution, solve
 from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.optimisation import CONCEPTS, Concept
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim import PitchGradient
 
-_CONCEPTS: dict[str, Concept] = {
-    "builtin": CONCEPTS["two-segment-free"],
-    "linear": CONCEPTS["linear"],
-    "quadratic": CONCEPTS["quadratic"],
-    "two": CONCEPTS["two-segment-free"],
-    "three": CONCEPTS["three-segment-free"],
-}
-"""By law of the page: the concept with the same parameters in the same order as the law's inputs."""
-_FLAT = 0.05
+_NO_EFFECT = 0.05
 """Power changes per step below this, in the unit of power of the page, are no effect: less than the last digit
 shown."""
 _HALVINGS = 6
@@ -94,7 +86,7 @@ class SliderSensitivity:
     def saving_direction(self, units: Units = SI) -> int:
         """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes nothing that is shown."""
         change = units.power[0].of(self.watts(units))
-        return 0 if abs(change) < _FLAT else -1 if change > 0.0 else 1
+        return 0 if abs(change) < _NO_EFFECT else -1 if change > 0.0 else 1
 
     def value_text(self, units: Units = SI) -> str:
         """The change of power for one step up, signed, one decimal: `−2.6`."""
@@ -110,17 +102,13 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
 
     `gradient`: of the solution of these inputs.
     """
-    concept = _CONCEPTS.get(inputs.law)
-    if concept is None:
+    law = LAWS[inputs.law]
+    if not law.parameters:
         return {}
-    names = LAWS[inputs.law].inputs
-    values = [
-        parameter.from_shown(getattr(inputs, name)) for parameter, name in zip(concept.parameters, names, strict=True)
-    ]
-    by_parameter = gradient.along(concept.slopes(values, gradient.r))
+    by_parameter = gradient.along(law.slopes(inputs.parameters, gradient.r))
     return {
         name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0))
-        for name, parameter, slope in zip(names, concept.parameters, by_parameter, strict=True)
+        for name, parameter, slope in zip(law.inputs, law.parameters, by_parameter, strict=True)
     }
 
 
@@ -201,12 +189,10 @@ _GAP = 0.02
 """Least distance of two divisions [R]."""
 DETENT = 0.35
 """Half the width of the hold at the best angle of the grabbed station [°]."""
-_APART = 0.15
-"""Turns less apart [°] say nothing about a slope: the trims close less well."""
-_FARTHEST = 12.0
-"""A best angle further away than this [°] is not foreseen."""
-PIECES = {name: (LAWS[name].angles, LAWS[name].breaks) for name in ("linear", "builtin", "two", "three")}
-"""Rates and divisions, root to tip, of the laws made of straight pieces: fields of `Inputs`."""
+_LEAST_TURN = 0.15
+"""A smaller change of turn [°] gives no slope: the residuals of the trims are too large for it."""
+_LARGEST_TURN = 12.0
+"""No best angle is given further away than this [°]."""
 
 
 @dataclass(frozen=True)
@@ -221,29 +207,32 @@ class BladeStation:
 
 def grabbed_inputs(inputs: Inputs) -> Inputs:
     """The inputs with a law that can be grabbed: any other is replaced by the nearest two segments."""
-    if inputs.law in PIECES or inputs.law == "quadratic":
+    if stations(inputs):
         return inputs
-    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
-    twist, division = inputs.design().twist, 0.5
-    rates = {}
-    for name, ends in (("two_inner", (root, division)), ("two_outer", (division, 1.0))):
+    root, twist = _root(inputs), inputs.design().twist
+    *rates, division = LAWS["two"].inputs
+    values: dict[str, Any] = {division: (middle := 0.5)}
+    for name, ends in zip(rates, ((root, middle), (middle, 1.0)), strict=True):
         r = np.linspace(*ends, 30)
-        rates[name] = _onto(name, math.degrees(np.polyfit(r, twist(r), 1)[0]))
-    return replace(
-        inputs, law="two", two_division=division, given=None, optimised=None, airfoils=inputs.airfoils, **rates
-    )
+        values[name] = _onto(name, math.degrees(np.polyfit(r, twist(r), 1)[0]))
+    return replace(inputs, law="two", given=None, optimised=None, **values)
 
 
 def stations(inputs: Inputs) -> tuple[BladeStation, ...]:
-    """Where the law on the sliders can be grabbed, root to tip; none for a law without sliders."""
-    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
-    if inputs.law == "quadratic":
-        return BladeStation(0, root, "root"), BladeStation(1, 0.5 * (root + 1.0), "middle"), BladeStation(2, 1.0, "tip")
-    if inputs.law not in PIECES:
+    """Where the law on the sliders can be grabbed, root to tip; none where its parameters are no turns and bends."""
+    law, root = LAWS[inputs.law], _root(inputs)
+    motions = [handle.motion for handle in law.handles]
+    if motions.count("tilt") != len(law.breaks) + 1 or not {*motions} <= {"tilt", "bend", "slide"}:
         return ()
-    divisions = PIECES[inputs.law][1]
-    middle = [BladeStation(k + 1, getattr(inputs, name), "break point", name) for k, name in enumerate(divisions)]
-    return BladeStation(0, root, "root"), *middle, BladeStation(len(divisions) + 1, 1.0, "tip")
+    places = [(getattr(inputs, name), "break point", name) for name in law.breaks]
+    if "bend" in motions:
+        places = [(0.5 * (root + 1.0), "middle", None)]
+    every = ((root, "root", None), *places, (1.0, "tip", None))
+    return tuple(BladeStation(index, *place) for index, place in enumerate(every))
+
+
+def _root(inputs: Inputs) -> float:
+    return inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
 
 
 def with_station_turned(inputs: Inputs, station: BladeStation, degrees: float) -> Inputs:
@@ -266,26 +255,24 @@ def turn_ends(inputs: Inputs, station: BladeStation) -> tuple[tuple[float, str],
 
 def turn_slopes(inputs: Inputs, station: BladeStation) -> dict[str, float]:
     """By how much each input moves for a degree that a station is turned nose up."""
-    if inputs.law == "quadratic":
-        root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
-        if station.index == 1:  # A parabola lies a quarter of its coefficient times its span squared below its chord.
-            return {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}
-        # The slider holds the difference over the whole radius, of which the blade covers a part.
-        return {"quadratic_difference": (1.0 if station.index else -1.0) / (1.0 - root)}
-    rates = PIECES[inputs.law][0]
-    places = [station.r for station in stations(inputs)]
-    # Degrees per radius that a degree of this station means for the piece inboard of it and the one outboard.
+    places, law = [place.r for place in stations(inputs)], LAWS[inputs.law]
+    here, root, tip = places[station.index], places[0], places[-1]
+    pieces = pairwise((root, *(getattr(inputs, name) for name in law.breaks), tip))
     slopes: dict[str, float] = {}
-    if station.index > 0:
-        slopes[rates[station.index - 1]] = 1.0 / (places[station.index] - places[station.index - 1])
-    if station.index < len(rates):
-        slopes[rates[station.index]] = -1.0 / (places[station.index + 1] - places[station.index])
+    for name, handle in zip(law.inputs, law.handles, strict=True):
+        if handle.motion == "tilt":
+            inner, outer = next(pieces)
+            if here in (inner, outer):
+                slopes[name] = (1.0 if here == outer else -1.0) / (outer - inner)
+        elif handle.motion == "bend" and here not in (root, tip):
+            # A parabola lies a quarter of its coefficient times its span squared below its chord.
+            slopes[name] = -4.0 / (tip - root) ** 2
     return slopes
 
 
 def place_of(inputs: Inputs, station: BladeStation) -> str:
-    """A station and its jig twist, in words."""
-    twist = LAWS[inputs.law].make(inputs)
+    """A station and its built-in twist, in words."""
+    twist = inputs.twist()
     law = inputs.design().twist if isinstance(twist, str) else twist
     angle = math.degrees(float(law(np.array([station.r]))[0]))
     return f"{station.title} {station.r:.2f} R · twist {angle:+.1f}°".replace("-", "−")
@@ -350,7 +337,7 @@ class BestTurn:
         if not self.seen:
             return self
         at, there, slope = min(self.seen, key=lambda point: abs(point[0] - turn))
-        if abs(turn - at) < _APART:
+        if abs(turn - at) < _LEAST_TURN:
             return replace(self, now=None)
         return replace(self, now=(turn, power, 2.0 * (power - there) / (turn - at) - slope))
 
@@ -380,12 +367,12 @@ class BestTurn:
             pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
         else:
             near = sorted(seen, key=lambda point: abs(point[2]))
-            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _APART), near[1])
+            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _LEAST_TURN), near[1])
         (t1, p1, s1), (t2, p2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.
         best = t1 - s1 * (t2 - t1) / (s2 - s1)
-        if abs(best - now) >= _FARTHEST:
+        if abs(best - now) >= _LARGEST_TURN:
             return None
         t, p, s = min((t1, p1, s1), (t2, p2, s2), key=lambda point: abs(point[0] - best))
         return best, p + 0.5 * s * (best - t)

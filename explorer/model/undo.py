@@ -112,7 +112,7 @@ class PowerTracker:
         self._clear()
 
     def reset(self) -> None:
-        """Forget everything: another design comes by no hand, but by undo, link, file, optimum or lecture.
+        """Forget everything: the design was not changed by hand, but by undo, link, file, optimum or lecture.
 
         Nothing counts until a hand moves something: an answer on its way may still be that of the design before.
         """

@@ -20,7 +20,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 from urllib.parse import parse_qsl, quote
 
-from explorer.model.inputs import LAWS, TWIST_SHOWN, Inputs, ViewState, inputs_of
+from explorer.model.inputs import LAWS, TWIST_SHOWN, TWISTS, Inputs, ViewState, inputs_of
 from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
@@ -53,9 +53,7 @@ _PLUS = "~"
 
 _SHORT = {key: row.word for key, row in BY_KEY.items() if row.word}
 _LONG = {short: key for key, short in _SHORT.items()}
-_PLAIN = Inputs()
-_TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
-_NEVER = ("format", "version", "twist")
+_LEFT_OUT = ("format", "version", "twist")
 STEPS_KEPT = "steps"
 MOST_STEPS = 50
 """Most steps before the present that are kept, and most after it."""
@@ -80,7 +78,7 @@ def code_of(design: Design) -> str:
         raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send the file.")
     record = design.to_dict()
     usual = _usual(record["preset"], design.aircraft)
-    changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
+    changed = {key: value for key, value in record.items() if key not in _LEFT_OUT and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
@@ -142,8 +140,8 @@ def within(inputs: Inputs) -> Inputs:
     """
     _check_grid(inputs)
     if any(not _holds(name, inputs) for name in LAWS[inputs.law].inputs):
-        law = inputs.design().twist
-        inputs = replace(inputs, law="given", given=law, **{name: getattr(_PLAIN, name) for name in _TWISTS})
+        plain = {name: row.default for name, row in TWISTS.items()}
+        inputs = replace(inputs, law="given", given=inputs.design().twist, **plain)
     for name in SLIDERS:
         if not _holds(name, inputs):
             form = slider(name, SI, inputs.aircraft)

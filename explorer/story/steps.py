@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
-from explorer.model.inputs import LAWS, Inputs, ViewState
+from explorer.model.inputs import TWISTS, Inputs, ViewState
 from explorer.model.undo import differing
 from explorer.model.units import Units, degrees, number
 from explorer.picture.camera_views import CameraShot
@@ -20,8 +20,8 @@ from rotor import Solution, hub_loads
 
 _TEXT = Path(__file__).parent / "text"
 _HEADINGS = ("Compare", "Guess", "Answer", "Try")
-MOVED = frozenset({"law"}.union(*(law.inputs for law in LAWS.values())))
-"""Inputs that mean the jig twist."""
+MOVED = frozenset({"law", *TWISTS})
+"""Inputs that mean the built-in twist."""
 
 
 @dataclass(frozen=True)

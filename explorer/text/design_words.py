@@ -9,18 +9,9 @@ from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor import Design, Rotor
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.design import (
-    Harmonic,
-    IdealTwist,
-    LinearTwist,
-    PiecewiseLinearTwist,
-    QuadraticTwist,
-    SplineTwist,
-    SumTwist,
-    TableTwist,
-    TwistLaw,
-)
+from rotor.design import Harmonic, IdealTwist, LinearTwist, PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
+from rotor.design.twist import SpecTwist
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.support.user_input import shorten
@@ -92,18 +83,12 @@ def _law_name(law: TwistLaw, rotor: Rotor) -> str:
             return f"segments {'/'.join(map(_degrees, rates))}" + (f" at {places}" if places else "")
         case PiecewiseLinearTwist(rates):
             return f"{len(rates)} segments, {angle}"
-        case QuadraticTwist():
-            return f"quadratic, {angle}"
         case IdealTwist(tip_pitch):
             return f"ideal {_degrees(tip_pitch)}°/r"
-        case SplineTwist():
-            return f"smooth curve, {angle}"
         case TableTwist(name=name) if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
             return f"twist of the {shipped_aircraft(name).name}"
-        case TableTwist():
-            return f"from a table, {angle}"
         case _:
-            return f"of another law, {angle}"
+            return f"{law.noun if isinstance(law, SpecTwist) else 'of another law'}, {angle}"
 
 
 def flight_words(design: Design, units: Units = SI) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from explorer.model.inputs import TWISTS
 from rotor.design.quantities import BY_INPUT
 
 
@@ -41,7 +42,9 @@ def _terms(entries: Mapping[str, str]) -> dict[str, Term]:
 
 
 _FILE = tomllib.loads((Path(__file__).parent / "glossary.toml").read_text(encoding="utf-8"))
-CONTROLS: dict[str, Term] = _terms({name: row.tooltip for name, row in BY_INPUT.items()}) | _terms(_FILE["controls"])
+CONTROLS: dict[str, Term] = _terms({name: row.tooltip for name, row in {**BY_INPUT, **TWISTS}.items()}) | _terms(
+    _FILE["controls"]
+)
 """By the field of `Inputs` or `ViewState`, or a name of the widget's own."""
 READOUTS: dict[str, Term] = _terms(_FILE["readouts"])
 SECTIONS: dict[str, str] = _FILE["sections"]

@@ -14,6 +14,7 @@ from typing import Generic, Literal, TypedDict, TypeVar, get_args
 
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.design.quantity import Quantity, Slider
+from rotor.design.twist import SPEC_FORMS
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.support.units import FOOT, POUND
 
@@ -202,8 +203,7 @@ _BLADE = (
     ),
     Quantity(
         "twist", "text",
-        "twist law in degrees and r/R: linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | "
-        "points:ANGLES@STATIONS | ideal | builtin | uh60a | table:FILE",
+        f"twist law in degrees and r/R, such as linear:-8 or segments:-12,-4@0.5: {' | '.join(SPEC_FORMS)}",
         key="twist", section="fixed", written=True,
     ),
     Quantity(

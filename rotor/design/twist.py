@@ -3,17 +3,21 @@
 Every law returns radians, nose-up positive, for r = y/R, and is zero at 0.75 R, so that the collective is the
 pitch at 0.75 R whatever the law. Rates are radians per radius. As text, a law is a SPEC such as
 `segments:-12,-4@0.5`, or a table of two columns.
+
+`LAWS` has the classes of a SPEC, which the command line, design files and links read. In
+`rotor.optimisation.concepts` stand the parameters of those that the optimiser and the page move. One file: the laws and
+their text.
 """
 
 import math
 import re
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, fields
 from functools import cache, lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 
 import numpy as np
 import scipy
@@ -25,6 +29,10 @@ from rotor.support.user_input import did_you_mean, read_text, refusing
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
+
+
+SEARCHED_STATIONS = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
+"""r/R of the angles that a search of a smooth curve moves; that at 0.75, where every law is zero, stays."""
 
 
 @runtime_checkable
@@ -41,23 +49,67 @@ class TwistLaw(Protocol):
 
 
 @dataclass(frozen=True)
-class LinearTwist:
+class SpecTwist(TwistLaw):
+    """A law that its SPEC writes out. Here for laws whose fields are angles [rad], in the order of the SPEC."""
+
+    kind: ClassVar[str]
+    """First word of its SPEC."""
+    form: ClassVar[str]
+    """What follows the colon, in words."""
+    example: ClassVar[str]
+    """The same in numbers."""
+    noun: ClassVar[str]
+    """Name on the page where its numbers are left out."""
+
+    @classmethod
+    def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
+        """The law of the angles [rad] and of the stations after @ of a SPEC."""
+        if len(angles) != len(fields(cls)) or places:
+            numbers = f"{len(fields(cls))} number{'s' * (len(fields(cls)) > 1)}"
+            raise ValueError(
+                f"twist {spec!r} needs {numbers}: write {cls.kind}:{cls.form}, for example {cls.kind}:{cls.example}"
+            )
+        return cls(*angles)
+
+    @classmethod
+    def of(cls, *values: float) -> Self:
+        """The law of its parameters, SI."""
+        return cls(*values)
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Its parameters, SI."""
+        return astuple(self)
+
+    def spec(self) -> str:
+        """The law as `parse_twist` reads it."""
+        return f"{self.kind}:{_pairs(self.values, ())}"
+
+    def slopes(self, r: Array) -> Array:
+        """∂θ_tw(r)/∂value, exact, (values, stations)."""
+        raise NotImplementedError(f"{type(self).__name__} has no parameters to search")
+
+
+@dataclass(frozen=True)
+class LinearTwist(SpecTwist):
     """θ_tw = rate (r − 0.75)."""
 
+    kind, form, example, noun = "linear", "RATE", "-8", "linear"
     rate: float
     """[rad per radius], negative when the tip is nose-down."""
 
     def __call__(self, r: ArrayLike) -> Array:
         return self.rate * (np.asarray(r, dtype=float) - REFERENCE_RADIUS)
 
-    def spec(self) -> str:
-        return f"linear:{_degrees(self.rate)}"
+    def slopes(self, r: Array) -> Array:
+        return (r - REFERENCE_RADIUS)[None]
 
 
 @dataclass(frozen=True)
-class QuadraticTwist:
+class QuadraticTwist(SpecTwist):
     """θ_tw = a r² + b r + c, with a + b the tip-minus-root difference (thesis §4.1.2)."""
 
+    kind, form, example, noun = "quadratic", "A,D", "6,-14", "quadratic"
     curvature: float
     """a, the second-order coefficient [rad per radius²]."""
     difference: float
@@ -68,14 +120,16 @@ class QuadraticTwist:
         slope = self.difference - self.curvature
         return self.curvature * (r**2 - REFERENCE_RADIUS**2) + slope * (r - REFERENCE_RADIUS)
 
-    def spec(self) -> str:
-        return f"quadratic:{_degrees(self.curvature)},{_degrees(self.difference)}"
+    def slopes(self, r: Array) -> Array:
+        line = r - REFERENCE_RADIUS
+        return np.stack([r**2 - REFERENCE_RADIUS**2 - line, line])
 
 
 @dataclass(frozen=True)
-class PiecewiseLinearTwist:
+class PiecewiseLinearTwist(SpecTwist):
     """Linear segments, continuous at movable breaks (thesis §4.1.3–4.1.5)."""
 
+    kind, form, example, noun = "segments", "RATES@BREAKS", "-12,-4@0.5", "segments"
     rates: tuple[float, ...]
     """[rad per radius], root to tip, one per segment."""
     breaks: tuple[float, ...]
@@ -85,7 +139,7 @@ class PiecewiseLinearTwist:
         if len(self.breaks) != len(self.rates) - 1:
             raise ValueError(
                 f"{len(self.rates)} segment rates need {len(self.rates) - 1} break(s), {len(self.breaks)} given: "
-                "write for example segments:-12,-4@0.5"
+                f"write for example segments:{self.example}"
             )
         ends = (0.0, *self.breaks, 1.0)
         if any(low >= high for low, high in pairwise(ends)):
@@ -97,17 +151,46 @@ class PiecewiseLinearTwist:
         values = np.concatenate(([0.0], np.cumsum(np.array(self.rates) * np.diff(knots))))
         return np.interp(r, knots, values) - np.interp(REFERENCE_RADIUS, knots, values)
 
+    @classmethod
+    def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
+        return cls(angles, places)
+
+    @classmethod
+    def of(cls, *values: float) -> Self:
+        """The rates root to tip, then the breaks."""
+        n = (len(values) + 1) // 2
+        return cls(values[:n], values[n:])
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        return (*self.rates, *self.breaks)
+
     def spec(self) -> str:
         return f"segments:{_pairs(self.rates, self.breaks)}"
 
+    def slopes(self, r: Array) -> Array:
+        """By a rate: the length of its segment between 0.75 R and r; by a break: the jump of rate there, for r beyond.
+
+        On the break itself the slope is that from inboard.
+        """
+        n, rates = len(self.rates), self.rates
+        ends = (0.0, *self.breaks, 1.0)
+        out = np.empty((n + len(self.breaks), len(r)))
+        for k in range(n):
+            out[k] = np.clip(r, ends[k], ends[k + 1]) - min(max(REFERENCE_RADIUS, ends[k]), ends[k + 1])
+        for k, place in enumerate(self.breaks):
+            out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
+        return out
+
 
 @dataclass(frozen=True)
-class SplineTwist:
+class SplineTwist(SpecTwist):
     """A smooth curve through a few angles: the cubic spline without knots at the second and last but one station.
 
     It represents every linear and quadratic law exactly.
     """
 
+    kind, form, example, noun = "spline", "ANGLES@STATIONS", "9,6,0,-5@0.13,0.4,0.75,1", "smooth curve"
     stations: tuple[float, ...]
     """r/R, ascending, four or more."""
     angles: tuple[float, ...]
@@ -117,7 +200,7 @@ class SplineTwist:
         if len(self.stations) != len(self.angles) or len(self.stations) < 4:
             raise ValueError(
                 f"{len(self.angles)} spline angles at {len(self.stations)} stations: give four or more of each, "
-                "for example spline:9,6,0,-5@0.13,0.4,0.75,1"
+                f"for example spline:{self.example}"
             )
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"spline stations {list(self.stations)} must ascend: reorder or move them")
@@ -129,8 +212,20 @@ class SplineTwist:
         angles = np.array(self.angles)
         return spline_basis(self.stations, radii) @ angles - spline_basis(self.stations, REFERENCE_RADIUS) @ angles
 
+    @classmethod
+    def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
+        return cls(places, angles)
+
+    @classmethod
+    def of(cls, *values: float) -> Self:
+        """Through angles at `SEARCHED_STATIONS`."""
+        return cls(SEARCHED_STATIONS, values)
+
     def spec(self) -> str:
         return f"spline:{_pairs(self.angles, self.stations)}"
+
+    def slopes(self, r: Array) -> Array:
+        return (spline_basis(self.stations, r) - spline_basis(self.stations, REFERENCE_RADIUS)).T
 
 
 @dataclass(frozen=True)
@@ -150,26 +245,25 @@ class SumTwist:
 
 
 @dataclass(frozen=True)
-class IdealTwist:
+class IdealTwist(SpecTwist):
     """θ = θ_tip / r, eq. (1.1): uniform inflow in hover when the collective puts θ_tip at the tip.
 
     Source: thesis eq. (1.1), p. 2. Singular at r = 0, so it needs a root cut-out.
     """
 
+    kind, form, example, noun = "ideal", "TIP", "6.4", "ideal"
     tip_pitch: float
     """θ_tip [rad]."""
 
     def __call__(self, r: ArrayLike) -> Array:
         return self.tip_pitch * (1.0 / np.asarray(r, dtype=float) - 1.0 / REFERENCE_RADIUS)
 
-    def spec(self) -> str:
-        return f"ideal:{_degrees(self.tip_pitch)}"
-
 
 @dataclass(frozen=True)
-class TableTwist:
+class TableTwist(SpecTwist):
     """Linear interpolation between stations; constant beyond the first and last."""
 
+    kind, form, example, noun = "points", SplineTwist.form, SplineTwist.example, "from a table"
     stations: tuple[float, ...]
     """r/R, ascending."""
     angles: tuple[float, ...]
@@ -189,6 +283,10 @@ class TableTwist:
     def __call__(self, r: ArrayLike) -> Array:
         zero = np.interp(REFERENCE_RADIUS, self.stations, self.angles)
         return np.interp(np.asarray(r, dtype=float), self.stations, self.angles) - zero
+
+    @classmethod
+    def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
+        return cls(places, angles, spec)
 
     def spec(self) -> str:
         return self.name
@@ -222,8 +320,14 @@ def _spline(knots: tuple[float, ...]) -> "scipy.interpolate.CubicSpline":
     return scipy.interpolate.CubicSpline(knots, np.eye(len(knots)))
 
 
-_LAWS = ("linear", "quadratic", "segments", "spline", "points", "ideal", "builtin", "table", *SHIPPED_ROTORS)
-_PLUS = re.compile(rf"\+(?=(?:{'|'.join(_LAWS)})\b)")
+LAWS = {
+    law.kind: law for law in (LinearTwist, QuadraticTwist, PiecewiseLinearTwist, SplineTwist, TableTwist, IdealTwist)
+}
+"""Laws that a SPEC writes out, by its first word."""
+_NAMES = (*LAWS, "builtin", "table", *SHIPPED_ROTORS)
+SPEC_FORMS = (*(f"{law.kind}:{law.form}" for law in LAWS.values()), "ideal", "builtin", SHIPPED_ROTORS[0], "table:FILE")
+"""Every form of a SPEC."""
+_PLUS = re.compile(rf"\+(?=(?:{'|'.join(_NAMES)})\b)")
 """Between the laws of a sum, not the plus sign of a number or of a file's name."""
 _NUMBER = re.compile(r"([-+−]?\d*\.?\d+)\s*°?")
 _MOST_LAWS, _MOST_ROWS = 20, 1000
@@ -235,9 +339,8 @@ def parse_twist(
 ) -> TwistLaw:
     """The twist law of a SPEC. Angles in the SPEC are degrees, stations are r/R; the law returns radians.
 
-    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between the points) · `ideal:6.4` · `uh60a`, `r22` or `s61`, the
-    built-in twist of a shipped rotor · `table:FILE`. A plus sign adds laws: `uh60a+linear:-2`.
+    The forms are `SPEC_FORMS`: `linear:-8`, `segments:-12,-4@0.5`; `points` has straight lines between its stations;
+    `uh60a` is the built-in twist of a shipped rotor. A plus sign adds laws: `uh60a+linear:-2`.
     `builtin` is the law that the SPEC `builtin` stands for; `ideal_tip_pitch` gives the angle [rad] of `ideal` without
     a number. `make_design` and `Design.with_twist` supply both.
 
@@ -265,34 +368,20 @@ def parse_twist(
         raise ValueError(
             f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
         )
-    if kind == "ideal":
-        if rest:
-            return IdealTwist(math.radians(_number(rest, spec)))
+    if kind == "ideal" and not rest:
         if ideal_tip_pitch is None:
             raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
         return IdealTwist(ideal_tip_pitch())
-    before, _, after = rest.partition("@")
-    if kind == "linear":
-        return LinearTwist(math.radians(_number(rest, spec)))
-    if kind == "quadratic":
-        values = _angles(rest, spec)
-        if len(values) != 2:
-            raise ValueError(f"twist {spec!r} needs two numbers: write quadratic:A,D, for example quadratic:6,-14")
-        return QuadraticTwist(*values)
-    if kind == "segments":
-        return PiecewiseLinearTwist(_angles(before, spec), _stations(after, spec))
-    if kind == "spline":
-        return SplineTwist(_stations(after, spec), _angles(before, spec))
-    if kind == "points":
-        return TableTwist(_stations(after, spec), _angles(before, spec), name=spec.strip())
+    if kind in LAWS:
+        before, _, after = rest.partition("@")
+        return LAWS[kind].read(_angles(before, spec), _stations(after, spec), spec.strip())
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     number = _NUMBER.fullmatch(spec.strip())
     bare = f": write linear:{number[1].replace('−', '-')} for a linear twist, or" if number else ""
     raise ValueError(
-        f"twist {spec!r} is not known{bare or did_you_mean(kind, _LAWS) or ':'} "
-        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, "
-        "points:ANGLES@STATIONS, ideal, builtin, uh60a or table:FILE"
+        f"twist {spec!r} is not known{bare or did_you_mean(kind, _NAMES) or ':'} "
+        f"use {', '.join(SPEC_FORMS[:-1])} or {SPEC_FORMS[-1]}"
     )
 
 

@@ -3,21 +3,33 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import scipy
 
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
-from rotor.design.twist import SumTwist, TwistLaw
+from rotor.design.twist import SpecTwist, SumTwist, TwistLaw
 from rotor.support.arrays import Array
 
 Values = Sequence[float] | Array
 """Parameters of a concept in its order, SI."""
-
 Unit = Literal["rad/R", "rad/R²", "rad", "R"]
 Motion = Literal["tilt", "bend", "slide", "lift"]
+
+
+@dataclass(frozen=True)
+class Handle:
+    """The part of the blade that a parameter moves."""
+
+    motion: Motion
+    """tilt: the line from `inner` to `outer` turns; bend: it curves; slide: a break moves along the blade between them;
+    lift: a point at `inner` moves up and down, and drags the curve out to `outer` on either side."""
+    inner: float = 0.0
+    """r/R"""
+    outer: float = 1.0
+    """r/R"""
 
 
 @dataclass(frozen=True)
@@ -32,6 +44,17 @@ class Parameter:
     low: float
     high: float
     """Default bounds."""
+    handle: Handle
+    rates: tuple[float, ...]
+    """What one unit adds to the twist rate [rad/R] of each segment, or at stations where a smooth law is steepest."""
+    start: float = 0.0
+    """Where its slider on the page begins, in the shown unit."""
+    help: str = ""
+    """Hint of the slider: one sentence, and after a bar the equation or the section of docs/theory.md."""
+    short: str = ""
+    """Label of the slider, where it is shorter than the title."""
+    input: str = ""
+    """Name of the page's input, where it is not made of the names of law and parameter."""
 
     @property
     def angular(self) -> bool:
@@ -58,49 +81,8 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class Handle:
-    """The part of the blade's sketch that one parameter moves."""
-
-    parameter: str
-    motion: Motion
-    """tilt: the line from `inner` to `outer` turns; bend: it curves; slide: a break moves along the blade between them;
-    lift: a point at `inner` moves up and down, and drags the curve out to `outer` on either side."""
-    inner: float
-    """r/R"""
-    outer: float
-    """r/R"""
-
-
-class TwistFamily(Protocol):
-    """Twist laws with a few parameters."""
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """In the order of every vector of values."""
-        ...
-
-    @property
-    def handles(self) -> tuple[Handle, ...]:
-        """Sketch elements, one for each parameter."""
-        ...
-
-    @property
-    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
-        """Twist rates [rad/R] are linear in the values: one row per segment (or station of a smooth law)."""
-        ...
-
-    def twist(self, values: Values) -> TwistLaw:
-        """The law."""
-        ...
-
-    def slopes(self, values: Values, r: Array) -> Array:
-        """∂θ_tw(r)/∂value, exact, (parameters, elements)."""
-        ...
-
-
-@dataclass(frozen=True)
 class Concept:
-    """A family of twist laws by name; some parameters may be fixed, and the law may be added to another."""
+    """Twist laws with a few parameters, some of which may be fixed; the law may be added to another."""
 
     name: str
     """On the command line."""
@@ -108,7 +90,11 @@ class Concept:
     """On the page."""
     explanation: str
     """One line for the page."""
-    family: TwistFamily
+    law: type[SpecTwist]
+    every: tuple[Parameter, ...]
+    """In the order of `SpecTwist.of`, fixed ones too."""
+    page: str = ""
+    """Name of the law on the sliders of the page; empty: it is searched only."""
     airfoils: tuple[str, ...] = ()
     """A section for each straight segment; empty: the design's own."""
     fixed: tuple[tuple[str, float], ...] = ()
@@ -119,26 +105,42 @@ class Concept:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """Those that are free, in the order of every vector of values."""
-        return tuple(self.family.parameters[k] for k in self._free)
+        return tuple(self.every[k] for k in self._free)
 
     @property
     def handles(self) -> tuple[Handle, ...]:
         """Sketch elements, one for each free parameter."""
-        return tuple(self.family.handles[k] for k in self._free)
+        return tuple(parameter.handle for parameter in self.parameters)
 
     @property
     def rate_rows(self) -> tuple[tuple[float, ...], ...]:
-        """As of the family; of an added law the rates of the change."""
-        return tuple(tuple(row[k] for k in self._free) for row in self.family.rate_rows)
+        """Twist rates [rad/R] are linear in the values: one row per segment (or station of a smooth law). Of an added
+        law the rates of the change."""
+        return tuple(zip(*(parameter.rates for parameter in self.parameters), strict=True))
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the page's inputs, by parameter."""
+        return tuple(parameter.input or f"{self.page}_{parameter.name}" for parameter in self.parameters)
+
+    @property
+    def breaks(self) -> tuple[str, ...]:
+        """Those of `inputs` that are stations r/R."""
+        return tuple(name for name, one in zip(self.inputs, self.parameters, strict=True) if not one.angular)
 
     def twist(self, values: Values) -> TwistLaw:
         """The law."""
-        law = self.family.twist(self._all(values))
+        law = self.law.of(*self._all(values))
         return law if self.base is None else SumTwist(self.base, law)
 
     def slopes(self, values: Values, r: Array) -> Array:
-        """∂θ_tw(r)/∂value, exact, (free parameters, elements)."""
-        return self.family.slopes(self._all(values), r)[self._free]
+        """∂θ_tw(r)/∂value, exact, (free parameters, stations)."""
+        return self.law.of(*self._all(values)).slopes(r)[self._free]
+
+    def values_of(self, law: TwistLaw) -> tuple[float, ...] | None:
+        """The values whose law this is, where every parameter is free; None where there are none."""
+        values = law.values if isinstance(law, SpecTwist) and type(law) is self.law else ()
+        return values if len(values) == len(self.every) else None
 
     def apply(self, design: Design, values: Values) -> Design:
         """The design with the law, and with the concept's sections."""
@@ -153,12 +155,12 @@ class Concept:
     @property
     def _free(self) -> list[int]:
         held = dict(self.fixed)
-        return [k for k, parameter in enumerate(self.family.parameters) if parameter.name not in held]
+        return [k for k, parameter in enumerate(self.every) if parameter.name not in held]
 
     def _all(self, values: Values) -> list[float]:
-        """Values of every parameter of the family."""
+        """Values of every parameter."""
         held, free = dict(self.fixed), iter(values)
-        return [held[p.name] if p.name in held else float(next(free)) for p in self.family.parameters]
+        return [held[p.name] if p.name in held else float(next(free)) for p in self.every]
 
 
 def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
@@ -194,17 +196,9 @@ def on_top(concept: Concept, law: TwistLaw) -> Concept:
     return replace(concept, title=f"{concept.title}, on top", explanation=explanation, base=law)
 
 
-def restrict(
-    concept: Concept,
-    fixed: Mapping[str, float],
-    *,
-    name: str | None = None,
-    title: str | None = None,
-    explanation: str | None = None,
-) -> Concept:
+def restrict(concept: Concept, fixed: Mapping[str, float]) -> Concept:
     """The concept with some parameters fixed (SI); ValueError for an unknown name or a value out of bounds."""
-    known = {parameter.name: parameter for parameter in concept.parameters}
-    name = name or concept.name
+    known, name = {parameter.name: parameter for parameter in concept.parameters}, concept.name
     for key, value in fixed.items():
         if key not in known:
             raise ValueError(f"concept {name} has no parameter {key!r}: it has {', '.join(known)}")
@@ -214,10 +208,4 @@ def restrict(
             raise ValueError(f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside")
     if len(fixed) >= len(known):
         raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
-    return replace(
-        concept,
-        name=name,
-        title=title or concept.title,
-        explanation=explanation or concept.explanation,
-        fixed=(*concept.fixed, *fixed.items()),
-    )
+    return replace(concept, fixed=(*concept.fixed, *fixed.items()), page="")

@@ -11,7 +11,7 @@ import numpy as np
 from rotor.aero.problem import build_problem
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
-from rotor.optimisation.concepts import Concept
+from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits, cheap_margins
 from rotor.optimisation.objective import Objective, ObjectiveValue, evaluate_objective, evaluate_objectives
 from rotor.optimisation.results import Phase, Progress

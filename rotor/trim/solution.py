@@ -118,7 +118,7 @@ class ElasticTwist(ShortRepr):
     tip: Array
     """φ at the tip [rad], (azimuths,)."""
     along_blade: Array
-    """Mean of φ around the disk [rad], (elements,): flown twist less jig twist."""
+    """Mean of φ around the disk [rad], (elements,): flown twist less built-in twist."""
     control_moment: Array
     """Moment of the control system on one blade [N m], nose up, (azimuths,)."""
     pitch_link_load: Array

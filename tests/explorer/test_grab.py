@@ -11,10 +11,9 @@ from fake_bridge import Bridge
 from hypothesis import given
 from hypothesis import strategies as st
 
-from explorer.model.inputs import Inputs
+from explorer.model.inputs import LAWS, Inputs
 from explorer.model.sliders import (
     DETENT,
-    PIECES,
     BestTurn,
     StationDrag,
     drag_from,
@@ -31,6 +30,7 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 
+GRABBED = [law for law in LAWS if stations(Inputs(law=law))]
 TWO = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
 ROOT = TWO.aircraft.rotor_for("flight").blade.root_cutout
 
@@ -41,13 +41,13 @@ def angles(inputs: Inputs, *r: float) -> np.ndarray:
 
 
 class TestStations:
-    @pytest.mark.parametrize("law", PIECES)
+    @pytest.mark.parametrize("law", GRABBED)
     def test_root_divisions_and_tip_in_order(self, law: str):
         places = [station.r for station in stations(Inputs(law=law))]
         assert places[0] == ROOT
         assert places[-1] == 1.0
         assert places == sorted(places)
-        assert len(places) == len(PIECES[law][0]) + 1
+        assert len(places) == len([one for one in LAWS[law].parameters if one.angular]) + 1
 
     @pytest.mark.parametrize("law", ["ideal", "optimised"])
     def test_a_law_without_sliders_becomes_the_nearest_two_segments(self, law: str):
@@ -61,13 +61,13 @@ class TestStations:
 
 
 class TestTurning:
-    @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
+    @pytest.mark.parametrize("law", GRABBED)
     def test_a_turned_end_turns_by_that_angle_relative_to_its_neighbour(self, law: str):
         inputs = replace(Inputs(law=law), quadratic_curvature=0.0)
         for index in (0, -1):
             station = stations(inputs)[index]
             neighbour = stations(inputs)[1 if index == 0 else -2]
-            if law == "quadratic":  # Its ends turn against each other.
+            if stations(inputs)[1].title == "middle":  # The ends of a curve turn against each other.
                 neighbour = stations(inputs)[-1 if index == 0 else 0]
             after = with_station_turned(inputs, station, 2.0)
             change = angles(after, station.r, neighbour.r) - angles(inputs, station.r, neighbour.r)
@@ -93,11 +93,11 @@ class TestTurning:
         assert at[1] - 0.5 * (at[0] + at[2]) == pytest.approx(1.0, abs=0.1)
 
     @pytest.mark.parametrize("degrees", [-80.0, 80.0])
-    @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
+    @pytest.mark.parametrize("law", GRABBED)
     def test_no_slider_leaves_its_limits(self, law: str, degrees: float):
         for station in stations(Inputs(law=law)):
             after = with_station_turned(Inputs(law=law), station, degrees)
-            for name in (*PIECES.get(law, ((), ()))[0], "quadratic_curvature", "quadratic_difference"):
+            for name in LAWS[law].inputs:
                 low, high = limits(name)
                 assert low <= getattr(after, name) <= high
 
@@ -114,10 +114,10 @@ class TestSliding:
     def test_a_division_follows_the_hand_between_its_neighbours(self):
         three = Inputs(law="three")
         first, second = stations(three)[1:3]
-        assert slid(three, first, 0.5).three_first == 0.5
-        assert slid(three, first, 0.9).three_first == pytest.approx(three.three_second - 0.02)
-        assert slid(three, second, 0.1).three_second == pytest.approx(three.three_first + 0.02)
-        assert slid(three, second, 1.2).three_second == limits("three_second")[1]
+        assert slid(three, first, 0.5).three_inner_break == 0.5
+        assert slid(three, first, 0.9).three_inner_break == pytest.approx(three.three_outer_break - 0.02)
+        assert slid(three, second, 0.1).three_outer_break == pytest.approx(three.three_inner_break + 0.02)
+        assert slid(three, second, 1.2).three_outer_break == limits("three_outer_break")[1]
 
 
 def grab_at(r: float, inputs: Inputs = TWO) -> StationDrag:

@@ -9,7 +9,8 @@ from urllib.parse import parse_qsl, quote
 
 import pytest
 
-from explorer.model.inputs import LAWS, OPENING, Inputs, with_rotor
+from explorer.model.inputs import LAWS, OPENING, TWISTS, Inputs, with_rotor
+from explorer.model.sliders import SLIDERS
 from explorer.model.stand import StandInputs
 from explorer.sharing.share import DESIGN, Address, code_of, design_from, inputs_from, parameter, with_parameter
 from rotor.design.active_twist import Harmonic, read_harmonics
@@ -34,18 +35,14 @@ def rewritten(query: str) -> str:
 def random_inputs(chance: random.Random) -> Inputs:
     """Any design that the sliders, menus and design files can make."""
 
-    def rate() -> float:
-        return chance.randint(-200, 100) / 10.0
-
-    def place(low: int = 20, high: int = 95) -> float:
-        return chance.randint(low, high) / 100.0
+    def place(name: str) -> float:
+        form = SLIDERS[name]
+        return round(form.low + form.step * chance.randint(0, round((form.high - form.low) / form.step)), 4)
 
     inputs = Inputs(
-        law=chance.choice(("builtin", "builtin", "linear", "quadratic", "two", "three", "ideal", "given")),
-        built_inner=chance.choice((0.0, rate())), built_outer=rate(), built_division=place(), linear=rate(),
-        quadratic_curvature=chance.randint(-80, 80) / 2.0, quadratic_difference=rate(), two_inner=rate(),
-        two_outer=rate(), two_division=place(), three_inner=rate(), three_middle=rate(), three_outer=rate(),
-        three_first=place(20, 50), three_second=place(55, 95), advance_ratio=chance.randint(0, 90) / 200.0,
+        law=chance.choice(("builtin", *(law for law in LAWS if law != "optimised"))),
+        **{name: place(name) for name in TWISTS},
+        advance_ratio=chance.randint(0, 90) / 200.0,
         mass_t=chance.randint(100, 219) / 20.0, altitude_m=chance.randint(0, 80) * 50.0,
         climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
         inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "local-momentum", "lifting-line")),
@@ -62,13 +59,13 @@ def random_inputs(chance: random.Random) -> Inputs:
     if inputs.preset == "thesis":
         inputs = replace(inputs, climb_m_s=0.0)
     if inputs.law == "given":
-        inputs = replace(inputs, given=_twist_from_a_file(chance, rate))
+        inputs = replace(inputs, given=_twist_from_a_file(chance))
     if chance.random() < 0.3:
         law, rotor = inputs.law, chance.choice((*SHIPPED_ROTORS[1:], *MEASURED_ROTORS))
         other = with_rotor(replace(inputs, preset="flight"), rotor)
-        inputs = replace(other, law=law, given=inputs.given, built_inner=rate())
+        inputs = replace(other, law=law, given=inputs.given, built_inner=chance.choice((0.0, 3.0)))
         if inputs.aircraft.isolated:
-            tilt = chance.choice((None, rate()))
+            tilt = chance.choice((None, place("linear")))
             inputs = replace(inputs, stand=StandInputs("wind-tunnel", "ct_over_sigma", 0.06, tilt), climb_m_s=0.0)
     return replace(inputs, **_waves(chance)) if chance.random() < 0.3 else inputs
 
@@ -89,7 +86,7 @@ def _waves(chance: random.Random) -> dict[str, Any]:
     return {"pitch_per_rev": waves(2), "twist_per_rev": twist, "active_shape": shape}
 
 
-def _twist_from_a_file(chance: random.Random, rate: object) -> SplineTwist | TableTwist | SumTwist:
+def _twist_from_a_file(chance: random.Random) -> SplineTwist | TableTwist | SumTwist:
     angles = tuple(chance.uniform(-0.2, 0.2) for _ in range(4))
     stations = (0.13, 0.4, 0.75, 1.0)
     several = parse_twist(f"linear:{chance.randint(-9, 9)}+segments:-2,{chance.randint(-9, 9)}@0.5+quadratic:6,-14")

@@ -37,7 +37,9 @@ def difference(inputs: Inputs, name: str, step: float) -> float:
 @pytest.mark.parametrize("mu", [0.0, 0.2])
 @pytest.mark.parametrize("law", [law for law, entry in LAWS.items() if entry.inputs])
 def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
-    inputs = replace(Inputs(law=law, advance_ratio=mu), two_division=0.52, three_first=0.41, three_second=0.76)
+    inputs = replace(
+        Inputs(law=law, advance_ratio=mu), two_division=0.52, three_inner_break=0.41, three_outer_break=0.76
+    )
     found = twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require()))
     assert tuple(found) == LAWS[law].inputs
     for name, one in found.items():

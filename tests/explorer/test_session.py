@@ -128,7 +128,7 @@ def test_only_reading_and_pinning_come_before_the_frame(session: Session):
 def test_inputs_without_a_design_keep_the_last_picture(session: Session):
     good = update(session).frames[-1].solution
     page: Any = session.page
-    page.inputs = replace(Inputs(), law="three", three_first=0.7, three_second=0.6)
+    page.inputs = replace(Inputs(), law="three", three_inner_break=0.7, three_outer_break=0.6)
     update(session)
     assert page.calls == ["read", "pin_or_swap", "show_failure"]
     failure = page.failures[-1]

@@ -112,7 +112,7 @@ def test_a_change_added_to_a_fixed_law():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: find_concept("cubic"), "'cubic' is not known"),
+        (lambda: find_concept("wavy"), "'wavy' is not known"),
         (lambda: find_concept("linear", [0.5]), "cannot take 1 division"),
         (lambda: find_concept("two-segment", [0.99]), "outside 0.25…0.92"),
         (lambda: find_concept("three-segment", [0.8, 0.4]), "must ascend"),
