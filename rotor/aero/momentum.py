@@ -41,11 +41,30 @@ class DiskFlow:
 def axial_inflow(ct: float, climb: float) -> float:
     """λ_i = −λ_c/2 + √((λ_c/2)² + C_T/2) of the ideal rotor in axial flight, (2.24) with a uniform λ = λ_c + λ_i.
 
-    √(C_T/2) in hover, less in a climb. In descent it is the root that goes on from hover, and holds as long as the wake
-    trails below the disk: see `vortex_ring_edge`. C_T below zero gives the mirrored root, as in `glauert_inflow`.
+    √(C_T/2) in hover, less in a climb. In descent it is the root that goes on from hover, with the wake below the disk,
+    up to the windmill: from there on λ_i = −λ_c/2 − √((λ_c/2)² − C_T/2), with the wake above. Between the two no steady
+    wake exists: see `axial_flow_is_steady`. C_T below zero gives the mirrored root, as in `glauert_inflow`.
     """
     half = math.copysign(0.5, ct) * climb
+    if is_windmill(ct, climb):
+        return math.copysign(-half - math.sqrt(half * half - 0.5 * abs(ct)), ct)
     return math.copysign(math.sqrt(half * half + 0.5 * abs(ct)) - half, ct)
+
+
+def is_windmill(ct: float, climb: float) -> bool:
+    """Whether axial wind blows against the thrust at 2 v_h or more, and the wake with it: the windmill brake state."""
+    wind = math.copysign(1.0, ct) * climb
+    return wind < 0.0 and wind * wind >= 2.0 * abs(ct)
+
+
+def axial_flow_is_steady(ct: float, climb: float) -> bool:
+    """Whether momentum theory has an answer in axial flow: climb, slow descent, and the windmill brake state.
+
+    Between V_c/v_h of −0.45 (`vortex_ring_edge`) and −2 the wake is a vortex ring or turbulent. The state with thrust
+    and wind both reversed is the same one.
+    """
+    wind = math.copysign(1.0, ct) * climb
+    return wind >= _EDGE * math.sqrt(0.5 * abs(ct)) or is_windmill(ct, climb)
 
 
 VORTEX_RING_ONSET = -0.2

@@ -21,7 +21,7 @@ from rotor.aero.elements import BladeElements, TrimState, TwistState, Unknown, o
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
-from rotor.aero.momentum import axial_inflow
+from rotor.aero.momentum import axial_inflow, is_windmill
 from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, TH, UP, UT, M, SectionData, section
 from rotor.airfoil.sections import Section
@@ -83,6 +83,8 @@ class Annuli(NamedTuple):
 
     r: Array
     climb: float
+    windmill: bool
+    """Whether the wake goes with the wind, against the thrust."""
     swirls: bool
     ends: Array
     """f times |λ| of Prandtl's factors at tip and root, (2, elements); infinite where there is no loss."""
@@ -116,7 +118,7 @@ def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> t
     """The section with the inflow that balances its annulus; as `section.section`, with the rows `HOVER_PAIRS`."""
     theta = c[TH, :, 0].copy()
     inflow, answer = _balanced(theta, data.start, data.annuli, data.section)
-    data.start[:] = inflow
+    data.start[:] = np.where(np.isnan(inflow), 0.0, inflow)
     channels, turning = _channels(theta, inflow, data.annuli)
     f, d, s = section(channels, data.section, slopes, flow)
     f = np.concatenate([f, inflow[None, :, None]])
@@ -145,8 +147,9 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
 
 @_inline
 def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
-    """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch, (4, elements)."""
-    out = np.empty((4, len(theta)))
+    """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch; last the slope of an
+    annulus whose lift falls with λ_i or not at all, (5, elements)."""
+    out = np.empty((5, len(theta)))
     channels, turning = _channels(theta, inflow, annuli)
     closed = len(annuli.slope) > 0
     slopes = not closed
@@ -166,19 +169,31 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
             lift, by_inflow = f[FZ, i, 0], d[_FZ_UP, i, 0] - d[_FZ_UT, i, 0] * turning[i]
             out[3, i] = d[_FZ_TH, i, 0]
         out[0, i], out[1, i] = 4.0 * factor * inflow[i] * size * r - lift, momentum - by_inflow
-        out[2, i] = lift
+        out[2, i], out[4, i] = lift, momentum - min(by_inflow, 0.0)
     return out
 
 
 @_compile
 def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
-    """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket."""
+    """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket.
+
+    As a windmill an annulus has up to three balances. The first on the way from λ_i = 0 is that of momentum theory, so
+    where momentum falls faster than lift the way back is taken. In the turbulent state it has no such balance: NaN.
+    """
     inflow, bracket, left = start.copy(), bracket_of(len(start)), MOST_PASSES
+    if annuli.windmill:
+        bracket[0 if annuli.climb > 0.0 else 1][:] = -annuli.climb  # The disk does not turn the wind back.
     while True:
         balance = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
+        if annuli.windmill:
+            for i in range(len(inflow)):
+                if balance[4, i] <= 0.0:
+                    balance[0, i] = math.copysign(1.0, inflow[i])
         if left == 0 or not balancing_step(inflow, bracket, balance[0], balance[1], balance[2]):
             break
         left -= 1
+    if annuli.windmill:
+        inflow[np.abs(balance[0]) > 1e-9 + 1e-6 * np.abs(balance[2])] = np.nan
     return inflow, balance[3] / np.maximum(balance[1], 1e-12)
 
 
@@ -208,8 +223,11 @@ def _nothing_made(x: Array) -> tuple[Array, Array, Live]:
     return np.zeros(0), np.zeros((0, 0)), {}
 
 
-def hover_system(problem: Problem) -> System:
-    """The equations of a hovering design, at one azimuth; tolerances are those of the caller."""
+def hover_system(problem: Problem, ct: float | None = None) -> System:
+    """The equations of a hovering design, at one azimuth; tolerances are those of the caller.
+
+    `ct`: sign and size of the thrust, by which axial wind finds its state; left out, that to be trimmed.
+    """
     design, disk, torsion = problem.design, problem.disk, problem.torsion
     models, stand = design.models, design.condition.stand
     solved: tuple[Unknown, ...] = () if stand is not None and stand.collective is not None else ("collective",)
@@ -230,10 +248,12 @@ def hover_system(problem: Problem) -> System:
         ]
     )
     (slope, zero), climb = lift_curve(problem) if closed else (none, none), problem.design.vertical_ratio
+    thrust = problem.weight if ct is None else ct
+    windmill = is_windmill(thrust, climb)
     data = AnnulusData(
-        Annuli(r=disk.r, climb=climb, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
+        Annuli(r=disk.r, climb=climb, windmill=windmill, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
         section=problem.section_data(len(disk.psi)),
-        start=np.full_like(disk.r, axial_inflow(problem.scale, climb)),
+        start=np.full_like(disk.r, 0.0 if windmill else axial_inflow(thrust, climb)),
     )
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0

@@ -18,7 +18,7 @@ from rotor.engine.waves import wave_grid
 from rotor.support.units import power_text
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
-from rotor.trim.low_speed import vortex_ring
+from rotor.trim.low_speed import axial_ring, vortex_ring
 from rotor.trim.newton import TrimResult
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
@@ -54,6 +54,8 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         near = result.nearest  # Without one it is said of the last attempt.
         there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
         message = vortex_ring(design) or failure_sentence(design, result.reached, there)
+    if not result.steady:
+        converged, message = False, axial_ring(design)
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.vertical_speed

@@ -1,11 +1,14 @@
 """Hover and axial flight: collective, coning and steady elastic twist for a given thrust, see `rotor.columns.hover`."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from rotor.aero.momentum import axial_inflow
+from rotor.aero.inflow.local_momentum import BALANCED
+from rotor.aero.momentum import axial_flow_is_steady, axial_inflow, is_windmill
 from rotor.aero.problem import Problem
+from rotor.aero.section import FZ
 from rotor.columns.hover import hover_system
 from rotor.engine.linearise import Point, System, evaluate, jacobian
 from rotor.support.arrays import Array
@@ -20,15 +23,16 @@ def hover(problem: Problem, start: Guess | None = None, options: SolverOptions =
     On a test stand the thrust is the one given; with the collective given only the elastic twist is to be found. An
     elastic blade twists with every step.
     """
-    system = hover_system(problem)
     stand, collective = problem.design.condition.stand, start.state.collective if start is not None else None
     if stand is not None and stand.collective is not None:
-        return _with_collective(problem, system, _first(problem, system, stand.collective, start), options)
+        return _with_collective(problem, stand.collective, start, options)
+    system = hover_system(problem)
+    climb = problem.design.vertical_ratio
     if collective is None:
         collective = 6.0 * problem.weight / (problem.design.rotor.solidity * 5.9)
-        climb = problem.design.vertical_ratio
         collective += 1.5 * (axial_inflow(problem.weight, climb) + climb)
-    return _for_thrust(problem, system, _first(problem, system, collective, start), options)
+    found = _for_thrust(problem, system, _first(problem, system, collective, start), options)
+    return found if found.converged else replace(found, steady=not is_windmill(problem.weight, climb))
 
 
 def _first(problem: Problem, system: System, collective: float, start: Guess | None) -> Array:
@@ -41,8 +45,36 @@ def _first(problem: Problem, system: System, collective: float, start: Guess | N
     return np.concatenate([system.numbers, [collective, coning], twist])
 
 
-def _with_collective(problem: Problem, system: System, x: Array, options: SolverOptions) -> TrimResult:
-    """Coning and elastic twist at a given collective."""
+def _with_collective(problem: Problem, collective: float, start: Guess | None, options: SolverOptions) -> TrimResult:
+    """Coning and elastic twist at a given collective, in the state of axial flow that its thrust has.
+
+    No two states hold at one collective: wind against the thrust lifts a windmill more than a rotor whose wake goes on
+    below it, and only the latter may carry more.
+    """
+    climb, scale = problem.design.vertical_ratio, problem.scale
+
+    def state(ct: float) -> tuple[TrimResult, float]:
+        system = hover_system(problem, ct)
+        result = _twisted(problem, system, _first(problem, system, collective, start), options)
+        return result, float(problem.disk.dr @ result.point.forces[FZ, :, 0])
+
+    climbing, thrust = state(math.copysign(scale, climb))
+    if thrust * climb >= 0.0:
+        return climbing
+    windmill, thrust = state(math.copysign(0.0, -climb))
+    area = problem.disk.r * problem.disk.dr
+    if (
+        is_windmill(thrust, climb)
+        and 2.0 * abs(area @ windmill.point.forces[BALANCED, :, 0]) <= abs(climb) * area.sum()
+    ):
+        return windmill  # It takes at most half of the wind, on the mean over the disk.
+    descending, thrust = state(math.copysign(max(scale, climb * climb), -climb))  # The wake goes against the wind.
+    steady = axial_flow_is_steady(thrust, climb) and not is_windmill(thrust, climb)
+    return replace(descending, steady=steady)
+
+
+def _twisted(problem: Problem, system: System, x: Array, options: SolverOptions) -> TrimResult:
+    """Coning and elastic twist of one state of axial flow."""
     passes, error = 0, math.inf
     point = evaluate(system, system.grid, x, slopes=True, flow=True)
     for _ in range(20):
@@ -82,7 +114,9 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
         if (balanced and off <= options.torsion_tolerance) or high - low < 1e-14:
             break
         theta, margin = float(x[collective]), 5.0 * off  # The twist still moves by about this much.
-        if error < 0.0 and slope > 0.0:
+        if math.isnan(error):  # A windmill's thrust has an end, beyond which part of the disk is turbulent.
+            high = theta
+        elif error < 0.0 and slope > 0.0:
             low = max(low, theta - margin)
         else:
             high = min(high, theta + margin)
@@ -92,7 +126,7 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
             ahead = 0.5 * (low + high)
         x = x.copy()
         x[collective] = ahead
-        x[free[1:]] -= answers @ np.array([1.0, ahead - theta])
+        x[free[1:]] -= np.nan_to_num(answers) @ np.array([1.0, ahead - theta])
     point = evaluate(system, system.grid, best[1], slopes=True, flow=True)
     residual = abs(float(point.residual[0])) / problem.scale
     converged = max(residual, _error(point, problem, 1)) <= options.accepted_hover

@@ -27,7 +27,7 @@ from dataclasses import dataclass, replace
 
 from rotor.aero.inflow import DiskFlow, inflow_model
 from rotor.aero.lifting_line import WakeCourse
-from rotor.aero.momentum import FASTEST_RING, vortex_ring_edge
+from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
@@ -131,17 +131,37 @@ def hover_share(design: Design) -> float:
 
 
 def vortex_ring(design: Design) -> str:
-    """Why a descent has no steady wake, as a sentence; empty where it has one."""
-    if design.vertical_speed >= 0.0:
+    """Why a descent has no steady wake, as a sentence; empty where it has one, or the thrust is not known yet."""
+    stand, thrust = design.condition.stand, design.weight_coefficient
+    if design.hovering:
+        known = stand is None or stand.collective is None
+        return axial_ring(design) if known and not axial_flow_is_steady(thrust, design.vertical_ratio) else ""
+    if math.copysign(1.0, thrust) * design.vertical_speed >= 0.0:
         return ""
-    inflow, mu = math.sqrt(0.5 * design.weight_coefficient), design.condition.advance_ratio
+    inflow, mu = math.sqrt(0.5 * abs(thrust)), design.condition.advance_ratio
     edge = vortex_ring_edge(mu / inflow) if inflow else -math.inf
-    if design.vertical_ratio >= edge * inflow:
+    if math.copysign(1.0, thrust) * design.vertical_ratio >= edge * inflow:
         return ""
     speed = design.rotor.tip_speed
     return (
-        f"Not trimmed: in descent at {-design.vertical_speed:g} m/s and advance ratio {mu:.3f} the rotor is in "
+        f"Not trimmed: in descent at {abs(design.vertical_speed):g} m/s and advance ratio {mu:.3f} the rotor is in "
         "or beyond the vortex ring state, where its wake is not steady and momentum theory has no valid answer: "
         f"descend at less than {math.floor(-10.0 * edge * inflow * speed) / 10.0:.1f} m/s, or fly faster than advance "
         f"ratio {math.ceil(1e3 * FASTEST_RING * inflow) / 1e3:.3f}."
+    )
+
+
+def axial_ring(design: Design) -> str:
+    """Why axial wind against the thrust leaves no steady wake."""
+    remedy = "change the collective or the climb"
+    if (stand := design.condition.stand) is None or stand.collective is None:
+        speed = math.sqrt(0.5 * abs(design.weight_coefficient)) * design.rotor.tip_speed
+        slow, fast = math.floor(-10.0 * vortex_ring_edge(0.0) * speed) / 10.0, math.ceil(20.0 * speed) / 10.0
+        lowest = math.ceil(1e3 * FASTEST_RING * speed / design.rotor.tip_speed) / 1e3
+        remedy = (
+            f"descend at less than {slow:.1f} or well above {fast:.1f} m/s, or fly beyond advance ratio {lowest:.3f}"
+        )
+    return (
+        f"Not trimmed: at {abs(design.vertical_speed):g} m/s the air flows against the thrust. All or part of the wake "
+        f"is in the vortex ring state or turbulent, where momentum theory has no valid answer: {remedy}."
     )

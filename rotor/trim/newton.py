@@ -104,6 +104,8 @@ class TrimResult:
     """Factors of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
     nearest: "TrimResult | None" = None
     """The last trim that continuation found on its way, where it did not come all the way."""
+    steady: bool = True
+    """Whether axial flow has a steady wake at the collective given."""
     led: bool = False
     """Whether continuation from an easier condition found it."""
 

@@ -181,16 +181,17 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
         said["low-speed-not-matched"] = (
             "The hover model has no solution at this weight, so the inflow is not blended into hover at low speed."
         )
-    if design.vertical_speed < 0.0:
-        inflow = math.sqrt(0.5 * design.weight_coefficient)  # In hover.
-        descent, edge = (-design.vertical_ratio / inflow, -vortex_ring_edge(mu / inflow)) if inflow else (0.0, math.inf)
-        if descent > -VORTEX_RING_ONSET and edge < math.inf:
+    thrust = trim.solution.ct if design.hovering else design.weight_coefficient
+    inflow = math.sqrt(0.5 * abs(thrust))  # In hover.
+    if inflow and math.copysign(1.0, thrust) * design.vertical_speed < 0.0:
+        descent, edge = abs(design.vertical_ratio) / inflow, -vortex_ring_edge(mu / inflow)
+        if -VORTEX_RING_ONSET < descent < edge < math.inf:
             said["vortex-ring"] = (
                 f"The rate of descent is {descent:.2f} of the induced velocity in hover. At this low speed, measured "
                 f"inflow exceeds momentum theory above {-VORTEX_RING_ONSET:g}, and the vortex ring state begins at "
                 f"{edge:.2f}."
             )
-    if power.main_rotor < 0.0 and not trim.on_stand:
+    if power.main_rotor < 0.0:
         said["beyond-autorotation"] = (
             "The air drives the rotor: above the rate of descent of autorotation, power is negative, and with the "
             "engine off the rotor speeds up."

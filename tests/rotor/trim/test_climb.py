@@ -1,27 +1,31 @@
 """Climb and descent: momentum theory, balance, energy, limits, and where the vortex ring state begins."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import loss_factor
-from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
+from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, axial_inflow, glauert_inflow, vortex_ring_edge
 from rotor.aero.problem import build_problem
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.design import Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
+from rotor.files.rotor_file import load_rotor
 from rotor.trim.analysis import power_gradient
 from rotor.trim.export import solution_record
 from rotor.trim.newton import SolverOptions
+from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from tests.solved import SAME, assert_same_trim
 
@@ -231,6 +235,81 @@ def test_gradient_by_twist_agrees_with_differences(mu: float, climb: float, hove
     assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4, abs=200.0)
 
 
+SYMMETRIC = """
+name = "symmetric"
+
+[main_rotor]
+blades = 2
+radius_m = 3
+speed_rpm = 500
+root_cutout_r = 0.2
+chord_m = 0.2
+section = "naca0012"
+linear_twist_deg = 0
+"""
+
+
+@pytest.fixture(scope="module")
+def symmetric(tmp_path_factory: pytest.TempPathFactory) -> Callable[[float, float], Solution]:
+    """The trim of a rotor that is the same upside down, on a stand at a collective [°] in axial wind [m/s]."""
+    path = tmp_path_factory.mktemp("rotor") / "symmetric.toml"
+    path.write_text(SYMMETRIC)
+    rotor = load_rotor(path)
+
+    def trim(collective: float, climb: float) -> Solution:
+        stand = {"collective_deg": collective, "flapping": "free"}
+        return solve(make_design(rotor=rotor, mu=0.0, trim="controls", stand=stand, climb_m_s=climb))
+
+    return trim
+
+
+class TestAxialFlow:
+    @given(st.floats(1e-4, 0.02), st.floats(0.0, 0.4))
+    def test_momentum_closes_in_every_steady_state(self, ct: float, wind: float):
+        """C_T = 2 λ_i|λ_c + λ_i|, by Glauert's limit of at most half the wind for a windmill; mirrored the same."""
+        for climb in (wind, -wind):
+            inflow = axial_inflow(ct, climb)
+            assert axial_inflow(-ct, -climb) == -inflow
+            assert axial_flow_is_steady(-ct, -climb) == axial_flow_is_steady(ct, climb)
+            if axial_flow_is_steady(ct, climb):
+                assert 2.0 * inflow * abs(climb + inflow) == pytest.approx(ct, rel=1e-9)
+                windmill = climb < 0.0 and wind > 1.99 * math.sqrt(0.5 * ct)
+                assert (climb + inflow < 0.0) == windmill
+                assert not windmill or inflow <= 0.5 * wind * (1.0 + 1e-9)
+
+    @pytest.mark.parametrize("climb", [1.0, 10.0])
+    def test_upside_down_is_the_same(self, symmetric: Callable[[float, float], Solution], climb: float):
+        """Climb, windmill and slow descent, or both refused: thrust and wind change their signs, power does not."""
+        thrusts = list[float]()
+        for collective in (8.0, 5.0, 2.0, 0.0, -1.0, -2.0, -6.0):
+            here, there = symmetric(collective, climb), symmetric(-collective, -climb)
+            assert here.converged == there.converged
+            assert here.converged or "wake is in the vortex ring state" in " ".join(here.message.split())
+            if here.converged:
+                assert_allclose((there.ct, there.power.total), (-here.ct, here.power.total), rtol=2e-3, atol=1e-6)
+                thrusts.append(here.ct)
+        assert np.all(np.diff(thrusts) < 0.0)
+        assert len(thrusts) == {1.0: 5, 10.0: 3}[climb]
+
+    def test_a_propeller_becomes_a_windmill(self, symmetric: Callable[[float, float], Solution]):
+        """Where thrust passes through zero, so does λ0; then the air drives the rotor, and the stand says so."""
+        winds = np.arange(24.0, 31.1)
+        found = [symmetric(14.0, float(wind)).require() for wind in winds]
+        ct, lambda0 = np.array([(one.ct, one.controls.lambda0) for one in found]).T
+        assert ct[0] > 0.0 > ct[-1]
+        assert np.all(lambda0 * ct >= 0.0)
+        assert np.all(np.abs(np.diff(lambda0)) < 2e-3)
+        named = ["beyond-autorotation" in {caveat.name for caveat in one.caveats} for one in found]
+        assert named == [one.power.main_rotor < 0.0 for one in found]
+
+    def test_descent_beyond_the_turbulent_state(self):
+        """The windmill drives its rotor with less than the wind has: Betz's limit 16/27 of ½ρAV³."""
+        found = solve(design(0.0, -45.0)).require()
+        wind = 0.5 * found.design.condition.density * found.design.rotor.disk_area * 45.0**3
+        assert -16.0 / 27.0 * wind < found.power.main_rotor < 0.0
+        assert found.controls.lambda0 < 0.5 * -found.design.vertical_ratio
+
+
 class TestVortexRing:
     def test_edge_by_the_source(self):
         """−0.45 v_h in vertical descent, −0.975 v_h where it ends at 0.95 v_h; none beyond."""
@@ -249,7 +328,7 @@ class TestVortexRing:
         assert not refused.converged
         assert "vortex ring state" in refused.message
         assert solution_record(refused)["power_w"]["total"] is None
-        slower = float(refused.message.partition("less than ")[2].partition(" m/s")[0])
+        slower = float(refused.message.partition("less than ")[2].split(maxsplit=1)[0])
         faster = float(refused.message.rstrip(".").rpartition("advance ratio ")[2])
         assert solve(design(mu, -slower)).converged
         assert solve(design(faster, edge - 0.01)).converged
