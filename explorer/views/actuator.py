@@ -13,7 +13,7 @@ from explorer.views import actuator_words as words
 from explorer.views.actuated import actuated_blade, in_actuate, problem
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.catalogue import actuators
 from rotor.actuator.installation import InstalledActuator
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
@@ -66,20 +66,16 @@ class FormLook:
 
 def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
     actuator, count = installed.actuator, len(installed.shapes)
-    ply, passive = isinstance(actuator, PiezoPly), isinstance(actuator, ExtensionTwist)
-    word = "Voltage" if ply else "Drive"
+    word = actuator.drive_noun.capitalize()
     return FormLook(
         {
             **{name: k < count for k, name in enumerate(DRIVES)},
-            "plies": not passive,
-            "span": not passive,
-            "chord": ply,
-            "crossed": ply,
+            **{name: name in actuator.settings for name in ("plies", "span", "chord", "crossed")},
             "stiffness": inputs.blade == "new",
         },
         {
             **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
-            "plies": "Tubes" if isinstance(actuator, TorqueTube) else "Plies per side",
+            "plies": actuator.count_title or "Plies per side",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
             "advance_ratios": "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios),
@@ -115,13 +111,7 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
 
 def actuator_titles() -> dict[str, str]:
     """Titles of the menu of actuators, by id."""
-    return {id: f"{id.replace('_', ' ')}: {_kind(actuator)}" for id, actuator in actuators().items()}
-
-
-def _kind(actuator: Actuator) -> str:
-    if isinstance(actuator, PiezoPly):
-        return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
-    return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
+    return {id: f"{id.replace('_', ' ')}: {actuator.title}" for id, actuator in actuators().items()}
 
 
 ACTUATOR = Panel(view, in_actuate, asks, presses={"pull": pull})

@@ -18,8 +18,8 @@ from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
 from explorer.views.dial_answer import HARMONICS, FittedBlade, compared
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from explorer.workers.call import Call
-from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, PiezoPly, effect, other_stroke, powers
-from rotor.actuator.verdict import Against, count_text
+from rotor.actuator import ActuatorFlight, EffectInFlight, OtherStroke, effect, other_stroke, powers
+from rotor.actuator.verdict import Against
 from rotor.trim.doubt import sureness
 
 _URGENCY, _STILL = 6, 1.0
@@ -41,7 +41,7 @@ class PowerChange(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Assessed:
+class Assessment:
     """The actuator as set. Twists of the tip in flight [rad]; None: not known.
 
     `reach`: at either end of the voltage; `wanted`: of least power in this flight. `here`: in this flight, `vibration`
@@ -87,7 +87,9 @@ def fitted(now: PageState) -> FittedBlade | None:
     inputs = now.hand.actuator
     fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
     twist = one.design.twist if inputs.against == "same-blade" else fixed
-    return FittedBlade(one.installed, inputs.volts(one.installed), twist, f"the {against_words(one, inputs.against)}")
+    return FittedBlade(
+        one.installed, inputs.driven_at(one.installed), twist, f"the {against_words(one, inputs.against)}"
+    )
 
 
 def pair_compared(now: PageState) -> Any:
@@ -145,12 +147,12 @@ def parts_here(now: PageState) -> tuple[tuple[str, float], ...]:
     )
 
 
-def assessed(now: PageState) -> Assessed | None:
+def assessment(now: PageState) -> Assessment | None:
     """One for all panels; None where the blade carries no actuator."""
-    return now.of(_assessed)
+    return now.of(_assessment)
 
 
-def _assessed(now: PageState) -> Assessed | None:
+def _assessment(now: PageState) -> Assessment | None:
     if (one := actuated_blade(now)) is None:
         return None
     inputs, verdict, changed = now.hand.actuator, one.verdict, now.of(change_here)
@@ -159,7 +161,7 @@ def _assessed(now: PageState) -> Assessed | None:
     if isinstance(one.flight, ActuatorFlight):
         speeds = [leg.advance_ratio for leg in one.legs]
         wanted = float(np.interp(now.inputs.advance_ratio, speeds, one.flight.wanted))
-    return Assessed(
+    return Assessment(
         one=one,
         tip=inputs.tip(one.installed),
         reach=inputs.reach(one.installed),
@@ -185,19 +187,19 @@ def _angle(radians: float) -> str:
     return f"{number(math.degrees(radians), 2, sign=True)}°"
 
 
-def _reach(value: Assessed) -> str:
+def _reach(value: Assessment) -> str:
     return "…".join(map(_angle, value.reach)).replace("°…", "…")
 
 
-def _title(value: Assessed, inputs: ActuatorInputs) -> str:
+def _title(value: Assessment, inputs: ActuatorInputs) -> str:
     """What it is, and its drive as on the sliders."""
-    installed, ply = value.one.installed, isinstance(value.one.installed.actuator, PiezoPly)
+    installed = value.one.installed
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
-    driven = f"at {shares} % of its {'voltage' if ply else 'drive'}" if inputs.driven else "at rest"
-    return f"{value.name}, {count_text(installed)}{' a side' if ply else ''}, {driven}"
+    driven = f"at {shares} % of its {installed.actuator.drive_noun}" if inputs.driven else "at rest"
+    return f"{value.name}, {installed.count}{installed.actuator.a_side}, {driven}"
 
 
-def _vibration(value: Assessed) -> str:
+def _vibration(value: Assessment) -> str:
     """The change of vibration here, with its band over inflow models."""
     if not value.vibration:
         return "" if value.here is None else "no vibration data here"
@@ -208,7 +210,7 @@ def _vibration(value: Assessed) -> str:
     return f"vibration {own} % ({low}…{high})"
 
 
-def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
+def _sentences(value: Assessment, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(value.one.installed)["in all"], value.flight, value.one.verdict
     known = [change for change in (value.here, flight) if change]
@@ -232,7 +234,7 @@ def _sentences(value: Assessed, units: Units) -> tuple[str, tuple[str, ...]]:
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:
     """Three columns and the sentence."""
-    if (value := assessed(now)) is None:
+    if (value := assessment(now)) is None:
         return {} if now.problem else {"assessed": None}
     one, units, against = value.one, now.units, now.hand.actuator.against
     *parts, (_, total) = mass_parts(one.installed).items()
@@ -273,4 +275,4 @@ def choose(now: PageState, against: Against) -> tuple[Effect, ...]:
     return (SetHand(actuator={"against": against}),) if against in AGAINST else ()
 
 
-ASSESSED = Panel(card, blade_out, asks, presses={"against": choose})
+ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose})

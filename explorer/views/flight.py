@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AT_REST, HandSettings, drive_of
+from explorer.model.actuator_inputs import AT_REST, HandSettings
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
-from explorer.views.assessed import assessed, parts_asked, parts_here
+from explorer.views.assessed import assessment, parts_asked, parts_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
-from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
+from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
@@ -78,7 +78,7 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     known = one.flight if isinstance(one.flight, ActuatorFlight) else None
     problem = one.flight if isinstance(one.flight, str) else wrong
     shown = None if problem else known or _last(now)
-    value = assessed(now)
+    value = assessment(now)
     tip = math.degrees(0.0 if value is None else value.tip)
     frozen = tip if hand.stopped else None
     words = problem or ("" if known else "computing…")
@@ -232,13 +232,13 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
         return {}
-    actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
+    actuator, shares, volts = one.installed.actuator, np.asarray(flight.swings), np.asarray(flight.voltages)
     changes: dict[str, Any] = {}
-    if isinstance(actuator, PiezoPly):
-        wanted, shares = shares, np.asarray(flight.voltages, dtype=float) / actuator.voltage_swing
+    if volts.size:
+        wanted, shares = shares, volts / actuator.drive_swing
         changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
     legs = np.arange(len(shares))
-    drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
+    drives = [100.0 * actuator.share_of(float(np.interp(HALVES * x, legs, share))) for share in shares.T]
     return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
 
 

@@ -16,7 +16,7 @@ from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
 from explorer.views.actuated import blade_out
-from explorer.views.assessed import Assessed, PowerChange, assessed, here_problem
+from explorer.views.assessed import Assessment, PowerChange, assessment, here_problem
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
@@ -29,7 +29,7 @@ _PLACE = re.compile(",".join([r"\d{1,5}(?:\.\d{1,4})?"] * 2), re.ASCII)
 _LINE, _PAYS = "#1c7ed6", "#0ca678"
 
 
-def _verdicts(value: Assessed) -> list[Verdict]:
+def _verdicts(value: Assessment) -> list[Verdict]:
     """As far as there are any, the chosen actuator's first."""
     return [outcome for outcome in value.one.outcomes.values() if isinstance(outcome, Verdict)]
 
@@ -42,7 +42,7 @@ def view(now: PageState) -> dict[str, Any]:
 
 def _stage(now: PageState) -> SupposePart | None:
     """What the page draws; None where it shows the balance of power."""
-    value = assessed(now) if now.hand.on_stage else None
+    value = assessment(now) if now.hand.on_stage else None
     if value is None:
         return None
     if value.line is None or value.flight is None:

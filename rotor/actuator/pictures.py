@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.kind import InstalledActuator
 from rotor.actuator.pay import BreakEven
 from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line
@@ -25,20 +24,17 @@ class TwistCurve:
 def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float]) -> TwistCurve:
     """The blade's twist with each segment at its voltage [V], zero volts being the jig twist.
 
-    Voltages beyond the range raise ValueError. For a tube, "voltage" is the share of its torque, −1…1.
+    Voltages beyond the range raise ValueError. Without voltage they are drives in the unit of the actuator.
     """
     if len(voltages) != len(installed.shapes):
         raise ValueError(f"{len(voltages)} voltages for {len(installed.shapes)} segments: give one for each")
-    if isinstance(installed.actuator, PiezoPly):
-        low, high = installed.actuator.voltage_range
-        unit = installed.actuator.voltage_swing
-    else:
-        low, high, unit = -1.0, 1.0, 1.0
+    actuator = installed.actuator
+    low, high = actuator.drive_range
     for voltage in voltages:
         if not low - 1e-9 <= voltage <= high + 1e-9:
-            raise ValueError(f"voltage {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
+            raise ValueError(f"{actuator.drive_noun} {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
     r = np.linspace(float(installed.r[0]), 1.0, 61)
-    return TwistCurve(r, installed.change(np.asarray(voltages, dtype=float) / unit, r))
+    return TwistCurve(r, installed.change(np.asarray(voltages, dtype=float) / actuator.drive_swing, r))
 
 
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:

@@ -15,9 +15,7 @@ from numpy.testing import assert_allclose
 from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
-    drive_of,
     lean_verdict,
-    swing_of,
     verdict_inputs_of,
     verdict_on,
     verdict_tasks,
@@ -35,7 +33,7 @@ from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.call import Call
-from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
@@ -76,10 +74,9 @@ def test_crossed_fibres_turn_the_other_way():
 @pytest.mark.parametrize("id", ALL)
 def test_drive_and_swing_are_inverse(id: str):
     actuator = find_actuator(id)
-    for drive in (-100.0, -37.0, 0.0, 41.0, 100.0):
-        if isinstance(actuator, PiezoPly) and drive < 0.0 and actuator.voltage_range[0] == 0.0:
-            continue
-        assert_allclose(drive_of(actuator, swing_of(actuator, drive)), drive, atol=1e-9)
+    for share in (-1.0, -0.37, 0.0, 0.41, 1.0):
+        if share >= 0.0 or actuator.drive_range[0]:
+            assert_allclose(actuator.share_of(actuator.swing_at(share)), share, atol=1e-9)
 
 
 def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
@@ -126,7 +123,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
 def test_plies_stand_outside_the_true_contour_where_they_are_placed():
     inputs = ActuatorInputs(span=(0.3, 0.8))
     blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
-    plies = [part for part in blade.parts if part.role == "ply"]
+    plies = [part for part in blade.parts if part.segment >= 0]
     assert len(plies) == 2
     for part in plies:
         assert_allclose((part.r[0], part.r[-1]), (0.3, 0.8))

@@ -17,7 +17,7 @@ from explorer.model.units import SI, adding
 from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ASSESSED, Assessed, assessed, choose
+from explorer.views.assessed import ACTUATOR_CARD, Assessment, assessment, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
 from explorer.views.page_state import PageState, SetHand
@@ -45,20 +45,20 @@ def answered(against: Against, drives: tuple[float, ...]) -> PageState:
         (ACTUATOR, "lean_verdict"),
         (ACTUATOR, "flight_of"),
         (DIAL, "effect"),
-        (ASSESSED, "other_stroke"),
+        (ACTUATOR_CARD, "other_stroke"),
     ):
         now = told(panel, now, **{name: run(asked(panel, now)[name])})
     return now
 
 
 def card(now: PageState) -> AssessedPart:
-    part = ASSESSED.view(now)["assessed"]
+    part = ACTUATOR_CARD.view(now)["assessed"]
     assert isinstance(part, AssessedPart)
     return part
 
 
-def known(now: PageState) -> tuple[Assessed, Verdict]:
-    value = assessed(now)
+def known(now: PageState) -> tuple[Assessment, Verdict]:
+    value = assessment(now)
     assert value is not None
     assert value.one.verdict is not None
     return value, value.one.verdict
