@@ -15,7 +15,6 @@ from explorer.picture.camera_views import Camera, framed
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator
-from rotor.actuator.pictures import electronics_station
 from rotor.actuator.section import SectionSpec, section_spec
 from rotor.dynamics.structure import structure_data, uh60a_structure
 from rotor.support.arrays import Array
@@ -64,7 +63,7 @@ def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     if not drawing.in_spar:
         spar = np.stack([_within(spec, rotor, float(at), web) for at in r])
         pieces.insert(1, BladePart("spar", -1, r, spar))
-    return LiftedBlade(tuple(pieces), rings, r, electronics_station(installed), rotor.radius)
+    return LiftedBlade(tuple(pieces), rings, r, installed.electronics_span, rotor.radius)
 
 
 def _web(spec: SectionSpec, rotor: Rotor, at: float, r: Array) -> BladePart:

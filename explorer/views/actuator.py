@@ -111,7 +111,7 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
 
 def actuator_titles() -> dict[str, str]:
     """Titles of the menu of actuators, by id."""
-    return {id: f"{id.replace('_', ' ')}: {actuator.title}" for id, actuator in actuators().items()}
+    return {id: f"{id.replace('_', ' ')}: {actuator.mode}" for id, actuator in actuators().items()}
 
 
 ACTUATOR = Panel(view, in_actuate, asks, presses={"pull": pull})

@@ -44,8 +44,7 @@ class FittedBlade:
         if not self.whole:
             return [0.0] * len(HARMONICS)
         kind, blades = self.installed.actuator, self.installed.masses.blades
-        omega = self.installed.beam.angular_speed
-        return [blades * kind.harmonic_loss(self.installed, n, 1.0 / self.whole, omega) for n in HARMONICS]
+        return [blades * kind.harmonic_loss(self.installed, n, 1.0 / self.whole) for n in HARMONICS]
 
 
 def compared(design: Design, undriven: Design, fitted: FittedBlade | None) -> tuple[Design, Design] | None:

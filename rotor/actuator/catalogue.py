@@ -7,7 +7,7 @@ from typing import Any, Literal, TypeVar
 
 import numpy as np
 
-from rotor.actuator.kind import Actuator, DataProvenance
+from rotor.actuator.kind import Actuator, DataProvenance, in_si
 from rotor.actuator.laminate import ExtensionTwist
 from rotor.actuator.ply import PiezoPly
 from rotor.actuator.tube import TorqueTube
@@ -28,15 +28,16 @@ K = TypeVar("K", bound=Actuator)
 def of_kind(kind: type[K]) -> dict[str, K]:
     """All actuators of a kind by id."""
     table = next(name for name, known in KINDS.items() if known is kind)
-    return {row["id"]: kind.read(row, **_shared(row)) for row in _data("actuators")[table]}
+    rows = map(in_si, _data("actuators")[table])
+    return {row["id"]: kind.read({**row, **_shared(row)}) for row in rows}
 
 
 def _shared(row: dict[str, Any]) -> dict[str, Any]:
-    """The fields that all kinds have."""
+    """Of the fields that all kinds have, those that are no keys."""
     recalled, assumed = tuple(row["recalled"]), tuple(row["assumed"])
     provenance = DataProvenance(row["source"], recalled, assumed, row["readiness"], row["tested"])
-    ends = (row["temperature_min_c"], row["temperature_max_c"]) if "temperature_min_c" in row else None
-    return {"id": row["id"], "name": row["name"], "provenance": provenance, "temperature_range": ends}
+    ends = (row["temperature_min"], row["temperature_max"]) if "temperature_min" in row else None
+    return {"provenance": provenance, "temperature_range": ends}
 
 
 @cache

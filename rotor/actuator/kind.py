@@ -7,7 +7,7 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -20,7 +20,18 @@ from rotor.dynamics.torsion import AddedStructure, TorsionBeam
 from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 
-_UNITS = re.compile(r"_(gpa|kg_m3|mm|m|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
+_UNITS = {
+    "gpa": 1e9, "kg_m3": 1.0, "mm": 1e-3, "m": 1.0, "pm_v": 1e-12, "v": 1.0, "ppm": 1e-6, "nf_cm2": 1e-5, "c": 1.0,
+    "nm": 1.0, "kg": 1.0, "w": 1.0, "s": 1.0, "deg": math.pi / 180.0,
+}  # fmt: skip
+"""SI of each unit at the end of a key of the data file."""
+_UNIT = re.compile(rf"_({'|'.join(_UNITS)})$")
+
+
+def in_si(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of the data file with numbers in SI, by keys without units."""
+    ends = {key: _UNITS[unit[1]] if (unit := _UNIT.search(key)) else None for key in row}
+    return {_UNIT.sub("", key): row[key] if unit is None else unit * row[key] for key, unit in ends.items()}
 
 
 @dataclass(frozen=True)
@@ -40,7 +51,7 @@ class DataProvenance:
         """Caveats of using the numbers, one sentence each."""
         graded = ("values from memory, to be verified", self.recalled), ("assumed values", self.assumed)
         # Keys of the data file as words, their units left out.
-        listed = ((grade, ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)) for grade, keys in graded)
+        listed = ((grade, ", ".join(_UNIT.sub("", key).replace("_", " ") for key in keys)) for grade, keys in graded)
         return tuple(f"{name}: {grade}: {keys}." for grade, keys in listed if keys)
 
 
@@ -95,9 +106,13 @@ class Limit:
     sentence: str
 
 
+Swings = tuple[float, ...]
+"""Twist of each segment as a share of its whole range, positive for tip up."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Actuator(ABC):
-    """One actuator of a kind. A swing is a share of its whole range of twist, positive for tip up."""
+    """One actuator of a kind."""
 
     id: str
     name: str
@@ -125,21 +140,16 @@ class Actuator(ABC):
     """Names of the limits that only say that more twist is asked for than there is."""
 
     @classmethod
-    @abstractmethod
-    def read(cls, row: Mapping[str, Any], **shared: Any) -> Self:
-        """One row of its table in assets/actuators.toml; `shared`: the fields that all kinds have."""
+    def read(cls, row: Mapping[str, Any]) -> Self:
+        """One row of its table in assets/actuators.toml, as by `in_si`, with the fields that all kinds have."""
+        return cls(**{field.name: row[field.name] for field in fields(cls)})
 
     # In words
 
     @property
     @abstractmethod
-    def title(self) -> str:
-        """What it is in a menu, in two words."""
-
-    @property
-    @abstractmethod
     def mode(self) -> str:
-        """What drives it, for table 5.1."""
+        """What drives it, in a few words."""
 
     @property
     def properties(self) -> dict[str, str]:
@@ -190,7 +200,7 @@ class Actuator(ABC):
         """Swings of one that does not change the blade's twist while it rests."""
         return 0.0, 1.0
 
-    def voltages(self, swings: tuple[tuple[float, ...], ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
+    def voltages(self, swings: tuple[Swings, ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
         """Voltage of each segment at both conditions [V]; empty where voltage does not drive it."""
         return ()
 
@@ -212,19 +222,15 @@ class Actuator(ABC):
         """Twist of each segment at its moment [rad]; `units`: at 1 N m, (segments, nodes)."""
         return moments[:, None] * units
 
-    def drive(self, installed: "InstalledActuator", swings: tuple[float, ...]) -> Drive:
+    def drive(self, installed: "InstalledActuator", swings: Swings) -> Drive:
         """Holding, and slewing by each segment's swing."""
         return Drive()
 
-    def harmonic_loss(
-        self, installed: "InstalledActuator", per_rev: float, amplitude: float, angular_speed: float
-    ) -> float:
+    def harmonic_loss(self, installed: "InstalledActuator", per_rev: float, amplitude: float) -> float:
         """Heat on one blade driven at a harmonic [W]; amplitude: over half the range."""
         return 0.0
 
-    def limits(
-        self, installed: "InstalledActuator", swings: tuple[float, ...], solution: Solution | None
-    ) -> tuple[Limit, ...]:
+    def limits(self, installed: "InstalledActuator", swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
         """Constraints of this kind, beside those of all. `swings`: required, may exceed 1."""
         return ()
 
@@ -262,6 +268,11 @@ class InstalledActuator:
     def count(self) -> str:
         """How many of it there are, as text."""
         return self.actuator.count(self.placement)
+
+    @property
+    def electronics_span(self) -> tuple[float, float]:
+        """Ends of the drive electronics, r/R (figure 5.8), between flap hinge and active span."""
+        return float(self.r[0]) + 0.02, self.placement.span[0] - 0.02
 
     @property
     def skin_area(self) -> float:

@@ -1,11 +1,9 @@
 """Passive laminates that twist with rotor speed."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
 
-from rotor.actuator.kind import Actuator, InstalledActuator, Limit
+from rotor.actuator.kind import Actuator, InstalledActuator, Limit, Swings
 from rotor.actuator.section import Placement
 from rotor.dynamics.torsion import TorsionBeam
 from rotor.support.arrays import Array
@@ -24,14 +22,6 @@ class ExtensionTwist(Actuator):
     noun = "laminate", "laminates"
     settings = ()
     segmented = False
-
-    @classmethod
-    def read(cls, row: Mapping[str, Any], **shared: Any) -> Self:
-        return cls(**shared, twist=math.radians(row["twist_deg"]), speed_change=row["speed_change"])
-
-    @property
-    def title(self) -> str:
-        return "passive"
 
     @property
     def mode(self) -> str:
@@ -52,9 +42,7 @@ class ExtensionTwist(Actuator):
         shape = shape - shape[0]
         return (self.attainable * shape / shape[-1])[None, :]
 
-    def limits(
-        self, installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None
-    ) -> tuple[Limit, ...]:
+    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
         percent = 100.0 * self.speed_change
         sentence = (
             f"Only rotor speed changes the twist: {percent:.0f} % slower for the full change, and this rotor runs at "

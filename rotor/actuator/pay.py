@@ -24,6 +24,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
+from rotor.support.chart import Axis, Chart, Line
 from rotor.support.units import GRAVITY
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -261,3 +262,14 @@ def pay_sentence(even: BreakEven) -> str:
         f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W; "
         f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg."
     )
+
+
+def break_even_chart(even: BreakEven) -> Chart:
+    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves."""
+    half, degrees = 0.5 * even.ideal_saving, tuple(np.degrees(even.twists).tolist())
+    driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
+    lines = (
+        Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
+        Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
+    )
+    return Chart("Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), lines)

@@ -13,10 +13,10 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown
+from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown, Swings
 from rotor.actuator.limits import HALF_THICKNESS, fibre_strain
 from rotor.actuator.section import HostBlade, Placement, SectionSpec, calibrate, panels, passive_wall
-from rotor.dynamics.structure import listed_material, structure_data, uh60a_structure
+from rotor.dynamics.structure import structure_data, uh60a_structure
 from rotor.dynamics.thin_wall import (
     Layer,
     Material,
@@ -68,30 +68,16 @@ class PiezoPly(Actuator):
     range_limits = "voltage", "field"
 
     @classmethod
-    def read(cls, row: Mapping[str, Any], **shared: Any) -> Self:
-        return cls(
-            **shared,
-            electrodes=row["electrodes"],
-            material=listed_material(row["name"], dict(row)),
-            thickness=1e-3 * row["thickness_mm"],
-            d_along=1e-12 * row["d_along_pm_v"],
-            d_across=1e-12 * row["d_across_pm_v"],
-            electrode_gap=1e-3 * row["electrode_gap_mm"],
-            voltage_range=(row["voltage_min_v"], row["voltage_max_v"]),
-            swing=(1e-6 * row["swing_along_ppm"], 1e-6 * row["swing_across_ppm"]),
-            capacitance_per_area=1e-5 * row["capacitance_nf_cm2"],
-            linear_strain=1e-6 * row["linear_strain_ppm"],
-            largest_strain=1e-6 * row["largest_strain_ppm"],
-            hysteresis=row["hysteresis"],
-        )
-
-    @property
-    def title(self) -> str:
-        return f"{self.mode} {'fibres' if self.electrodes == 'interdigitated' else 'sheet'}"
+    def read(cls, row: Mapping[str, Any]) -> Self:
+        moduli = (row[key] for key in ("e1", "e2", "nu12", "g12", "density"))
+        ranges = {"voltage_range": (row["voltage_min"], row["voltage_max"])}
+        ranges["swing"] = row["swing_along"], row["swing_across"]
+        own = {"material": Material(row["name"], *moduli), "capacitance_per_area": row["capacitance"]}
+        return super().read({**row, **ranges, **own})
 
     @property
     def mode(self) -> str:
-        return "d33" if self.electrodes == "interdigitated" else "d31"
+        return "d33 fibres" if self.electrodes == "interdigitated" else "d31 sheet"
 
     @property
     def properties(self) -> dict[str, str]:
@@ -152,7 +138,7 @@ class PiezoPly(Actuator):
         """
         return np.multiply.outer(np.array(self.swing) / self.voltage_swing, np.asarray(voltage, dtype=float))
 
-    def voltages(self, swings: tuple[tuple[float, ...], ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
+    def voltages(self, swings: tuple[Swings, ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
         """A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie
         around zero as far as the negative range allows; without voltage the blade then flies between its two twists.
         """
@@ -189,7 +175,7 @@ class PiezoPly(Actuator):
         """C = c_A A n of one blade [F]."""
         return self.capacitance_per_area * installed.skin_area * installed.placement.plies
 
-    def drive(self, installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
+    def drive(self, installed: InstalledActuator, swings: Swings) -> Drive:
         """½C ΔV² over the time, per segment."""
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
@@ -201,23 +187,19 @@ class PiezoPly(Actuator):
         slew = installed.masses.blades * energy / time / float(data["amplifier_efficiency"])
         return Drive(self.capacitance(installed), 0.0, slew, time)
 
-    def harmonic_loss(
-        self, installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float
-    ) -> float:
+    def harmonic_loss(self, installed: InstalledActuator, per_rev: float, amplitude: float) -> float:
         """π f C V_a² tan δ [W]."""
-        frequency = per_rev * angular_speed / (2.0 * math.pi)
+        frequency = per_rev * installed.beam.angular_speed / (2.0 * math.pi)
         voltage = 0.5 * amplitude * self.voltage_swing
         loss_tangent = float(structure_data()["electrical"]["loss_tangent"])
         return math.pi * frequency * self.capacitance(installed) * voltage**2 * loss_tangent
 
     # Limits
 
-    def limits(
-        self, installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None
-    ) -> tuple[Limit, ...]:
+    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
         return *self._electrical(swings), self._strain(installed, solution), self._surface(installed)
 
-    def _electrical(self, swings: tuple[float, ...]) -> tuple[Limit, Limit]:
+    def _electrical(self, swings: Swings) -> tuple[Limit, Limit]:
         most = max((abs(swing) for swing in swings), default=0.0) * self.voltage_swing
         (low, high), gap = self.voltage_range, self.electrode_gap
         ok = most <= self.voltage_swing * (1.0 + 1e-9)

@@ -7,7 +7,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown
+from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown, Swings
 from rotor.actuator.section import Placement
 from rotor.dynamics.structure import structure_data, titanium, uh60a_structure
 from rotor.support.arrays import Array
@@ -44,25 +44,15 @@ class TorqueTube(Actuator):
     range_limits = ("torque",)
 
     @classmethod
-    def read(cls, row: Mapping[str, Any], **shared: Any) -> Self:
-        outer = 1e-3 * row["link_outer_mm"]
-        inner, metal = outer - 2e-3 * row["link_wall_mm"], titanium()
-        return cls(
-            **shared,
-            torque=row["torque_nm"],
-            free_rotation=1e-6 * row["free_shear_ppm"] * row["length_m"] / (0.5e-3 * row["diameter_mm"]),
-            link_stiffness=metal.g12 * math.pi / 32.0 * (outer**4 - inner**4),
-            link_mass=metal.density * math.pi / 4.0 * (outer**2 - inner**2),
-            mass=row["mass_kg"],
-            move_power=row["move_power_w"],
-            hold_power=row["hold_power_w"],
-            move_time=row["move_time_s"],
-            diameter=1e-3 * row["diameter_mm"],
-        )
-
-    @property
-    def title(self) -> str:
-        return "heated tube"
+    def read(cls, row: Mapping[str, Any]) -> Self:
+        outer, metal = row["link_outer"], titanium()
+        inner = outer - 2.0 * row["link_wall"]
+        derived = {
+            "free_rotation": row["free_shear"] * row["length"] / (0.5 * row["diameter"]),
+            "link_stiffness": metal.g12 * math.pi / 32.0 * (outer**4 - inner**4),
+            "link_mass": metal.density * math.pi / 4.0 * (outer**2 - inner**2),
+        }
+        return super().read({**row, **derived})
 
     @property
     def mode(self) -> str:
@@ -95,13 +85,11 @@ class TorqueTube(Actuator):
         made = packages + placement.plies * self.link_mass * length
         return MassBreakdown(blades, made, wiring, 0.0, electronics * blades)
 
-    def drive(self, installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
+    def drive(self, installed: InstalledActuator, swings: Swings) -> Drive:
         tubes = installed.masses.blades * installed.placement.plies * len(installed.placement.segments)
         return Drive(0.0, tubes * self.hold_power, tubes * self.move_power, self.move_time)
 
-    def limits(
-        self, installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None
-    ) -> tuple[Limit, ...]:
+    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
         worst = max((abs(swing) for swing in swings), default=0.0)
         retrofit = installed.host.kind == "retrofit"
         height = WEB_HEIGHT * uh60a_structure().chord

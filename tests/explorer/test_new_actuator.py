@@ -1,10 +1,9 @@
 """A further kind of actuator is two pieces: a class and its drawing. Here a servo flap, whose numbers are made up."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
 
 import numpy as np
 import pytest
@@ -53,16 +52,8 @@ class ServoFlap(Actuator):
         return -5.0, 5.0
 
     @property
-    def title(self) -> str:
-        return "moved by servos"
-
-    @property
     def mode(self) -> str:
         return f"servos, {self.moment:.0f} N·m"
-
-    @classmethod
-    def read(cls, row: Mapping[str, Any], **shared: Any) -> Self:
-        return cls(**shared, moment=row["moment_nm"], mass=row["mass_kg"])
 
     def moments(self, moment: float, compliance: Array, lengths: Array, placement: Placement) -> Array:
         return np.full(len(lengths), placement.plies * self.moment)
@@ -103,7 +94,7 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
     row = dict(zip(table_5_1().columns, table_5_1().rows[-1], strict=True))
     assert (row["actuator"], row["mode"], row["voltage V"], row["T °C"]) == (
         "servo_flap",
-        "moved by servos",
+        "servos, 300 N·m",
         "–",
         "-40…100",
     )
@@ -111,7 +102,7 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
     now = actuate(INPUTS, actuator=FLAPS)
     shown = ACTUATOR.view(now)
     form = shown["actuator.form"]
-    assert actuator_titles()["servo_flap"] == "servo flap: moved by servos"
+    assert actuator_titles()["servo_flap"] == "servo flap: servos, 300 N·m"
     assert (form.labels["plies"], form.labels["drive 0"]) == ("Flaps", "Deflection [%]")
     assert [name for name in ("plies", "span", "chord", "crossed") if form.seen[name]] == ["plies", "span"]
     assert "5 °" in shown["actuator.bar"]

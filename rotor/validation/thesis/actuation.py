@@ -11,7 +11,6 @@ from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, of_kind
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.files.make_design import uh60a_rotor
 from rotor.support.chart import Series
@@ -90,13 +89,14 @@ def figure_5_10() -> Report:
     curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
-    low, high = PLIES["MFC_P1"].voltage_range
+    ply = PLIES["MFC_P1"]
+    low, high = ply.voltage_range
     for k, (name, (plies, host)) in enumerate(BLADES.items()):
         installed = fitted_blade(plies, host)
-        up, down = (twist_under_voltage(installed, [volts]) for volts in (high, low))
-        curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
-        curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
-        rows.append((name, math.degrees(up.twist[-1]), math.degrees(down.twist[-1])))
+        r = np.linspace(float(installed.r[0]), 1.0, 61)
+        up, down = (np.degrees(installed.change([volts / ply.voltage_swing], r)) for volts in (high, low))
+        curves += curve(name, r, up, colour=k), curve("", r, down, "dashed", colour=k)
+        rows.append((name, float(up[-1]), float(down[-1])))
         numbers[name] = math.degrees(installed.attainable)
     return report(
         "5.10",

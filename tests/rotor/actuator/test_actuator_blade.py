@@ -190,7 +190,7 @@ def test_capacitance_and_power():
     assert_allclose(MFC.capacitance(installed), 13.4e-6, rtol=0.01)
     moved = MFC.drive(installed, (1.0,))
     assert_allclose(moved.slew_power * 0.8 / 4.0, 2.7, rtol=0.01)
-    assert_allclose(MFC.harmonic_loss(installed, 2.0, 1.0, SPEED), 72.4, rtol=0.01)
+    assert_allclose(MFC.harmonic_loss(installed, 2.0, 1.0), 72.4, rtol=0.01)
 
 
 # Limits
