@@ -4,14 +4,14 @@ The kind says how deep it is (`Actuator.depth`), its placement where it lies; `D
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from explorer.colours import Rgb
+from explorer.picture.blade_mesh import section_ring
 from rotor import Rotor
 from rotor.actuator import Actuator, ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
-from rotor.actuator.section import SectionSpec, skin
 from rotor.support.arrays import Array
 
 THICKER = 5.0
@@ -19,6 +19,8 @@ THICKER = 5.0
 SIDES = ("upper", "lower")
 LIFT = 0.0008
 """Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
+RING = 39
+"""Points round a section, from the upper trailing edge over the nose."""
 Span = tuple[float, float]
 Glow = tuple[Rgb, float]
 """Colour and strength, 0…1."""
@@ -53,7 +55,7 @@ class BladePart:
 class Drawing:
     """How a kind is drawn."""
 
-    pieces: Callable[[InstalledActuator, SectionSpec, Rotor], list[BladePart]]
+    pieces: Callable[[InstalledActuator, Rotor], list[BladePart]]
     """What is driven, without twist."""
     style: PieceStyle
     glow: Callable[[float], Glow] | None
@@ -64,13 +66,13 @@ class Drawing:
     """Whether the spar would hide it, and is left out."""
 
 
-def _plies(installed: InstalledActuator, spec: SectionSpec, rotor: Rotor) -> list[BladePart]:
+def _plies(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
     """On both sides, from `LIFT` off the contour."""
     placement, parts = installed.placement, list[BladePart]()
     far = LIFT + THICKER * installed.actuator.depth(placement)
     for segment, r in _driven(installed):
         for side in SIDES:
-            lines = np.stack([section_line(spec, rotor, float(at), side, placement.chord, 14) for at in r])
+            lines = np.stack([side_line(rotor, float(at), side, placement.chord, 14) for at in r])
             along = np.gradient(lines, axis=1)
             normal = np.stack((-along[..., 1], along[..., 0]), axis=-1)
             normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
@@ -80,7 +82,7 @@ def _plies(installed: InstalledActuator, spec: SectionSpec, rotor: Rotor) -> lis
     return parts
 
 
-def _tubes(installed: InstalledActuator, spec: SectionSpec, rotor: Rotor) -> list[BladePart]:
+def _tubes(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
     """About the quarter chord."""
     angle = np.linspace(0.0, 2.0 * np.pi, 21)
     circle = min(0.5 * installed.actuator.depth(installed.placement), 0.02) * np.stack(
@@ -90,9 +92,9 @@ def _tubes(installed: InstalledActuator, spec: SectionSpec, rotor: Rotor) -> lis
     return [BladePart("driven", segment, r, outer, 0.8 * outer) for segment, r, outer in rings]
 
 
-def _whole_skin(installed: InstalledActuator, spec: SectionSpec, rotor: Rotor) -> list[BladePart]:
+def _whole_skin(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
     r = stations((rotor.blade.root_cutout, 1.0), 32)
-    return [BladePart("driven", 0, r, 1.012 * np.stack([outline(spec, rotor, float(at)) for at in r]))]
+    return [BladePart("driven", 0, r, 1.012 * np.stack([section_ring(rotor, float(at), RING) for at in r]))]
 
 
 def _by_sign(share: float) -> Glow:
@@ -123,19 +125,10 @@ def stations(span: Span, whole: int) -> Array:
     return np.linspace(*span, max(2, round(whole * (span[1] - span[0])) + 1))
 
 
-def outline(spec: SectionSpec, rotor: Rotor, r: float) -> Array:
-    """From the upper trailing edge over the nose to the lower one, (points, 2)."""
-    upper, lower = (section_line(spec, rotor, r, side, (0.0, 1.0), 20) for side in SIDES)
-    return np.concatenate((upper[::-1], lower[1:]))
-
-
-def section_line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: Span, points: int) -> Array:
+def side_line(rotor: Rotor, r: float, side: str, span: Span, points: int) -> Array:
     """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
-    inner, outer, weight = rotor.blade.section_at(r)
-    scale = float(rotor.blade.chord(r)) / spec.chord
-    line = np.zeros((points, 2))
-    for name, share in ((inner, 1.0 - weight), (outer, weight)):
-        if share:
-            contour = "sc1094r8" if name.startswith("sc1094r8") else "sc1095"
-            line += share * skin(replace(spec, contour=contour), side, *chord, points)
-    return scale * np.stack((0.25 * spec.chord - line[:, 0], line[:, 1]), axis=1)
+    ring, (front, rear) = section_ring(rotor, r, RING), span
+    nose_to_tail = ring[RING // 2 :: -1] if side == "upper" else ring[RING // 2 :]
+    x = front + (rear - front) * np.linspace(0.0, 1.0, points) ** (2.0 if front == 0.0 else 1.0)
+    y = (0.25 - x) * float(rotor.blade.chord(r))
+    return np.stack((y, np.interp(-y, -nose_to_tail[:, 0], nose_to_tail[:, 1])), axis=1)

@@ -9,14 +9,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from explorer.picture.actuator_drawings import DRAWINGS, SIDES, BladePart, Span, outline, section_line, stations
-from explorer.picture.blade_mesh import Mesh
+from explorer.picture.actuator_drawings import DRAWINGS, RING, SIDES, BladePart, Span, side_line, stations
+from explorer.picture.blade_mesh import Mesh, section_ring
 from explorer.picture.camera_views import Camera, framed
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator
-from rotor.actuator.section import SectionSpec, section_spec
-from rotor.dynamics.structure import structure_data, uh60a_structure
+from rotor.dynamics.structure import structure_data
 from rotor.support.arrays import Array
 
 WIDER = 2.7
@@ -53,32 +52,31 @@ class LiftedBlade:
 @lru_cache(maxsize=8)
 def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     """The pieces for an actuator on a blade."""
-    spec = section_spec(uh60a_structure(rotor.radius), installed.host)
     data = structure_data()["section"]
     web = float(data["spar_web_c"] if installed.host.kind == "retrofit" else data["box_end_c"])
     r = stations((rotor.blade.root_cutout, 1.0), 32)
-    rings = np.stack([outline(spec, rotor, float(at)) for at in r])
+    rings = np.stack([section_ring(rotor, float(at), RING) for at in r])
     drawing = DRAWINGS[type(installed.actuator)]
-    pieces = [BladePart("skin", -1, r, rings), _web(spec, rotor, web, r), *drawing.pieces(installed, spec, rotor)]
+    pieces = [BladePart("skin", -1, r, rings), _web(rotor, web, r), *drawing.pieces(installed, rotor)]
     if not drawing.in_spar:
-        spar = np.stack([_within(spec, rotor, float(at), web) for at in r])
+        spar = np.stack([_within(rotor, float(at), web) for at in r])
         pieces.insert(1, BladePart("spar", -1, r, spar))
     return LiftedBlade(tuple(pieces), rings, r, installed.electronics_span, rotor.radius)
 
 
-def _web(spec: SectionSpec, rotor: Rotor, at: float, r: Array) -> BladePart:
+def _web(rotor: Rotor, at: float, r: Array) -> BladePart:
     """The wall across the section at x/c."""
     lines = []
     for station in r:
-        top, bottom = (section_line(spec, rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
+        top, bottom = (side_line(rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
         lines.append(bottom + np.linspace(0.0, 1.0, 3)[:, None] * (top - bottom))
     rear = np.stack(lines)
     return BladePart("web", -1, r, rear, rear + np.array([0.012, 0.0]))
 
 
-def _within(spec: SectionSpec, rotor: Rotor, r: float, web: float) -> Array:
+def _within(rotor: Rotor, r: float, web: float) -> Array:
     """The spar, a little inside the skin so that the two do not share a surface, (points, 2)."""
-    upper, lower = (section_line(spec, rotor, r, side, (0.0, web), 12) for side in SIDES)
+    upper, lower = (side_line(rotor, r, side, (0.0, web), 12) for side in SIDES)
     ring = np.concatenate((upper[::-1], lower[1:]))
     return ring.mean(axis=0) + 0.95 * (ring - ring.mean(axis=0))
 

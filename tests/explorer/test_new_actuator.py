@@ -13,7 +13,7 @@ import explorer
 import rotor
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
-from explorer.picture.actuator_drawings import DRAWINGS, BladePart, Drawing, PieceStyle, section_line, stations
+from explorer.picture.actuator_drawings import DRAWINGS, BladePart, Drawing, PieceStyle, side_line, stations
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.views.actuator import ACTUATOR, actuator_titles
 from explorer.views.assessed import ACTUATOR_CARD
@@ -21,7 +21,7 @@ from rotor import Rotor
 from rotor.__main__ import main
 from rotor.actuator import catalogue
 from rotor.actuator.kind import Actuator, InstalledActuator, MassBreakdown
-from rotor.actuator.section import Placement, SectionSpec
+from rotor.actuator.section import Placement
 from rotor.actuator.tables import table_5_1
 from rotor.actuator.verdict import Verdict
 from rotor.support.arrays import Array
@@ -62,9 +62,9 @@ class ServoFlap(Actuator):
         return MassBreakdown(blades, placement.plies * self.mass)
 
 
-def flap(installed: InstalledActuator, spec: SectionSpec, blade: Rotor) -> list[BladePart]:
+def flap(installed: InstalledActuator, blade: Rotor) -> list[BladePart]:
     r = stations(installed.placement.span, 10)
-    lower = np.stack([section_line(spec, blade, float(at), "lower", (0.85, 1.0), 5) for at in r])
+    lower = np.stack([side_line(blade, float(at), "lower", (0.85, 1.0), 5) for at in r])
     return [BladePart("driven", 0, r, lower - [0.0, 0.01], lower)]
 
 
