@@ -15,8 +15,7 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import in_actuate
-from explorer.views.assessed import change_here, effect_asked, fitted, pair_compared
+from explorer.views.actuated import change_here, effect_asked, fitted, in_actuate, pair_compared
 from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, Questions, SetGrabbed
 from explorer.workers.call import Call

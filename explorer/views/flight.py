@@ -14,8 +14,7 @@ from explorer.model.actuator_inputs import AT_REST, HandSettings
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
-from explorer.views.assessed import assessment, parts_asked, parts_here
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
@@ -78,8 +77,7 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     known = one.flight if isinstance(one.flight, ActuatorFlight) else None
     problem = one.flight if isinstance(one.flight, str) else wrong
     shown = None if problem else known or _last(now)
-    value = assessment(now)
-    tip = math.degrees(0.0 if value is None else value.tip)
+    tip = math.degrees(one.inputs.tip(one.installed))
     frozen = tip if hand.stopped else None
     words = problem or ("" if known else "computing…")
     if hand.stopped and now.state is not None and not problem:

@@ -16,8 +16,9 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
 from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
+from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ACTUATOR_CARD, Assessment, assessment, choose
+from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
 from explorer.views.page_state import PageState, SetHand
@@ -57,11 +58,11 @@ def card(now: PageState) -> AssessedPart:
     return part
 
 
-def known(now: PageState) -> tuple[Assessment, Verdict]:
-    value = assessment(now)
+def known(now: PageState) -> tuple[ActuatedBlade, Verdict]:
+    value = actuated_blade(now)
     assert value is not None
-    assert value.one.verdict is not None
-    return value, value.one.verdict
+    assert value.verdict is not None
+    return value, value.verdict
 
 
 def balance_here(now: PageState) -> dict[str, str]:
@@ -84,12 +85,10 @@ def screen(now: PageState) -> dict[str, list[str]]:
         found[quantity] += [one if isinstance(one, str) else "…".join(one) for one in matches]
 
     (value, verdict), part, flight, rail = known(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
-    words = " ".join(
-        text for _, text, _ in lifted_picture(now.hand.actuator, value.one.installed, value.one.design).labels
-    )
+    words = " ".join(text for _, text, _ in lifted_picture(now.hand.actuator, value.installed, value.design).labels)
     report = re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI))
     settled, (total,) = DIAL.view(now)["dial"].settled, [bar.text for bar in flight["earns"].bars if bar.total]
-    ends = "…".join(f"{math.degrees(end):+.2f}" for end in value.reach).replace("-", "−")
+    ends = "…".join(f"{math.degrees(end):+.2f}" for end in value.inputs.reach(value.installed)).replace("-", "−")
 
     found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
@@ -137,15 +136,15 @@ def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
     """At no voltage, and against the same blade, only mass and stiffness change power and vibration."""
     same = answered("same-blade", (0.0,) * MOST_SEGMENTS)
     (one, verdict), (other, counted) = (known(answered(against, (0.0,) * MOST_SEGMENTS)) for against in AGAINST)
-    assert one.here and other.here and one.flight and other.flight and one.line  # noqa: PT018
-    bare = replace(one.one.design, models=replace(one.one.design.models, bending=True))
-    loaded = with_actuator_mass(bare, one.one.installed)
+    assert one.here and other.here and one.over_flight and other.over_flight and one.line  # noqa: PT018
+    bare = replace(one.design, models=replace(one.design.models, bending=True))
+    loaded = with_actuator_mass(bare, one.installed)
     assert one.here.power == pytest.approx(solve(loaded).power.total - solve(bare).power.total, rel=0.03)
     assert abs(one.vibration[0]) < 0.5 * abs(other.vibration[0])
     assert other.here.power > one.here.power + 1e3
     between = verdict.bare_power - counted.reference_power
-    assert other.flight.power - one.flight.power == pytest.approx(between, abs=1.0)
-    assert one.line.net(one.range, one.mass) == pytest.approx(-one.flight.power, abs=1.0)
+    assert other.over_flight.power - one.over_flight.power == pytest.approx(between, abs=1.0)
+    assert one.line.net(one.range, one.mass) == pytest.approx(-one.over_flight.power, abs=1.0)
     assert choose(same, "best-fixed") == (SetHand(actuator={"against": "best-fixed"}),)
 
 

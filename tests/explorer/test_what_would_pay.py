@@ -12,7 +12,7 @@ from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.presses import SupposePress
 from explorer.views.actuated import actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ACTUATOR_CARD, assessment
+from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.page_state import OpenPanels, PageState, SetAddress
 from explorer.views.pay import PAY, move_supposed, read_place
 from rotor.actuator import OtherStroke, Verdict
@@ -80,8 +80,8 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
 
 def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):
     now = done(lined, move_supposed(lined, "on"))
-    value, shown = assessment(now), PAY.view(now)["suppose"]
-    assert value.flight is not None
+    value, shown = actuated_blade(now), PAY.view(now)["suppose"]
+    assert value.over_flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
     words = re.search(r"needs .* more", shown.words)
     assert words[0] == ACTUATOR_CARD.view(now)["assessed"].flight
