@@ -23,7 +23,7 @@ TRIM_TITLES: dict[str, str] = {
 """The menu: flight, and the trims of a test stand."""
 LOAD_TITLES = {name: row.title for name, row in STAND.items() if name in LOAD_KEYS}
 """What the rotor is given, by key of a record."""
-_ROUND = 9
+_ANGLE_DECIMALS = 9
 """Decimals of angles that were radians."""
 
 _FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
@@ -76,7 +76,8 @@ def stand_of(design: Design) -> StandInputs | None:
     if stand is None:
         return None
     record = {
-        key: round(float(value), _ROUND) if STAND[key].unit == "°" else value for key, value in stand.record().items()
+        key: round(float(value), _ANGLE_DECIMALS) if STAND[key].unit == "°" else value
+        for key, value in stand.record().items()
     }
     load = next(key for key in LOAD_KEYS if key in record)
     values = {name: record[key] for key, name in _FIELDS.items() if key in record}

@@ -14,10 +14,10 @@ from rotor import Rotor
 from rotor.actuator import Actuator, ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
 from rotor.support.arrays import Array
 
-THICKER = 5.0
+PLY_EXAGGERATION = 5.0
 """Plies are drawn this much thicker, or they would be lines."""
 SIDES = ("upper", "lower")
-LIFT = 0.0008
+PLY_CLEARANCE = 0.0008
 """Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
 RING = 39
 """Points round a section, from the upper trailing edge over the nose."""
@@ -67,9 +67,9 @@ class Drawing:
 
 
 def _plies(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
-    """On both sides, from `LIFT` off the contour."""
+    """On both sides, from `PLY_CLEARANCE` off the contour."""
     placement, parts = installed.placement, list[BladePart]()
-    far = LIFT + THICKER * installed.actuator.depth(placement)
+    far = PLY_CLEARANCE + PLY_EXAGGERATION * installed.actuator.depth(placement)
     for segment, r in _driven(installed):
         for side in SIDES:
             lines = np.stack([side_line(rotor, float(at), side, placement.chord, 14) for at in r])
@@ -78,7 +78,7 @@ def _plies(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
             normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
             # Towards the outside: up on the upper side; the line runs aft, to −y.
             normal *= -1.0 if side == "upper" else 1.0
-            parts.append(BladePart("driven", segment, r, lines + far * normal, lines + LIFT * normal))
+            parts.append(BladePart("driven", segment, r, lines + far * normal, lines + PLY_CLEARANCE * normal))
     return parts
 
 

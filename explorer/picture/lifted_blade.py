@@ -1,6 +1,6 @@
 """The blade lifted out of the rotor, as arrays: skin, spar, web and actuator from the true sections, and its camera.
 
-Axes of a blade: x outward, y to the leading edge, z up. It is drawn `WIDER` times as wide as it is long.
+Axes of a blade: x outward, y to the leading edge, z up. It is drawn `CHORD_EXAGGERATION` times as wide as it is long.
 """
 
 import math
@@ -18,9 +18,9 @@ from rotor.actuator import InstalledActuator
 from rotor.dynamics.structure import structure_data
 from rotor.support.arrays import Array
 
-WIDER = 2.7
+CHORD_EXAGGERATION = 2.7
 """A blade is sixteen times as long as it is wide: drawn so, its plies would be threads."""
-MIDDLE = 0.55
+ORIGIN_R = 0.55
 """r/R of the origin."""
 
 
@@ -39,7 +39,7 @@ class LiftedBlade:
 
     def outward(self, r: Array | float) -> Array:
         """x of a station [m]."""
-        return self.radius * (np.asarray(r, dtype=float) - MIDDLE)
+        return self.radius * (np.asarray(r, dtype=float) - ORIGIN_R)
 
     @property
     def spans(self) -> list[Span]:
@@ -189,7 +189,7 @@ def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float
 def _turned(blade: LiftedBlade, r: Array, lines: Array, twist: Array) -> Array:
     """(stations, points, 2) with a nose-up twist at each → (stations, points, 3), drawn wider."""
     cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
-    y, z = WIDER * lines[..., 0], WIDER * lines[..., 1]
+    y, z = CHORD_EXAGGERATION * lines[..., 0], CHORD_EXAGGERATION * lines[..., 1]
     x = np.broadcast_to(blade.outward(r)[:, None], y.shape)
     return np.stack((x, y * cos - z * sin, y * sin + z * cos), axis=-1)
 
@@ -246,7 +246,7 @@ def lifted_pose(radius: float) -> Pose:
 def fit_lifted(radius: float, aspect: float) -> Camera:
     """The nearest view of the lifted blade: root at the far left, tip at the near right, the helicopter beyond."""
     pose = lifted_pose(radius)
-    ends = (radius * (r - MIDDLE) for r in (0.03, 1.02))
+    ends = (radius * (r - ORIGIN_R) for r in (0.03, 1.02))
     box = np.array(
         [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
     )

@@ -32,7 +32,7 @@ FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
-TIMES = 8.0
+TWIST_EXAGGERATION = 8.0
 """By how much the actuator's part of the twist is exaggerated; the numbers stay true."""
 
 
@@ -88,7 +88,7 @@ def lifted_picture(
     *,
     pays: bool = False,
 ) -> LiftedPicture:
-    """The blade with the actuator's part of its twist `TIMES` as large; `design` is without actuator.
+    """The blade with the actuator's part of its twist `TWIST_EXAGGERATION` as large; `design` is without actuator.
 
     With `flown` blade and overlay have their elastic twist; the overlay is the blade without voltage. `pays`: a
     supposed actuator does, and what is driven lights green.
@@ -104,7 +104,7 @@ def lifted_picture(
         return inputs.change(installed, r) if flown is None else np.interp(r, flown.r, flown.moved)
 
     def twist(r: Array) -> Array:
-        return still(r) + TIMES * moved(r)
+        return still(r) + TWIST_EXAGGERATION * moved(r)
 
     shares = inputs.drive_shares(installed)
     solids: dict[str, StyledMesh] = {}
@@ -114,7 +114,7 @@ def lifted_picture(
         if part.segment < 0:
             solids[part.role] = StyledMesh(mesh, SURFACES[part.role])
             continue
-        light = _PAYS if pays else drawing.glow and drawing.glow(shares[part.segment])
+        light = _PAYING_GLOW if pays else drawing.glow and drawing.glow(shares[part.segment])
         solids[f"drive_{sum(key.startswith('drive') for key in solids)}"] = StyledMesh(mesh, drawing.style, light)
         if drawing.fibres:
             fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
@@ -130,9 +130,9 @@ def lifted_picture(
         solids,
         {
             "edges": lifted.edge_segments(blade, rings),
-            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
-            "leads": lifted.lead_segments(blade, rings) if installed.masses.wiring else _NONE,
-            "fibres": np.concatenate(fibres) if fibres else _NONE,
+            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NO_SEGMENTS,
+            "leads": lifted.lead_segments(blade, rings) if installed.masses.wiring else _NO_SEGMENTS,
+            "fibres": np.concatenate(fibres) if fibres else _NO_SEGMENTS,
             "arrow": lifted.arc_segments(blade, *ends),
             "leaders": leaders,
         },
@@ -141,8 +141,8 @@ def lifted_picture(
     )
 
 
-_NONE = np.zeros((0, 2, 3))
-_PAYS: Glow = (0, 150, 60), 0.6
+_NO_SEGMENTS = np.zeros((0, 2, 3))
+_PAYING_GLOW: Glow = (0, 150, 60), 0.6
 
 
 def drive_colour(actuator: Actuator, share: float) -> Rgb:
@@ -189,7 +189,7 @@ def _labels(
         text = f"{what}, {drive}" if not k else f"{k + 1}: {drive}"
         put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
-        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TIMES:g}"
+        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
         put(words, 1.0, -0.52, 0.0, -0.45, "tip")
     lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
-    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
+    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NO_SEGMENTS

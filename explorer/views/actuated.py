@@ -1,4 +1,4 @@
-"""What Actuate knows: the actuator on the blade of the sliders, what it moves, costs and gives, and what is asked.
+"""The state of Actuate: the actuator on the blade of the sliders, what it moves, costs and gives, and what is asked.
 
 Tip twist is that in flight, at the tip, nose up positive: what the actuator adds to the rotating blade
 (`InstalledActuator.tip`). All changes count from one blade, `ActuatorInputs.against`.

@@ -18,11 +18,11 @@ from rotor.actuator.installation import InstalledActuator
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
 
-_STILL = 0.4
+_DELAY_S = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
-_IDLE = 2.5
+_IDLE_DELAY_S = 2.5
 """How long the page must have been still before work is begun that nobody asked for [s]."""
-_FULL = 100.0
+_FULL_DRIVE = 100.0
 """The whole voltage on its slider [%]."""
 DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 """Names of the sliders of voltage."""
@@ -37,7 +37,7 @@ def asks(now: PageState) -> tuple[Questions, ...]:
     flown = one.flight is not None or isinstance(one.outcome, str)
     flight = () if one.flight_task is None else (one.flight_task,)
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return Questions(3, (first,), _STILL), Questions(4, flight, 0.0), Questions(7, beside, _IDLE)
+    return Questions(3, (first,), _DELAY_S), Questions(4, flight, 0.0), Questions(7, beside, _IDLE_DELAY_S)
 
 
 def view(now: PageState) -> dict[str, Any]:
@@ -75,7 +75,7 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
         },
         {
             **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
-            "plies": actuator.count_title or "Plies per side",
+            "plies": f"{actuator.noun[1].capitalize()}{' per side' if actuator.on_skin else ''}",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
             "advance_ratios": "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios),
@@ -100,12 +100,12 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
     if one is None:
         return ()
     if share is None:
-        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed)
-        return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
+        nose_up = replace(inputs, drives=(_FULL_DRIVE,) * MOST_SEGMENTS).tip(one.installed)
+        return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL_DRIVE, nose_up))}),)
     start, whole = now.hand.pulled
     if not start:  # It was not taken.
         return ()
-    drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
+    drives = tuple(min(max(drive + share * whole, -_FULL_DRIVE), _FULL_DRIVE) for drive in start)
     return (SetHand(BY_HAND, {"drives": drives}),)
 
 

@@ -10,13 +10,13 @@ from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.verdict import Against
 
-_URGENCY, _STILL = 6, 1.0
+_URGENCY, _DELAY_S = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     call = one.line_task if (one := actuated_blade(now)) is not None else None
-    return (Questions(_URGENCY, () if call is None else (call,), _STILL),)
+    return (Questions(_URGENCY, () if call is None else (call,), _DELAY_S),)
 
 
 def _angle(radians: float) -> str:
@@ -32,7 +32,7 @@ def _title(one: ActuatedBlade) -> str:
     installed, inputs = one.installed, one.inputs
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
     driven = f"at {shares} % of its {installed.actuator.drive_noun}" if inputs.driven else "at rest"
-    return f"{one.name}, {installed.count}{installed.actuator.a_side}, {driven}"
+    return f"{one.name}, {installed.count}{' a side' if installed.actuator.on_skin else ''}, {driven}"
 
 
 def _vibration(one: ActuatedBlade) -> str:
@@ -91,7 +91,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         problem=here_problem(now),
         against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),
-        said=sentence,
+        sentence=sentence,
         pays=pays,
         range=round(math.degrees(one.range), 2),
         kilograms=round(one.mass, 1),

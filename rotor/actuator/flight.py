@@ -41,7 +41,7 @@ def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
     return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 
-UNLIMITED = math.radians(20.0)
+UNLIMITED_TWIST = math.radians(20.0)
 """Either way, by segment [rad]: more than any optimum asks for."""
 
 
@@ -102,7 +102,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = installed.shapes[:, -1]
-    unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), MIN_TWIST), (-1.0, 1.0))
+    unlimited = np.outer(UNLIMITED_TWIST / np.maximum(np.abs(shapes), MIN_TWIST), (-1.0, 1.0))
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
     powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "with")}
     wanted: list[tuple[float, ...]] = []

@@ -43,7 +43,7 @@ def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Ro
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)
     spec = section_spec(structure, host)
-    if not actuator.segmented:
+    if "span" not in actuator.settings:
         placement = replace(placement, divisions=())
     lines = (skin(spec, side, *placement.chord) for side in ("upper", "lower"))
     covered = sum(float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines)  # Arc length under the plies [m].

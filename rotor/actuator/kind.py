@@ -123,17 +123,10 @@ class Actuator(ABC):
     noun: ClassVar[tuple[str, str]]
     """One of it, and several."""
     settings: ClassVar[tuple[str, ...]] = ("plies", "span")
-    """What of its placement can be chosen; `crossed`: whether its fibres are laid the other way."""
-    count_title: ClassVar[str] = ""
-    """What `plies` counts, on a form."""
-    a_side: ClassVar[str] = ""
-    """What follows a count in words, where that is not one of the whole blade."""
+    """What of its placement can be chosen: without `span` it is the whole blade, with `chord` it lies on both skins.
+    `crossed`: its fibres can be laid the other way."""
     drive_noun: ClassVar[str] = "drive"
     drive_unit: ClassVar[str] = "%"
-    segmented: ClassVar[bool] = True
-    """Whether parts of the span can be driven each by itself."""
-    on_skin: ClassVar[bool] = False
-    """Whether it gets as hot as the skin over the de-ice heater."""
     follows_azimuth: ClassVar[bool] = False
     """Whether it is fast enough for n/rev."""
     range_limits: ClassVar[tuple[str, ...]] = ()
@@ -160,6 +153,10 @@ class Actuator(ABC):
     def caveats(self) -> tuple[str, ...]:
         """One sentence each."""
         return self.provenance.warnings(self.id)
+
+    @property
+    def on_skin(self) -> bool:
+        return "chord" in self.settings
 
     def count(self, placement: Placement) -> str:
         """How many of it there are, as text."""

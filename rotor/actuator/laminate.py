@@ -21,7 +21,6 @@ class ExtensionTwist(Actuator):
 
     noun = "laminate", "laminates"
     settings = ()
-    segmented = False
 
     @property
     def mode(self) -> str:

@@ -29,7 +29,7 @@ from rotor.trim.solve import analyse
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
-FLATTER = 0.5
+FLATTENED_SHARE = 0.5
 """A second start: the first law flattened by this much."""
 
 
@@ -139,7 +139,9 @@ def _search(
         tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
-            flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
+            flatter = tuple(
+                v * FLATTENED_SHARE if p.angular else v for v, p in zip(first, concept.parameters, strict=True)
+            )
             jigs += [first, flatter]
     optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
     if not optima:

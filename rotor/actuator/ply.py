@@ -62,9 +62,8 @@ class PiezoPly(Actuator):
 
     noun = "ply", "plies"
     settings = "plies", "span", "chord", "crossed"
-    count_title, a_side = "Plies per side", " a side"
     drive_noun, drive_unit = "voltage", "V"
-    on_skin = follows_azimuth = True
+    follows_azimuth = True
     range_limits = "voltage", "field"
 
     @classmethod

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from rotor.actuator.catalogue import STEPS, actuators, find_actuator
 from rotor.actuator.kind import Actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven
+from rotor.actuator.pay import WANTED_SHARE, BreakEven
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, reference
 from rotor.optimisation.concepts import find_concept
@@ -146,7 +146,7 @@ def kilowatts(power: float) -> str:
 def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
     """What an actuator would need to break even, one row for each rotor."""
     notes = (
-        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
+        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * WANTED_SHARE:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
         "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
         "column.",

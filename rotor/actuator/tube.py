@@ -40,7 +40,6 @@ class TorqueTube(Actuator):
     """[m]"""
 
     noun = "tube", "tubes"
-    count_title = "Tubes"
     range_limits = ("torque",)
 
     @classmethod

@@ -24,7 +24,7 @@ from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.units import SI
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.lifted_picture import TIMES, flown_twist, lifted_picture
+from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
 from explorer.tabs.background import PoolAnswers
 from explorer.text.readout import balance
@@ -114,7 +114,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
     for solid in picture.solids.values():
         assert np.isfinite(solid.mesh.vertices).all()
         assert solid.mesh.faces.max() < len(solid.mesh.vertices)
-        assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.WIDER
+        assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.CHORD_EXAGGERATION
     assert sum(len(solid.mesh.vertices) for solid in picture.solids.values()) < 9_000
     assert all(np.isfinite(lines).all() for lines in picture.lines.values())
     assert {"skin", "web", "shank", "drive_0"} <= set(picture.solids)
@@ -145,7 +145,9 @@ def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
         ring = picture.lines["edges"][-38:, 0]  # The tip section, from its trailing edge over the nose.
         nose, tail = ring[19], ring[0]
         angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
-    assert_allclose(angles[1] - angles[0], TIMES * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
+    assert_allclose(
+        angles[1] - angles[0], TWIST_EXAGGERATION * float(inputs.change(installed, 1.0)), atol=math.radians(0.3)
+    )
     assert len(rest.lines["overlay"]) == len(rest.lines["arrow"]) == 0
     assert len(driven.lines["overlay"]) > 0
     assert len(driven.lines["arrow"]) > 0
@@ -273,7 +275,7 @@ def test_the_lifted_blade_is_drawn_as_flown():
     assert_allclose(flown.moved, pitch - pitch[0], atol=math.radians(0.03))
     installed = inputs.installed(DESIGN.rotor)
     labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, flown).labels if kind == "tip"]
-    assert labels == [f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TIMES:g}"]
+    assert labels == [f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TWIST_EXAGGERATION:g}"]
     rigid = make_design(preset="thesis", mu=0.2)
     assert flown_twist(solve(rigid), solve(rigid), 0.5) is None
 

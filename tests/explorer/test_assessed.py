@@ -93,19 +93,19 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
     read("mass", "# kg:", rail["actuator.numbers"])
-    read("mass", "for # kg", part.said)
+    read("mass", "for # kg", part.sentence)
     read("mass", "# kg:", report)
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
     if now.hand.actuator.driven:
         read("tip", f"({NUMBER}°) at the tip", words)
     found["reach"] = [part.reach, f"{ends}°"]
-    read("reach", f"by ({NUMBER}…{NUMBER}°) in flight", part.said)
+    read("reach", f"by ({NUMBER}…{NUMBER}°) in flight", part.sentence)
     read("power here", "(?:needs|saves) # ±", part.here)
-    read("power here", "(?:needs|saves) # ± .* here", part.said)
+    read("power here", "(?:needs|saves) # ± .* here", part.sentence)
     found["power here"].append(f"{abs(settled.power[0]):.{'0' if abs(settled.power[0]) >= 10.0 else '1'}f}")
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
-    read("power over the flight", "here, (?:needs |saves )?# ±", part.said)
+    read("power over the flight", "here, (?:needs |saves )?# ±", part.sentence)
     read("power over the flight", "(?:needs|saves) # ±", report)
     found["power over the flight"] += [total.lstrip("+−")]
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
