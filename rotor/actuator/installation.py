@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotor.actuator.kind import Actuator, InstalledActuator, MassBreakdown
+from rotor.actuator.kind import Drive as Drive
 from rotor.actuator.section import HostBlade, Placement, section_spec, skin
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
