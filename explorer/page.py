@@ -47,7 +47,7 @@ from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.vibration_panel import VibrationPanel
 from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ASSESSED
+from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT
@@ -63,7 +63,7 @@ from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
 _BRAND = (37, 99, 235)
-_ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
+_ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
 PANELS = POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
 

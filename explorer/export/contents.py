@@ -14,7 +14,7 @@ from explorer.model.units import Units, units_of
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.assessed import Assessed, against_words
+from explorer.views.actuated import ActuatedBlade, against_words
 from rotor import Solution
 from rotor.actuator import Verdict
 
@@ -49,7 +49,7 @@ class DesignReport:
     """Whether the reference is the user's own design, which is shown like the others."""
     actuator: Verdict | str = ""
     """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
-    driven: Assessed | None = None
+    driven: ActuatedBlade | None = None
     """The actuator that twists the first design, without its mass in the power of the trim."""
     when: datetime = field(default_factory=lambda: datetime.now().astimezone())
 
@@ -95,13 +95,13 @@ class DesignReport:
         return self.all if self.own_section else tuple(self.entries)
 
 
-def on_board(driven: Assessed, units: Units) -> tuple[str, str, str]:
+def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
     """The change of power here with the mass of a driven actuator, as the page says it; what it counts from; and
     whether it is `more` or `less`."""
-    mass, here = mass_parts(driven.one.installed)["in all"], driven.here
+    mass, here = mass_parts(driven.installed)["in all"], driven.here
     if here is None:
         return "", f"without the {mass} of its actuator", ""
-    against = f"with {mass} on board, compared with the {against_words(driven.one, driven.one.question.against)}"
+    against = f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
     return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
 
 

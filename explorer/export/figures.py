@@ -18,7 +18,7 @@ from explorer.picture.fields import Field
 from explorer.text.readout import balance, fuel_words, mass_words, needs, pair_words
 from rotor import Solution
 from rotor.actuator import Verdict, verdict_details
-from rotor.actuator.verdict import count_text, reference
+from rotor.actuator.verdict import reference
 from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.support.chart_svg import svg
@@ -172,7 +172,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
         return tag("section.actuator", title, tag("ul.care", tag("li", verdict)))
     placement, first = verdict.installed.placement, verdict.installed.actuator.name
     low, high = placement.span
-    where = f"{count_text(verdict.installed)}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
+    where = f"{verdict.installed.count}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."

@@ -18,7 +18,7 @@ from explorer.model.units import Units
 from explorer.picture.fields import Field
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
-from explorer.views.assessed import Assessed
+from explorer.views.actuated import ActuatedBlade
 from rotor import Solution
 from rotor.support.chart import bar_ticks
 
@@ -41,7 +41,7 @@ def view_png(
     scale: tuple[Field, tuple[float, float]] | None,
     units: Units,
     dark: bool,
-    driven: Assessed | None = None,
+    driven: ActuatedBlade | None = None,
 ) -> bytes:
     """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
     above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk.

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from explorer.model.units import number
 from explorer.workers.call import Call
 from rotor import Design, Rotor
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, actuators, find_actuator
+from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, divisions_of, twisted
@@ -62,25 +62,27 @@ class ActuatorInputs:
 
     def installed(self, rotor: Rotor) -> InstalledActuator:
         """The actuator on the blade; ValueError with one sentence where that cannot be built."""
-        actuator, (placement, host) = find_actuator(self.actuator), self.mounting
-        divisions = () if isinstance(actuator, ExtensionTwist) else concept_divisions(self.concept)
-        return install(actuator, replace(placement, divisions=divisions), host, rotor)
+        placement, host = self.mounting
+        placement = replace(placement, divisions=concept_divisions(self.concept))
+        return install(find_actuator(self.actuator), placement, host, rotor)
 
     def swings(self, installed: InstalledActuator) -> tuple[float, ...]:
         """Each segment's share of its whole range, positive for tip up."""
-        sign = -1.0 if self.crossed and isinstance(installed.actuator, PiezoPly) else 1.0
-        return tuple(sign * swing_of(installed.actuator, drive) for drive in self._segments(installed))
-
-    def volts(self, installed: InstalledActuator) -> tuple[float, ...]:
-        """Voltage of each segment [V]; empty when voltage does not drive it."""
         actuator = installed.actuator
-        if not isinstance(actuator, PiezoPly):
-            return ()
-        return tuple(swing_of(actuator, drive) * actuator.voltage_swing for drive in self._segments(installed))
+        sign = -1.0 if self.crossed and "crossed" in actuator.settings else 1.0
+        return tuple(sign * actuator.swing_at(share) for share in self.drive_shares(installed))
+
+    def driven_at(self, installed: InstalledActuator) -> tuple[float, ...]:
+        """Drive of each segment, in the unit of the actuator."""
+        return tuple(map(installed.actuator.driven_at, self.drive_shares(installed)))
 
     def drive_shares(self, installed: InstalledActuator) -> tuple[float, ...]:
-        """Drive of each segment, −1…1."""
-        return tuple(0.01 * drive for drive in self._segments(installed))
+        """Drive of each segment, −1…1 of either side."""
+        return tuple(0.01 * drive for drive in self.drives[: len(installed.shapes)])
+
+    def drive_text(self, installed: InstalledActuator, segment: int) -> str:
+        """What drives a segment, in words."""
+        return f"{number(self.driven_at(installed)[segment], sign=True)} {installed.actuator.drive_unit}"
 
     def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
         """The twist that the actuator adds at r/R [rad]."""
@@ -106,17 +108,13 @@ class ActuatorInputs:
 
     def name(self, installed: InstalledActuator) -> str:
         """Of the twist: `MFC P1 at 1 155 V`; where segments differ, from the least to the most."""
-        volts = self.volts(installed)
-        driven = volts or self._segments(installed)
-        ends = "…".join(number(end) for end in sorted({min(driven), max(driven)}))
-        return f"{installed.actuator.id.replace('_', ' ')} at {ends} {'V' if volts else '%'}"
+        drives = self.driven_at(installed)
+        ends = "…".join(number(end) for end in sorted({min(drives), max(drives)}))
+        return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}"
 
     @property
     def driven(self) -> bool:
         return any(self.drives)
-
-    def _segments(self, installed: InstalledActuator) -> tuple[float, ...]:
-        return self.drives[: len(installed.shapes)]
 
 
 @dataclass(frozen=True)
@@ -158,22 +156,6 @@ def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
     start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
     pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
     return VerdictInputs(pair, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
-
-
-def swing_of(actuator: Actuator, drive: float) -> float:
-    """Per cent of the positive or negative voltage → share of the whole range; the two sides are not alike."""
-    if not isinstance(actuator, PiezoPly):
-        return 0.01 * drive
-    low, high = actuator.voltage_range
-    return 0.01 * drive * (high if drive >= 0.0 else -low) / actuator.voltage_swing
-
-
-def drive_of(actuator: Actuator, swing: float) -> float:
-    """The inverse, within −100…100."""
-    if not isinstance(actuator, PiezoPly):
-        return min(max(100.0 * swing, -100.0), 100.0)
-    side = actuator.voltage_range[1] if swing >= 0.0 else -actuator.voltage_range[0]
-    return min(max(100.0 * swing * actuator.voltage_swing / side, -100.0), 100.0) if side else 0.0
 
 
 @lru_cache(maxsize=16)

@@ -117,7 +117,7 @@ class AssessedPart:
 
     `tip`, `reach`, `wanted`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`.
     `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
-    `said`: all of it in a sentence. `pays`: words, and every second one a number with which it would pay, the other
+    `sentence`: all of it. `pays`: words, and every second one a number with which it would pay, the other
     as it is: `range` of twist [°], `kilograms`.
     """
 
@@ -134,7 +134,7 @@ class AssessedPart:
     problem: str
     against: str
     baselines: tuple[tuple[str, str], ...]
-    said: str
+    sentence: str
     pays: tuple[str, ...]
     range: float
     kilograms: float

@@ -1,50 +1,27 @@
 """The blade lifted out of the rotor, as arrays: skin, spar, web and actuator from the true sections, and its camera.
 
-Axes of a blade: x outward, y to the leading edge, z up. It is drawn `CHORD_SCALE` times as wide as it is long.
+Axes of a blade: x outward, y to the leading edge, z up. It is drawn `CHORD_EXAGGERATION` times as wide as it is long.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from explorer.picture.blade_mesh import Mesh
+from explorer.picture.actuator_drawings import DRAWINGS, RING, SIDES, BladePart, Span, side_line, stations
+from explorer.picture.blade_mesh import Mesh, section_ring
 from explorer.picture.camera_views import Camera, framed
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
-from rotor.actuator import InstalledActuator, PiezoPly, TorqueTube
-from rotor.actuator.pictures import electronics_station
-from rotor.actuator.section import SectionSpec, section_spec, skin
-from rotor.dynamics.structure import structure_data, uh60a_structure
+from rotor.actuator import InstalledActuator
+from rotor.dynamics.structure import structure_data
 from rotor.support.arrays import Array
 
-CHORD_SCALE = 2.7
+CHORD_EXAGGERATION = 2.7
 """A blade is sixteen times as long as it is wide: drawn so, its plies would be threads."""
-PLY_SCALE = 5.0
-"""Plies are drawn this much thicker, or they would be lines."""
-SIDES = ("upper", "lower")
-LIFT = 0.0008
-"""Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
 ORIGIN_R = 0.55
 """r/R of the origin."""
-Span = tuple[float, float]
-
-
-@dataclass(frozen=True, eq=False)
-class BladePart:
-    """One piece: a line across the chord, thickened, at each station."""
-
-    role: str
-    """skin, spar, web, ply, tube or laminate."""
-    segment: int
-    """The electrical segment that it belongs to; −1 for a piece that is not driven."""
-    r: Array
-    """(stations,)."""
-    outer: Array
-    """(stations, points, 2): y, z."""
-    inner: Array | None = None
-    """None for a sheet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,86 +52,33 @@ class LiftedBlade:
 @lru_cache(maxsize=8)
 def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     """The pieces for an actuator on a blade."""
-    spec = section_spec(uh60a_structure(rotor.radius), installed.host)
     data = structure_data()["section"]
-    placement, actuator = installed.placement, installed.actuator
     web = float(data["spar_web_c"] if installed.host.kind == "retrofit" else data["box_end_c"])
     r = stations((rotor.blade.root_cutout, 1.0), 32)
-    rings = np.stack([outline(spec, rotor, float(at)) for at in r])
-    spar = np.stack([_within(spec, rotor, float(at), web) for at in r])
-    pieces = [BladePart("skin", -1, r, rings), BladePart("spar", -1, r, spar), _web(spec, rotor, web, r)]
-    driven = [(k, span) for k, span in enumerate(placement.segments) if span[1] - span[0] > 1e-6]
-    if isinstance(actuator, PiezoPly):
-        far = LIFT + PLY_SCALE * placement.plies * actuator.thickness
-        pieces += [_ply(spec, rotor, side, placement.chord, span, far, k) for k, span in driven for side in SIDES]
-    elif isinstance(actuator, TorqueTube):
-        del pieces[1]  # The spar would hide what it carries.
-        pieces += [_tube(0.5 * actuator.diameter, span, k) for k, span in driven]
-    else:
-        pieces.append(BladePart("laminate", 0, r, 1.012 * rings))
-    return LiftedBlade(tuple(pieces), rings, r, electronics_station(installed), rotor.radius)
+    rings = np.stack([section_ring(rotor, float(at), RING) for at in r])
+    drawing = DRAWINGS[type(installed.actuator)]
+    pieces = [BladePart("skin", -1, r, rings), _web(rotor, web, r), *drawing.pieces(installed, rotor)]
+    if not drawing.in_spar:
+        spar = np.stack([_within(rotor, float(at), web) for at in r])
+        pieces.insert(1, BladePart("spar", -1, r, spar))
+    return LiftedBlade(tuple(pieces), rings, r, installed.electronics_span, rotor.radius)
 
 
-def _ply(spec: SectionSpec, rotor: Rotor, side: str, chord: Span, span: Span, far: float, segment: int) -> BladePart:
-    """Plies on one side, from `LIFT` to `far` off the contour [m]."""
-    r = stations(span, 28)
-    lines = np.stack([_line(spec, rotor, float(at), side, chord, 14) for at in r])
-    along = np.gradient(lines, axis=1)
-    normal = np.stack((-along[..., 1], along[..., 0]), axis=-1)
-    normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
-    # Towards the outside: up on the upper side; the line runs aft, to −y.
-    normal *= -1.0 if side == "upper" else 1.0
-    return BladePart("ply", segment, r, lines + far * normal, lines + LIFT * normal)
-
-
-def _web(spec: SectionSpec, rotor: Rotor, at: float, r: Array) -> BladePart:
+def _web(rotor: Rotor, at: float, r: Array) -> BladePart:
     """The wall across the section at x/c."""
     lines = []
     for station in r:
-        top, bottom = (_line(spec, rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
+        top, bottom = (side_line(rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
         lines.append(bottom + np.linspace(0.0, 1.0, 3)[:, None] * (top - bottom))
     rear = np.stack(lines)
     return BladePart("web", -1, r, rear, rear + np.array([0.012, 0.0]))
 
 
-def _tube(radius: float, span: Span, segment: int) -> BladePart:
-    """A torque tube about the quarter chord."""
-    r = stations(span, 28)
-    angle = np.linspace(0.0, 2.0 * np.pi, 21)
-    circle = np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    size = min(radius, 0.02)
-    outer = np.broadcast_to(size * circle, (len(r), 21, 2))
-    return BladePart("tube", segment, r, outer, 0.8 * outer)
-
-
-def outline(spec: SectionSpec, rotor: Rotor, r: float) -> Array:
-    """From the upper trailing edge over the nose to the lower one, (points, 2)."""
-    upper, lower = (_line(spec, rotor, r, side, (0.0, 1.0), 20) for side in SIDES)
-    return np.concatenate((upper[::-1], lower[1:]))
-
-
-def _within(spec: SectionSpec, rotor: Rotor, r: float, web: float) -> Array:
+def _within(rotor: Rotor, r: float, web: float) -> Array:
     """The spar, a little inside the skin so that the two do not share a surface, (points, 2)."""
-    upper, lower = (_line(spec, rotor, r, side, (0.0, web), 12) for side in SIDES)
+    upper, lower = (side_line(rotor, r, side, (0.0, web), 12) for side in SIDES)
     ring = np.concatenate((upper[::-1], lower[1:]))
     return ring.mean(axis=0) + 0.95 * (ring - ring.mean(axis=0))
-
-
-def stations(span: Span, whole: int) -> Array:
-    """r/R at which a stretch is drawn; `whole`: how many a blade would have from hub to tip."""
-    return np.linspace(*span, max(2, round(whole * (span[1] - span[0])) + 1))
-
-
-def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: Span, points: int) -> Array:
-    """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
-    inner, outer, weight = rotor.blade.section_at(r)
-    scale = float(rotor.blade.chord(r)) / spec.chord
-    line = np.zeros((points, 2))
-    for name, share in ((inner, 1.0 - weight), (outer, weight)):
-        if share:
-            contour = "sc1094r8" if name.startswith("sc1094r8") else "sc1095"
-            line += share * skin(replace(spec, contour=contour), side, *chord, points)
-    return scale * np.stack((0.25 * spec.chord - line[:, 0], line[:, 1]), axis=1)
 
 
 def part_mesh(blade: LiftedBlade, part: BladePart, twist: Array) -> Mesh:
@@ -224,7 +148,7 @@ def lead_segments(blade: LiftedBlade, twist: Array) -> Array:
 
     `twist` at the blade's rings.
     """
-    starts = sorted({float(part.r[0]) for part in blade.parts if part.role in ("ply", "tube")})
+    starts = sorted({float(part.r[0]) for part in blade.parts if part.segment >= 0})
     lines: list[Array] = []
     for number, start in enumerate(starts):
         end = _box_end(blade)
@@ -265,7 +189,7 @@ def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float
 def _turned(blade: LiftedBlade, r: Array, lines: Array, twist: Array) -> Array:
     """(stations, points, 2) with a nose-up twist at each → (stations, points, 3), drawn wider."""
     cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
-    y, z = CHORD_SCALE * lines[..., 0], CHORD_SCALE * lines[..., 1]
+    y, z = CHORD_EXAGGERATION * lines[..., 0], CHORD_EXAGGERATION * lines[..., 1]
     x = np.broadcast_to(blade.outward(r)[:, None], y.shape)
     return np.stack((x, y * cos - z * sin, y * sin + z * cos), axis=-1)
 

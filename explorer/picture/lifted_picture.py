@@ -10,21 +10,12 @@ from explorer.colours import Rgb
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.units import number
 from explorer.picture import lifted_blade as lifted
+from explorer.picture.actuator_drawings import DRAWINGS, Glow, PieceStyle
 from explorer.picture.blade_mesh import Mesh
 from explorer.text.readout import mass_parts
 from rotor import Design, Solution
-from rotor.actuator import ExtensionTwist, InstalledActuator, PiezoPly, TorqueTube
+from rotor.actuator import Actuator, InstalledActuator
 from rotor.support.arrays import Array
-
-
-@dataclass(frozen=True)
-class PieceStyle:
-    """How a piece of the lifted blade looks; albedos are dark, for the page's lights bleach."""
-
-    colour: Rgb
-    opacity: float | None = None
-    """None: opaque."""
-
 
 SURFACES = {
     "skin": PieceStyle((92, 106, 130), 0.34),
@@ -32,9 +23,6 @@ SURFACES = {
     "web": PieceStyle((30, 34, 42)),
     "shank": PieceStyle((40, 44, 52)),
     "box": PieceStyle((14, 42, 30)),
-    "ply": PieceStyle((70, 40, 22)),
-    "tube": PieceStyle((60, 34, 24)),
-    "laminate": PieceStyle((90, 84, 60), 0.5),
 }
 EDGE: Rgb = (178, 20, 6)
 """Colour of the lifted blade's edge, as of the reference blade."""
@@ -44,7 +32,7 @@ FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
-TWIST_SCALE = 8.0
+TWIST_EXAGGERATION = 8.0
 """By how much the actuator's part of the twist is exaggerated; the numbers stay true."""
 
 
@@ -54,8 +42,7 @@ class StyledMesh:
 
     mesh: Mesh
     surface: PieceStyle
-    glow: tuple[Rgb, float] | None = None
-    """Colour and strength, 0…1."""
+    glow: Glow | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,13 +88,13 @@ def lifted_picture(
     *,
     pays: bool = False,
 ) -> LiftedPicture:
-    """The blade with the actuator's part of its twist `TWIST_SCALE` as large; `design` is without actuator.
+    """The blade with the actuator's part of its twist `TWIST_EXAGGERATION` as large; `design` is without actuator.
 
     With `flown` blade and overlay have their elastic twist; the overlay is the blade without voltage. `pays`: a
     supposed actuator does, and what is driven lights green.
     """
     rotor = design.rotor
-    blade = lifted.lifted_blade(installed, rotor)
+    blade, drawing = lifted.lifted_blade(installed, rotor), DRAWINGS[type(installed.actuator)]
 
     def still(r: Array) -> Array:
         jig = design.twist(np.maximum(r, rotor.blade.root_cutout))
@@ -117,23 +104,24 @@ def lifted_picture(
         return inputs.change(installed, r) if flown is None else np.interp(r, flown.r, flown.moved)
 
     def twist(r: Array) -> Array:
-        return still(r) + TWIST_SCALE * moved(r)
+        return still(r) + TWIST_EXAGGERATION * moved(r)
 
     shares = inputs.drive_shares(installed)
     solids: dict[str, StyledMesh] = {}
     fibres: list[Array] = []
     for part in blade.parts:
-        driven = part.segment >= 0
-        name = f"drive_{sum(key.startswith('drive') for key in solids)}" if driven else part.role
-        light = drive_glow(shares[part.segment], part.role) if driven and part.role != "laminate" else None
-        light = _PAYS if driven and pays else light
-        solids[name] = StyledMesh(lifted.part_mesh(blade, part, twist(part.r)), SURFACES[part.role], light)
-        if part.role in ("ply", "laminate"):
+        mesh = lifted.part_mesh(blade, part, twist(part.r))
+        if part.segment < 0:
+            solids[part.role] = StyledMesh(mesh, SURFACES[part.role])
+            continue
+        light = _PAYING_GLOW if pays else drawing.glow and drawing.glow(shares[part.segment])
+        solids[f"drive_{sum(key.startswith('drive') for key in solids)}"] = StyledMesh(mesh, drawing.style, light)
+        if drawing.fibres:
             fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
     root = float(twist(np.array([rotor.blade.root_cutout]))[0])
     shank, box = lifted.root_parts(blade, rotor, root)
     solids["shank"] = StyledMesh(shank, SURFACES["shank"])
-    if not isinstance(installed.actuator, ExtensionTwist):
+    if installed.masses.electronics:
         solids["box"] = StyledMesh(box, SURFACES["box"])
     rings = twist(blade.r)
     ends = float(still(np.ones(1))[0]), float(twist(np.ones(1))[0])
@@ -142,9 +130,9 @@ def lifted_picture(
         solids,
         {
             "edges": lifted.edge_segments(blade, rings),
-            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NONE,
-            "leads": lifted.lead_segments(blade, rings),
-            "fibres": np.concatenate(fibres) if fibres else _NONE,
+            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NO_SEGMENTS,
+            "leads": lifted.lead_segments(blade, rings) if installed.masses.wiring else _NO_SEGMENTS,
+            "fibres": np.concatenate(fibres) if fibres else _NO_SEGMENTS,
             "arrow": lifted.arc_segments(blade, *ends),
             "leaders": leaders,
         },
@@ -153,35 +141,21 @@ def lifted_picture(
     )
 
 
-_NONE = np.zeros((0, 2, 3))
-_PAYS: tuple[Rgb, float] = (0, 150, 60), 0.6
+_NO_SEGMENTS = np.zeros((0, 2, 3))
+_PAYING_GLOW: Glow = (0, 150, 60), 0.6
 
 
-def drive_glow(share: float, role: str = "ply") -> tuple[Rgb, float]:
-    """Light of a driven piece at −1…1 of its range: amber, blue for negative voltage; the heat of a tube."""
-    strength = min(abs(share), 1.0)
-    if role == "tube":
-        return (255, round(30 + 60 * strength), 0), strength
-    return ((255, 78, 0) if share >= 0.0 else (0, 66, 255)), strength
-
-
-def drive_colour(share: float) -> Rgb:
-    """Colour of a drawing's ply at −1…1 of its range: its own colour where it is not driven."""
-    colour, strength = drive_glow(share)
-    return mixed_colour(SURFACES["ply"].colour, colour, strength)
+def drive_colour(actuator: Actuator, share: float) -> Rgb:
+    """Colour in which it is drawn at −1…1 of its drive: its own colour where it is not driven."""
+    drawing = DRAWINGS[type(actuator)]
+    colour = drawing.style.colour
+    return mixed_colour(colour, *drawing.glow(share)) if drawing.glow else colour
 
 
 def mixed_colour(rgb: Rgb, other: Rgb, share: float) -> Rgb:
     """A colour on the way from one to another."""
     red, green, blue = (round(a + (b - a) * share) for a, b in zip(rgb, other, strict=True))
     return red, green, blue
-
-
-def drive_text(inputs: ActuatorInputs, installed: InstalledActuator, segment: int) -> str:
-    """What drives a segment, in words."""
-    if isinstance(installed.actuator, PiezoPly):
-        return f"{number(inputs.volts(installed)[segment], sign=True)} V"
-    return f"{number(100.0 * inputs.drive_shares(installed)[segment], sign=True)} %"
 
 
 def _labels(
@@ -198,8 +172,10 @@ def _labels(
         foot = lifted.twisted_point(blade, r, y, z, float(twist(np.array([r]))[0]))
         places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
 
-    masses = mass_parts(installed)
-    named = {name: f"{mass} kg of {name}" for name, mass in masses.items()}
+    named = {name: f"{mass} kg of {name}" for name, mass in mass_parts(installed).items()}
+    what = named.get(installed.actuator.noun[1], installed.actuator.name)
+    if "crossed" in installed.actuator.settings:
+        what += f" at {'−45' if inputs.crossed else '45'}°"
     inner, outer = blade.spans[0][0], blade.spans[-1][1]
     for name, r, y, above in (
         ("electronics", sum(blade.box) / 2.0, 0.0, 0.95),
@@ -209,18 +185,11 @@ def _labels(
         if name in named:
             put(named[name], r, y, 0.1 if name == "electronics" else 0.02, above)
     for k, (low, high) in enumerate(blade.spans):
-        drive = drive_text(inputs, installed, k)
-        text = f"{_what(inputs, installed, named)}, {drive}" if not k else f"{k + 1}: {drive}"
+        drive = inputs.drive_text(installed, k)
+        text = f"{what}, {drive}" if not k else f"{k + 1}: {drive}"
         put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
-        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_SCALE:g}"
+        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
         put(words, 1.0, -0.52, 0.0, -0.45, "tip")
     lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
-    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NONE
-
-
-def _what(inputs: ActuatorInputs, installed: InstalledActuator, masses: dict[str, str]) -> str:
-    """The actuator where it sits, and what it weighs in all blades."""
-    if isinstance(installed.actuator, PiezoPly):
-        return f"{masses['plies']} at {'−45' if inputs.crossed else '45'}°"
-    return masses["tubes"] if isinstance(installed.actuator, TorqueTube) else installed.actuator.name
+    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NO_SEGMENTS

@@ -22,7 +22,7 @@ from explorer.tabs.actuator.actuator_panel import ActuatorPanel
 from explorer.tabs.context import Tab, TabContext
 from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
-from explorer.views.assessed import Assessed, assessed, effect_asked
+from explorer.views.actuated import ActuatedBlade, actuated_blade, effect_asked
 from explorer.views.page_state import PageState
 from rotor.support.markup import tag
 
@@ -73,14 +73,14 @@ class ExportPanel(Tab):
         """The last good answer is still exported, and the line says so."""
         self._stale = True
 
-    def _driven(self) -> Assessed | None:
+    def _driven(self) -> ActuatedBlade | None:
         """The actuator, where it twists the blade, and what it does here, worked out where that is not known."""
         now = self._now()
         if not now.hand.actuator.driven:
             return None
         call = effect_asked(now)
         known = {} if call is None or call in now.answers else {call: call.run()}
-        return assessed(replace(now, answers={**now.answers, **known}))
+        return actuated_blade(replace(now, answers={**now.answers, **known}))
 
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design

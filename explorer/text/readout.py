@@ -13,7 +13,7 @@ from explorer.model.inputs import baseline_title
 from explorer.model.units import BLANK, SI, WATT, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
-from rotor.actuator import InstalledActuator, PiezoPly, Verdict
+from rotor.actuator import InstalledActuator, Verdict
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import sureness
@@ -317,9 +317,8 @@ def needs_words(net: float, band: float | None, units: Units) -> str:
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:
     """What an actuator adds to the aircraft: kilograms of each part in all blades, which add up to those in all."""
     masses, blades = installed.masses, installed.masses.blades
-    made = "plies" if isinstance(installed.actuator, PiezoPly) else "tubes"
     parts = {
-        made: blades * masses.actuator,
+        installed.actuator.noun[1]: blades * masses.actuator,
         "electronics": masses.electronics,
         "leads": blades * masses.wiring,
         "nose weight": blades * masses.balance,

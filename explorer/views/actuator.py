@@ -13,16 +13,16 @@ from explorer.views import actuator_words as words
 from explorer.views.actuated import actuated_blade, in_actuate, problem
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
-from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.catalogue import actuators
 from rotor.actuator.installation import InstalledActuator
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.files.make_design import uh60a_rotor
 
-_STILL = 0.4
+_DELAY_S = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
-_IDLE = 2.5
+_IDLE_DELAY_S = 2.5
 """How long the page must have been still before work is begun that nobody asked for [s]."""
-_FULL = 100.0
+_FULL_DRIVE = 100.0
 """The whole voltage on its slider [%]."""
 DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 """Names of the sliders of voltage."""
@@ -37,7 +37,7 @@ def asks(now: PageState) -> tuple[Questions, ...]:
     flown = one.flight is not None or isinstance(one.outcome, str)
     flight = () if one.flight_task is None else (one.flight_task,)
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return Questions(3, (first,), _STILL), Questions(4, flight, 0.0), Questions(7, beside, _IDLE)
+    return Questions(3, (first,), _DELAY_S), Questions(4, flight, 0.0), Questions(7, beside, _IDLE_DELAY_S)
 
 
 def view(now: PageState) -> dict[str, Any]:
@@ -66,20 +66,16 @@ class FormLook:
 
 def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
     actuator, count = installed.actuator, len(installed.shapes)
-    ply, passive = isinstance(actuator, PiezoPly), isinstance(actuator, ExtensionTwist)
-    word = "Voltage" if ply else "Drive"
+    word = actuator.drive_noun.capitalize()
     return FormLook(
         {
             **{name: k < count for k, name in enumerate(DRIVES)},
-            "plies": not passive,
-            "span": not passive,
-            "chord": ply,
-            "crossed": ply,
+            **{name: name in actuator.settings for name in ("plies", "span", "chord", "crossed")},
             "stiffness": inputs.blade == "new",
         },
         {
             **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
-            "plies": "Tubes" if isinstance(actuator, TorqueTube) else "Plies per side",
+            "plies": f"{actuator.noun[1].capitalize()}{' per side' if actuator.on_skin else ''}",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
             "advance_ratios": "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios),
@@ -104,24 +100,18 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
     if one is None:
         return ()
     if share is None:
-        nose_up = replace(inputs, drives=(_FULL,) * MOST_SEGMENTS).tip(one.installed)
-        return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL, nose_up))}),)
+        nose_up = replace(inputs, drives=(_FULL_DRIVE,) * MOST_SEGMENTS).tip(one.installed)
+        return (SetHand({"pulled": (inputs.drives, -math.copysign(_FULL_DRIVE, nose_up))}),)
     start, whole = now.hand.pulled
     if not start:  # It was not taken.
         return ()
-    drives = tuple(min(max(drive + share * whole, -_FULL), _FULL) for drive in start)
+    drives = tuple(min(max(drive + share * whole, -_FULL_DRIVE), _FULL_DRIVE) for drive in start)
     return (SetHand(BY_HAND, {"drives": drives}),)
 
 
 def actuator_titles() -> dict[str, str]:
     """Titles of the menu of actuators, by id."""
-    return {id: f"{id.replace('_', ' ')}: {_kind(actuator)}" for id, actuator in actuators().items()}
-
-
-def _kind(actuator: Actuator) -> str:
-    if isinstance(actuator, PiezoPly):
-        return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
-    return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
+    return {id: f"{id.replace('_', ' ')}: {actuator.mode}" for id, actuator in actuators().items()}
 
 
 ACTUATOR = Panel(view, in_actuate, asks, presses={"pull": pull})

@@ -7,11 +7,9 @@ import numpy as np
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import number
-from explorer.picture.lifted_picture import drive_colour, drive_text
+from explorer.picture.lifted_picture import drive_colour
 from explorer.text.readout import mass_words
-from rotor.actuator.catalogue import Actuator, PiezoPly
-from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.limits import Limit
+from rotor.actuator.kind import Actuator, InstalledActuator, Limit
 from rotor.actuator.verdict import Verdict
 from rotor.support.markup import Markup, tag
 from rotor.support.units import typographic
@@ -22,15 +20,13 @@ _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 
 
 def voltage_bar(actuator: Actuator) -> Markup:
-    """The colours of the plies: both sides of the voltage range, each to its own end."""
-    low, high, unit = -100.0, 100.0, "%"
-    if isinstance(actuator, PiezoPly):
-        low, high, unit = *actuator.voltage_range, "V"
-    stops = ",".join(css(drive_colour(k / 8.0)) for k in range(-8, 9))
+    """The colours that it is drawn in: both sides of its drive, each to its own end."""
+    low, high = actuator.drive_range
+    stops = ",".join(css(drive_colour(actuator, k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks: list[Markup] = []
     for at, value in marks:
-        words = f"{number(value)} {unit}" if at == 100.0 else number(value)
+        words = f"{number(value)} {actuator.drive_unit}" if at == 100.0 else number(value)
         shift = f"left:{at:g}%{_SHIFT.get(at, '')};white-space:nowrap"
         ticks += [tag("i", style=f"left:{at:g}%"), tag("span", words, style=shift)]
     colours = tag("div.rx-gradient", style=f"background:linear-gradient(90deg,{stops})")
@@ -40,7 +36,7 @@ def voltage_bar(actuator: Actuator) -> Markup:
 def now_panel(inputs: ActuatorInputs, installed: InstalledActuator) -> Markup:
     """What the sliders make of the blade at this moment."""
     tip = math.degrees(inputs.tip(installed))
-    drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
+    drives = " · ".join(inputs.drive_text(installed, k) for k in range(len(installed.shapes)))
     words = f"tip twist at {drives}" if inputs.driven else "tip twist, at rest"
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
     return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP), data_explorer="actuator-now")

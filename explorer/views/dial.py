@@ -15,8 +15,7 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import in_actuate
-from explorer.views.assessed import change_here, effect_asked, fitted, pair_compared
+from explorer.views.actuated import change_here, effect_asked, fitted, in_actuate, pair_compared
 from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, Questions, SetGrabbed
 from explorer.workers.call import Call
@@ -29,18 +28,18 @@ from rotor.support.markup import tag
 from rotor.trim import why_no_hub_loads
 from rotor.trim.hub_loads import band_inflows
 
-_REACH = 1.5
+_MIN_REACH_DEG = 1.5
 """Radius of the dial [°]; active twist rotors have reached 1.1 to 1.4°."""
-_SHAKE = 5e4
+_SHAKE_EXAGGERATION = 5e4
 """By how much the shaking of the cabin is exaggerated; a rigid helicopter would move by F/(m (N_b Ω)²)."""
-_FRONT_REACH = 1.0
+_FRONT_REACH_DEG = 1.0
 """Largest amplitude of the front where no actuator says one [°]."""
-_LEAST = 0.02
+_MIN_AMPLITUDE_DEG = 0.02
 """An amplitude below this [°] is none."""
 _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
-_URGENCY, _LATER, _STILL = 3, 5, 0.4
+_URGENCY, _LATER, _DELAY_S = 3, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 
@@ -50,7 +49,7 @@ def _asked(now: PageState) -> tuple[Call, ...]:
     if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
         return ()
     losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
-    reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH
+    reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH_DEG
     both, calls = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
     for inflow in dict.fromkeys((pair[0].models.inflow, *band_inflows())):
         flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
@@ -61,8 +60,8 @@ def _asked(now: PageState) -> tuple[Call, ...]:
 def asks(now: PageState) -> tuple[Questions, ...]:
     """What is trimmed first; then two processes share the inflow models."""
     trimmed, calls = now.of(effect_asked), now.of(_asked)
-    first = Questions(_URGENCY, () if trimmed is None else (trimmed,), _STILL)
-    return first, Questions(_LATER, calls[::2], _STILL), Questions(_LATER + 1, calls[1::2], _STILL)
+    first = Questions(_URGENCY, () if trimmed is None else (trimmed,), _DELAY_S)
+    return first, Questions(_LATER, calls[::2], _DELAY_S), Questions(_LATER + 1, calls[1::2], _DELAY_S)
 
 
 def _answer(now: PageState) -> DialMatrix | str | None:
@@ -75,7 +74,7 @@ def _answer(now: PageState) -> DialMatrix | str | None:
 
 
 def _waits(now: PageState) -> bool:
-    """Whether not every inflow model has answered yet: then nothing is said to be best."""
+    """Whether not every inflow model has answered yet: then nothing is called best."""
     return any(now.answers.get(call) is None for call in now.of(_asked))
 
 
@@ -110,7 +109,7 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
-    reach = max(_REACH, *(math.ceil(_polar(wave)[0]) for wave in waves), 0.0)
+    reach = max(_MIN_REACH_DEG, *(math.ceil(_polar(wave)[0]) for wave in waves), 0.0)
     return DialPart(
         harmonics=HARMONICS,
         now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
@@ -127,8 +126,8 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         unit=unit.symbol,
         per_watt=unit.of(1.0),
         front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in now.of(_dots)),
-        exaggerated=number(_SHAKE),
-        shake=_SHAKE / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
+        exaggerated=number(_SHAKE_EXAGGERATION),
+        shake=_SHAKE_EXAGGERATION / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
         held=now.ui.held,
     )
 
@@ -177,9 +176,9 @@ DIAL = Panel(view, in_actuate, asks, presses={"dial": move_dot, "dial_front": ta
 
 
 def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:
-    """The harmonics with this one at another amplitude and phase [°]; none below `_LEAST`."""
+    """The harmonics with this one at another amplitude and phase [°]; none below `_MIN_AMPLITUDE_DEG`."""
     kept = [wave for wave in waves if wave.per_rev != per_rev]
-    if amplitude >= _LEAST:
+    if amplitude >= _MIN_AMPLITUDE_DEG:
         kept.append(Harmonic(per_rev, math.radians(min(amplitude, 20.0)), math.radians(phase % 360.0)))
     return tuple(sorted(kept, key=lambda wave: wave.per_rev))
 
@@ -259,13 +258,13 @@ def _published(shown: Sequence[Programme]) -> Points:
 
 def programme_words(result: Programme) -> str:
     """A published result in a sentence or two, with its source."""
-    said = [f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"]
+    parts = [f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"]
     if result.vibration_percent is not None:
-        said.append(f"{result.vibration} {_range(result.vibration_percent)}")
+        parts.append(f"{result.vibration} {_range(result.vibration_percent)}")
     if result.power_change_percent is not None:
-        said.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
+        parts.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
     apart = "" if result.together or result.power_change_percent is None else " The two are separate best results."
-    return f"{', '.join(said)}.{apart} {result.note} {result.source}."
+    return f"{', '.join(parts)}.{apart} {result.note} {result.source}."
 
 
 def _range(ends: tuple[float, float]) -> str:

@@ -10,7 +10,6 @@ import numpy as np
 from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
 from rotor.actuator import InstalledActuator, tip_amplitude, with_actuator_mass
-from rotor.actuator.installation import harmonic_loss
 from rotor.aero.bending import can_bend
 from rotor.design import Harmonic, TwistLaw
 from rotor.optimisation.vibration import front_twists
@@ -26,8 +25,8 @@ _DIGITS = 6
 
 @dataclass(frozen=True)
 class FittedBlade:
-    """The actuator on the blade, with the steady voltage of each segment [V], and the blade that power and vibration
-    are compared with: its twist, None while it is being worked out, and what it is called."""
+    """The actuator on the blade, with the steady drive of each segment in its unit, and the blade that power and
+    vibration are compared with: its twist, None while it is being worked out, and what it is called."""
 
     installed: InstalledActuator
     volts: tuple[float, ...]
@@ -44,8 +43,8 @@ class FittedBlade:
         """Heat in the plies of all blades for 1° at each harmonic of the dial [W]."""
         if not self.whole:
             return [0.0] * len(HARMONICS)
-        omega, blades = self.installed.beam.angular_speed, self.installed.masses.blades
-        return [blades * harmonic_loss(self.installed, n, 1.0 / self.whole, omega) for n in HARMONICS]
+        kind, blades = self.installed.actuator, self.installed.masses.blades
+        return [blades * kind.harmonic_loss(self.installed, n, 1.0 / self.whole) for n in HARMONICS]
 
 
 def compared(design: Design, undriven: Design, fitted: FittedBlade | None) -> tuple[Design, Design] | None:

@@ -10,28 +10,27 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AT_REST, HandSettings, drive_of
+from explorer.model.actuator_inputs import AT_REST, HandSettings
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out
-from explorer.views.assessed import assessed, parts_asked, parts_here
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
-from rotor.actuator import ActuatorFlight, FlightLeg, PiezoPly, Verdict
+from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 
 BY_HAND: Mapping[str, Any] = {"flown": None, "stopped": False}
 """What of `HandSettings` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
-HALVES = 2
-"""Points of the curve for each leg of the flight; every `HALVES`-th is a leg with a name."""
-_LEAST = 1.5
+POINTS_PER_LEG = 2
+"""Points of the curve for each leg of the flight; every `POINTS_PER_LEG`-th is a leg with a name."""
+_MIN_HEIGHT_DEG = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
 
 
 def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
     """µ and rate of climb [m/s] at a place of the bar, which counts named legs from 0; between legs straight."""
-    at = np.arange(len(legs)) / HALVES
+    at = np.arange(len(legs)) / POINTS_PER_LEG
     mu = float(np.interp(x, at, [leg.advance_ratio for leg in legs]))
     climb = float(np.interp(x, at, [leg.climb_speed for leg in legs]))
     return round(mu, 3), round(climb, 2)
@@ -39,7 +38,7 @@ def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
 
 def position_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
     """Where on the bar an advance ratio is: it grows from leg to leg."""
-    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / HALVES))
+    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / POINTS_PER_LEG))
 
 
 def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
@@ -78,21 +77,20 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     known = one.flight if isinstance(one.flight, ActuatorFlight) else None
     problem = one.flight if isinstance(one.flight, str) else wrong
     shown = None if problem else known or _last(now)
-    value = assessed(now)
-    tip = math.degrees(0.0 if value is None else value.tip)
+    tip = math.degrees(one.inputs.tip(one.installed))
     frozen = tip if hand.stopped else None
     words = problem or ("" if known else "computing…")
     if hand.stopped and now.state is not None and not problem:
         words = _failed_words(numbers_of(now.state.solution, one.design.twist), now.units)
     return FlightPart(
-        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::HALVES]),
+        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::POINTS_PER_LEG]),
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
         words=words,
         flown=hand.flown is not None and not hand.stopped,
         frozen=frozen,
         tip=f"{number(tip, 2, sign=True)}°",
-        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / HALVES, frozen)),
+        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / POINTS_PER_LEG, frozen)),
     )
 
 
@@ -108,12 +106,12 @@ def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | Non
     `frozen`: twist of an actuator that has stopped [°], the same wherever it flies.
     """
     series: list[Series] = []
-    low, high = -_LEAST, _LEAST
+    low, high = -_MIN_HEIGHT_DEG, _MIN_HEIGHT_DEG
     if flight is not None:
         wanted, reached, reach = (np.degrees(angles) for angles in (flight.wanted, flight.reached, flight.reach))
         curves = np.concatenate((wanted, reached, reach))
         low, high = min(low, float(curves.min())), max(high, float(curves.max()))
-        at, held = np.arange(len(wanted)) / HALVES, np.clip(wanted, *reach)
+        at, held = np.arange(len(wanted)) / POINTS_PER_LEG, np.clip(wanted, *reach)
         series += [
             Band("", at, np.full(len(at), reach[0]), np.full(len(at), reach[1]), "var(--rx-dim)"),
             Band("", at, held, wanted, "var(--rxa-fill-loss)"),
@@ -193,7 +191,7 @@ def fly_to(now: PageState, x: float) -> tuple[Effect, ...]:
     """
     if (one := actuated_blade(now)) is None:
         return ()
-    flown = min(max(float(x), 0.0), (len(one.legs) - 1) / HALVES)
+    flown = min(max(float(x), 0.0), (len(one.legs) - 1) / POINTS_PER_LEG)
     mu, climb = condition_at(one.legs, flown)
     there, hand = MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb)), now.hand
     if hand.stopped:
@@ -232,13 +230,13 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
     if flight is None or not flight.swings:
         return {}
-    actuator, shares = one.installed.actuator, np.asarray(flight.swings, dtype=float)
+    actuator, shares, volts = one.installed.actuator, np.asarray(flight.swings), np.asarray(flight.voltages)
     changes: dict[str, Any] = {}
-    if isinstance(actuator, PiezoPly):
-        wanted, shares = shares, np.asarray(flight.voltages, dtype=float) / actuator.voltage_swing
+    if volts.size:
+        wanted, shares = shares, volts / actuator.drive_swing
         changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
     legs = np.arange(len(shares))
-    drives = [drive_of(actuator, float(np.interp(HALVES * x, legs, share))) for share in shares.T]
+    drives = [100.0 * actuator.share_of(float(np.interp(POINTS_PER_LEG * x, legs, share))) for share in shares.T]
     return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
 
 

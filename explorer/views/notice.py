@@ -36,15 +36,15 @@ def notice(now: PageState) -> dict[str, Any]:
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
     """One's own power against the optimiser's, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    said, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
+    optimum, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
     if abs(change) < _EQUAL:
-        return f"{said}, yours the same"
+        return f"{optimum}, yours the same"
     if band is None:
-        return f"{said}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
+        return f"{optimum}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
     within = unit.of(band.change_band or 0.0)
     digits = max(decimals(within), 1)
     amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)}"
-    return f"{said}, yours {amount} {unit.symbol} {way}: {band.sureness}"
+    return f"{optimum}, yours {amount} {unit.symbol} {way}: {band.sureness}"
 
 
 NOTICE = Panel(notice, works=optimised_doubt)

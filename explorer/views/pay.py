@@ -1,7 +1,7 @@
 """What would pay: the mass that the actuator as set might have, over its range, and where real and supposed ones stand.
 
 The supposed actuator is dragged (`explorer/web/flight.js`) and stays in the address. Line and balance are those of
-`explorer.views.assessed`: at the chosen actuator both say the same.
+`explorer.views.actuated`: at the chosen actuator both say the same.
 """
 
 import math
@@ -15,8 +15,7 @@ from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
-from explorer.views.actuated import blade_out
-from explorer.views.assessed import Assessed, PowerChange, assessed, here_problem
+from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, blade_out, here_problem
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
@@ -29,9 +28,9 @@ _PLACE = re.compile(",".join([r"\d{1,5}(?:\.\d{1,4})?"] * 2), re.ASCII)
 _LINE, _PAYS = "#1c7ed6", "#0ca678"
 
 
-def _verdicts(value: Assessed) -> list[Verdict]:
+def _verdicts(one: ActuatedBlade) -> list[Verdict]:
     """As far as there are any, the chosen actuator's first."""
-    return [outcome for outcome in value.one.outcomes.values() if isinstance(outcome, Verdict)]
+    return [outcome for outcome in one.outcomes.values() if isinstance(outcome, Verdict)]
 
 
 def view(now: PageState) -> dict[str, Any]:
@@ -42,18 +41,18 @@ def view(now: PageState) -> dict[str, Any]:
 
 def _stage(now: PageState) -> SupposePart | None:
     """What the page draws; None where it shows the balance of power."""
-    value = assessed(now) if now.hand.on_stage else None
-    if value is None:
+    one = actuated_blade(now) if now.hand.on_stage else None
+    if one is None:
         return None
-    if value.line is None or value.flight is None:
-        none = "" if value.mass else f"{value.name} adds no mass, so no break-even mass applies."
+    if one.line is None or one.over_flight is None:
+        none = "" if one.mass else f"{one.name} adds no mass, so no break-even mass applies."
         return SupposePart(none or here_problem(now) or "Computing break-even…")
-    units, line, own = now.units, value.line, _put(math.degrees(value.range), value.mass)
+    units, line, own = now.units, one.line, _put(math.degrees(one.range), one.mass)
     degrees, mass = now.hand.place or own
     twist, band = math.radians(degrees), None
     saving = line.net(twist, mass)
     if (degrees, mass) == own:
-        saving, band = -value.flight.power, value.flight.band
+        saving, band = -one.over_flight.power, one.over_flight.band
     most, least = line.mass_allowed(twist), line.twist_for(mass)
     notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
@@ -61,7 +60,7 @@ def _stage(now: PageState) -> SupposePart | None:
         words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
         kind=PowerChange(-saving, band).kind,
         note=f"{'; '.join(notes)}.",
-        chart=drawn_chart(mass_chart(line, _verdicts(value), units)),
+        chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
         at=(degrees, mass),
     )
 

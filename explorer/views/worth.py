@@ -9,7 +9,7 @@ from explorer.parts.results import SliderSaving
 from explorer.views.page_state import PageState, Panel, PanelWork, Tell
 from explorer.views.work import has_power
 
-_HALF = 6.0
+_HALF_LENGTH = 6.0
 """Change of a step in the unit of power at which the arrow has half the greatest length, so that none looks as long as
 a larger one."""
 
@@ -69,7 +69,9 @@ def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = Fal
         else f"{title}: {step} more changes power by less than 0.05 {units.power[0].symbol}."
     )
     size = abs(units.power[0].of(sensitivity.watts()))
-    return SliderSaving(way, value, sensitivity.unit_text(units), round(size / (size + _HALF), 3), sentence, stale)
+    return SliderSaving(
+        way, value, sensitivity.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale
+    )
 
 
 WORTH = Panel(worth, works=slopes_asked)

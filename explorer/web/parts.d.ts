@@ -106,7 +106,7 @@ interface RxAssessedPart {
   problem: string;
   against: string;
   baselines: [string, string][];
-  said: string;
+  sentence: string;
   pays: string[];
   range: number;
   kilograms: number;

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly, engines_of
+from rotor.actuator.catalogue import engines_of
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import best_swings
-from rotor.actuator.verdict import NOTHING, Verdict
+from rotor.actuator.verdict import MIN_TWIST, Verdict
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.support.arrays import Array
@@ -41,7 +41,7 @@ def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
     return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 
-UNLIMITED = math.radians(20.0)
+UNLIMITED_TWIST = math.radians(20.0)
 """Either way, by segment [rad]: more than any optimum asks for."""
 
 
@@ -102,7 +102,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = installed.shapes[:, -1]
-    unlimited = np.outer(UNLIMITED / np.maximum(np.abs(shapes), NOTHING), (-1.0, 1.0))
+    unlimited = np.outer(UNLIMITED_TWIST / np.maximum(np.abs(shapes), MIN_TWIST), (-1.0, 1.0))
     flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
     powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "with")}
     wanted: list[tuple[float, ...]] = []
@@ -161,13 +161,13 @@ def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:
     A drive is a voltage [V]; without voltage a share of the stroke. Offset and direction of the fibres are those that
     the verdict's voltages have.
     """
-    actuator = verdict.installed.actuator
+    actuator, voltages = verdict.installed.actuator, verdict.voltages
     first, second = np.array(verdict.optimum.swings)
-    if not isinstance(actuator, PiezoPly):
+    if not voltages:
         return np.zeros_like(first), np.copysign(1.0, first + second), (0.0, 1.0)
-    a, b = np.array(verdict.voltages).T
-    per_volt = np.full_like(first, 1.0 / actuator.voltage_swing)
+    a, b = np.array(voltages).T
+    per_volt = np.full_like(first, 1.0 / actuator.drive_swing)
     if verdict.installed.host.kind == "new":
-        return first - a * per_volt, per_volt, actuator.voltage_range
+        return first - a * per_volt, per_volt, actuator.drive_range
     turned = first * a + second * b < 0.0  # Fibres laid in the other direction.
-    return np.zeros_like(first), per_volt * np.where(turned, -1.0, 1.0), actuator.voltage_range
+    return np.zeros_like(first), per_volt * np.where(turned, -1.0, 1.0), actuator.drive_range

@@ -10,8 +10,7 @@ No measured power of a rotor with active twist was to be had; published savings 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.kind import InstalledActuator
 from rotor.design.design import Design
 from rotor.optimisation.doubt import mean_doubt
 from rotor.trim.hub_loads import band_inflows, hub_index
@@ -25,17 +24,16 @@ def tip_amplitude(installed: InstalledActuator) -> float:
 
     Zero for actuators that cannot follow the azimuth (heat, rotor speed).
     """
-    if not isinstance(installed.actuator, PiezoPly):
+    if not installed.actuator.follows_azimuth:
         return 0.0
     return abs(0.5 * float(installed.rest_shapes[:, -1].sum()))
 
 
 def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
     """Part of half the voltage range, 0…1, that steady voltages leave for n/rev drive; 1 without steady voltages."""
-    actuator = installed.actuator
-    if not isinstance(actuator, PiezoPly):
+    if not installed.actuator.follows_azimuth:
         return 0.0
-    low, high = actuator.voltage_range
+    low, high = installed.actuator.drive_range
     room = [2.0 * min(high - v, v - low) / (high - low) for v in volts] if any(volts) else [1.0]
     return max(min(room), 0.0)
 

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.kind import InstalledActuator, Limit
 from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure
 from rotor.dynamics.torsion import added_pull
 from rotor.support.arrays import Array
@@ -106,11 +105,12 @@ class FibreStrain:
         return self.centrifugal + self.flap + self.twist
 
 
-def fibre_strain(installed: InstalledActuator, solution: Solution | None = None) -> FibreStrain:
+def fibre_strain(installed: InstalledActuator, nu: float, solution: Solution | None = None) -> FibreStrain:
     """ε_f = ½ε_x(1 − ν) + ½γ at 45°, from F_c/EA, M_flap h/EI and the twist's own shear.
 
-    At another angle ε_f = ε_x(c² − ν s²) + γ s c. Without a solution the flap part is zero. The shear of a full
-    voltage swing is taken from the twist rate, γ = 2A θ'/s of a closed cell, a bound for sheets that follow the skin.
+    At another angle ε_f = ε_x(c² − ν s²) + γ s c, `nu` that of the sheet. Without a solution the flap part is zero. The
+    shear of a full voltage swing is taken from the twist rate, γ = 2A θ'/s of a closed cell, a bound for sheets that
+    follow the skin.
     """
     rotor_structure = uh60a_structure(float(installed.beam.r[-1]))
     r = np.linspace(*installed.placement.span, _STATIONS)
@@ -118,7 +118,6 @@ def fibre_strain(installed: InstalledActuator, solution: Solution | None = None)
     speed = installed.beam.angular_speed
     pull = rotor_structure.centrifugal_force(metres, speed) + added_pull(installed.added, metres, speed)
     s, c = np.sin(installed.placement.angle), np.cos(installed.placement.angle)
-    nu = installed.actuator.material.nu12 if isinstance(installed.actuator, PiezoPly) else 0.3
     along = c**2 - nu * s**2
     bending = np.zeros_like(r)
     if solution is not None:
@@ -135,27 +134,6 @@ def fibre_strain(installed: InstalledActuator, solution: Solution | None = None)
     )
 
 
-SECTION_THICKNESS = 0.095
-"""Thickness of the SC1095, in chords."""
-WEB_HEIGHT = 0.0907
-"""Height of the SC1095 spar's web at 0.40 c, in chords."""
-UNREACHABLE = 100.0
-"""Multiple of the voltage range above which no voltage is printed (a sheet that hardly shears)."""
-
-
-@dataclass(frozen=True)
-class Limit:
-    """One constraint: value, bound, and whether it is met."""
-
-    name: str
-    """Short and stable, for scripts."""
-    ok: bool
-    value: float
-    bound: float
-    unit: str
-    sentence: str
-
-
 def limits(
     installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None = None
 ) -> tuple[Limit, ...]:
@@ -164,103 +142,17 @@ def limits(
     `swings`: required twist of each segment over its range, may exceed 1. `solution`: the flight condition for flap
     bending.
     """
-    exceeded: list[Limit] = []
-    if isinstance(installed.actuator, PiezoPly):
-        exceeded += _electrical(installed.actuator, swings)
-        exceeded.append(_strain(installed, installed.actuator, solution))
-        exceeded.append(_surface(installed, installed.actuator))
-    elif isinstance(installed.actuator, TorqueTube):
-        exceeded += _tube(installed, installed.actuator, swings)
-    else:
-        exceeded.append(_rotor_speed(installed.actuator))
-    if not isinstance(installed.actuator, ExtensionTwist):
-        exceeded += [_temperature(installed), _mass(installed)]
-    return (*exceeded, *_torsion(installed))
+    own = installed.actuator.limits(installed, swings, solution)
+    ends = installed.actuator.temperature_range
+    carried = () if ends is None else (_temperature(installed, ends[1]), _mass(installed))
+    return *own, *carried, *_torsion(installed)
 
 
-def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
-    most = max((abs(swing) for swing in swings), default=0.0) * ply.voltage_swing
-    low, high = ply.voltage_range
-    ok = most <= ply.voltage_swing * (1.0 + 1e-9)
-    field = most / ply.electrode_gap * 1e-6
-    allowed = ply.voltage_swing / ply.electrode_gap * 1e-6
-    span = f"{low:g}…{high:g} V ({low / ply.electrode_gap * 1e-6:.2g}…{high / ply.electrode_gap * 1e-6:.2g} kV/mm)"
-    needs = (
-        f"needs a swing of {most:.0f} V" if most < UNREACHABLE * ply.voltage_swing else "is out of range at any voltage"
-    )
-    swings_by = (
-        f"swings by {field:.2f} kV/mm" if field < UNREACHABLE * allowed else "would have to swing by hundreds of kV/mm"
-    )
-    by_voltage = f"The required twist {needs}; the range is {span}."
-    by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
-    return [
-        Limit("voltage", ok, most, ply.voltage_swing, "V", by_voltage),
-        Limit("field", ok, field, allowed, "kV/mm", by_field),
-    ]
-
-
-def _strain(installed: InstalledActuator, ply: PiezoPly, solution: Solution | None) -> Limit:
-    strain = fibre_strain(installed, solution)
-    worst, linear, most = (1e6 * value for value in (float(strain.total.max()), ply.linear_strain, ply.largest_strain))
-    where = float(strain.r[strain.total.argmax()])
-    flap = "with flap bending of the trimmed rotor" if solution else "without flap bending"
-    sentence = (
-        f"Fibre strain is up to {worst:.0f} µε at {where:.2f} R ({flap}); the sheet is linear "
-        f"up to {linear:.0f} µε and must stay below {most:.0f} µε."
-    )
-    return Limit("fibre-strain", worst <= linear, worst, linear, "µε", sentence)
-
-
-def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
-    share = 2.0 * installed.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
-    bound = float(structure_data()["limits"]["surface_share"])
-    outside = installed.host.kind == "retrofit"
-    where = "outside the skins, which changes the contour" if outside else "inside the torsion skin"
-    sentence = (
-        f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness."
-    )
-    return Limit("space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness", sentence)
-
-
-def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
-    worst = max((abs(swing) for swing in swings), default=0.0)
-    retrofit = installed.host.kind == "retrofit"
-    height = WEB_HEIGHT * uh60a_structure().chord
-    where = (
-        "the existing spar is pressurised with nitrogen for its crack indicator and must not be opened"
-        if retrofit
-        else "a spar designed for it can hold it"
-    )
-    tubes, moment = installed.placement.plies, installed.moment
-    by_torque = (
-        f"The required twist needs {worst * moment:.0f} N·m; {tubes} tube(s) per segment give {moment:.0f} of "
-        f"{tubes * tube.torque:.0f} N·m when blocked."
-    )
-    fits = not retrofit and tube.diameter <= height
-    by_space = f"A tube of {1e3 * tube.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}."
-    return [
-        Limit("torque", worst <= 1.0 + 1e-9, worst * moment, moment, "N·m", by_torque),
-        Limit("space", fits, 1e3 * tube.diameter, 1e3 * height, "mm", by_space),
-    ]
-
-
-def _rotor_speed(laminate: ExtensionTwist) -> Limit:
-    percent = 100.0 * laminate.speed_change
-    sentence = (
-        f"Only rotor speed changes the twist: {percent:.0f} % slower for the full change, and this rotor runs at "
-        "constant speed."
-    )
-    return Limit("rotor-speed", False, 0.0, percent, "% of Ω", sentence)
-
-
-def _temperature(installed: InstalledActuator) -> Limit:
+def _temperature(installed: InstalledActuator, top: float) -> Limit:
     data = structure_data()["limits"]
-    actuator = installed.actuator
-    assert not isinstance(actuator, ExtensionTwist)
-    top = actuator.temperature_range[1]
     if top <= 85.0:  # Manufacturer's storage limit; the operating limit is lower.
         top = min(top, float(data["running_temperature_c"]))
-    on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
+    on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and installed.actuator.on_skin
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
     heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
     remedy = "" if hottest <= top else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"

@@ -16,8 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.kind import InstalledActuator
 from rotor.actuator.limits import interpolate_rows
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
@@ -30,7 +29,7 @@ from rotor.trim.solve import analyse
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
-FLATTER = 0.5
+FLATTENED_SHARE = 0.5
 """A second start: the first law flattened by this much."""
 
 
@@ -130,9 +129,7 @@ def _search(
 ) -> TwistOptimum:
     installed, driven = fitted and fitted[0], bool(fitted and fitted[1])
     if installed is not None and installed.host.kind == "retrofit":
-        low, high = 0.0, 1.0
-        if isinstance(installed.actuator, PiezoPly):
-            low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
+        low, high = installed.actuator.retrofit_swings
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
         tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes)) for ends in either]
         jigs: list[Sequence[float]] = [()]
@@ -142,7 +139,9 @@ def _search(
         tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
-            flatter = tuple(v * FLATTER if p.angular else v for v, p in zip(first, concept.parameters, strict=True))
+            flatter = tuple(
+                v * FLATTENED_SHARE if p.angular else v for v, p in zip(first, concept.parameters, strict=True)
+            )
             jigs += [first, flatter]
     optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
     if not optima:

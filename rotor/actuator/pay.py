@@ -24,15 +24,16 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import find_concept
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
+from rotor.support.chart import Axis, Chart, Line
 from rotor.support.units import GRAVITY
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-POINTS = 9
+LINE_POINTS = 9
 """Points of the break-even line, zero included."""
-ENOUGH = 0.9
+WANTED_SHARE = 0.9
 """Share of the ideal saving that a requirement asks for: the last tenth takes twist without end."""
-WORTH = 1e-4
+MIN_SAVING_SHARE = 1e-4
 """Least ideal saving, over power, that an actuator is looked for."""
 
 
@@ -74,7 +75,7 @@ class BreakEven:
     @property
     def worthwhile(self) -> bool:
         """Whether unlimited twist saves enough to be worth a search."""
-        return self.ideal_saving > WORTH * self.fixed_power
+        return self.ideal_saving > MIN_SAVING_SHARE * self.fixed_power
 
     def saving(self, twist: float) -> float:
         """Gross saving of a range of twist [W], interpolated linearly between trims."""
@@ -103,7 +104,7 @@ class BreakEven:
     @property
     def requirement(self) -> Requirement:
         """The twist that gives most of the ideal saving, and the mass and drive that share this saving evenly."""
-        wanted = ENOUGH * self.ideal_saving
+        wanted = WANTED_SHARE * self.ideal_saving
         twist = self.twist_for(wanted)
         return Requirement(twist, self.mass_allowed(twist, 0.5 * wanted), 0.5 * wanted)
 
@@ -119,11 +120,11 @@ def break_even(pair: ConditionPair) -> BreakEven:
     (first,), (second,) = (best.values for best in base.best)
     root = pair.design.rotor.blade.root_cutout
     largest = second - first
-    twists = np.linspace(0.0, abs(largest), POINTS)
+    twists = np.linspace(0.0, abs(largest), LINE_POINTS)
     task = _Flown(base)
-    gross, rates, masses = np.zeros(POINTS), np.zeros(POINTS), np.zeros(POINTS)
+    gross, rates, masses = np.zeros(LINE_POINTS), np.zeros(LINE_POINTS), np.zeros(LINE_POINTS)
     rates[0] = base.fixed.values[0]
-    for k in range(1, POINTS):
+    for k in range(1, LINE_POINTS):
         swing = math.copysign(float(twists[k]), largest)
         rates[k], power = task.best(swing, (min(first, base.fixed.values[0] - swing), max(first, base.fixed.values[0])))
         gross[k] = max(base.fixed.power - power, float(gross[k - 1]))
@@ -223,12 +224,12 @@ class OtherStroke:
         return float(np.interp(cost, self.saved, self.twists)) if cost <= self.saved[-1] else None
 
 
-STROKES = (0.5, 2.0, 4.0)
+OTHER_STROKES = (0.5, 2.0, 4.0)
 """Of the actuator's own, beside none and all of it."""
 
 
 def other_stroke(verdict: Verdict) -> OtherStroke:
-    """The break-even line of a verdict: an optimum over the same flights for each of `STROKES`.
+    """The break-even line of a verdict: an optimum over the same flights for each of `OTHER_STROKES`.
 
     ValueError for an actuator that has no mass, RuntimeError where nothing trims.
     """
@@ -239,7 +240,7 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
             f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
-    for stroke in STROKES:
+    for stroke in OTHER_STROKES:
         start = [verdict.resting.values]
         powers[stroke] = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start).power
     strokes = np.array(sorted(powers))
@@ -261,3 +262,14 @@ def pay_sentence(even: BreakEven) -> str:
         f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W; "
         f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg."
     )
+
+
+def break_even_chart(even: BreakEven) -> Chart:
+    """Mass that just pays over twist, without drive power and with half of what unlimited twist saves."""
+    half, degrees = 0.5 * even.ideal_saving, tuple(np.degrees(even.twists).tolist())
+    driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
+    lines = (
+        Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
+        Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
+    )
+    return Chart("Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), lines)

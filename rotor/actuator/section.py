@@ -14,10 +14,9 @@ from typing import Literal
 import numpy as np
 import scipy
 
-from rotor.actuator.catalogue import PiezoPly
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
 from rotor.dynamics.structure import BendingStructure, glass, structure_data, titanium
-from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
+from rotor.dynamics.thin_wall import Layer, Panel, build_section, torsional_stiffness
 from rotor.support.arrays import Array, read_only
 
 BladeKind = Literal["retrofit", "new"]
@@ -110,35 +109,17 @@ class SectionSpec:
     contour: str = "sc1095"
 
 
-def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> WallSection:
-    """The section with its plies.
-
-    Retrofit: the passive section is calibrated, then plies are bonded outside, so GJ grows. New blade: the plies are
-    part of the torsion box, whose passive skin is made as thick as the wanted GJ leaves room for.
-    """
-    active = ply.layer(placement.plies, placement.angle)
-    if spec.host.kind == "retrofit":
-        wall = passive_wall(spec)
-        return build_section(_panels(spec, wall, placement, active))
-    plain = Placement(chord=placement.chord, plies=placement.plies, angle=placement.angle)
-    return build_section(_panels(spec, passive_skin(spec, ply, plain), placement, active))
-
-
 @lru_cache(maxsize=32)
 def passive_wall(spec: SectionSpec) -> float:
     """Wall thickness [m] (spar of the flown blade, skin of a new one) that gives the wanted GJ without plies."""
-    return _calibrate(spec, None, None)
+    return calibrate(spec, None, None)
 
 
-@lru_cache(maxsize=64)
-def passive_skin(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> float:
-    """Passive skin [m] of a new blade that, with the plies in it, has the wanted GJ."""
-    return _calibrate(spec, placement, ply.layer(placement.plies, placement.angle))
+def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | None) -> float:
+    """Passive wall thickness [m] that gives the wanted GJ with an active layer; None: without."""
 
-
-def _calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | None) -> float:
     def excess(thickness: float) -> float:
-        section = build_section(_panels(spec, thickness, placement, active))
+        section = build_section(panels(spec, thickness, placement, active))
         return torsional_stiffness(section) / spec.stiffness - 1.0
 
     thinnest, thickest = 5e-5, 2e-2
@@ -150,7 +131,7 @@ def _calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | N
     return float(scipy.optimize.brentq(excess, thinnest, thickest, xtol=1e-8))
 
 
-def _panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:
+def panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:
     """Walls of the section, walked from the upper trailing edge around the nose: the inside is on the left."""
     data = structure_data()["section"]
     retrofit = spec.host.kind == "retrofit"

@@ -7,11 +7,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotor.actuator.catalogue import STEPS, Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
+from rotor.actuator.catalogue import STEPS, actuators, find_actuator
+from rotor.actuator.kind import Actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import ENOUGH, BreakEven
+from rotor.actuator.pay import WANTED_SHARE, BreakEven
 from rotor.actuator.section import HostBlade, Placement, default_placement
-from rotor.actuator.verdict import Verdict, count_text, judge, reference
+from rotor.actuator.verdict import Verdict, judge, reference
 from rotor.optimisation.concepts import find_concept
 from rotor.support.terminal import wrapped
 
@@ -59,58 +60,31 @@ def table_of(title: str, rows: Sequence[Row], notes: tuple[str, ...], keys: int 
 
 
 def table_5_1() -> ActuatorTable:
-    """Actuator properties."""
+    """Actuator properties; dashes for what only other kinds have."""
+    known = actuators().values()
     steps = ", ".join(f"{k} {step}" for k, step in enumerate(STEPS, 1))
-    tests = "; ".join(f"{actuator.id} {actuator.provenance.tested}" for actuator in actuators().values())
+    tests = "; ".join(f"{actuator.id} {actuator.provenance.tested}" for actuator in known)
     notes = (
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
         f"Readiness: the step reached of {steps} (Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems, "
         f"Aerospace 13(3) 297, 2026), placed by us: {tests}.",
         "Numbers and sources: assets/actuators.toml.",
     )
-    return table_of(
-        "Table 5.1  Actuator properties", [_properties(actuator) for actuator in actuators().values()], notes
-    )
+    blank = {key: NONE for actuator in known for key in actuator.properties}
+    return table_of("Table 5.1  Actuator properties", [_properties(actuator, blank) for actuator in known], notes)
 
 
-def _properties(actuator: Actuator) -> Row:
-    provenance = actuator.provenance
+def _properties(actuator: Actuator, blank: Row) -> Row:
+    provenance, ends = actuator.provenance, actuator.temperature_range
     graded = (provenance.recalled, "recalled"), (provenance.assumed, "assumed")
-    if isinstance(actuator, PiezoPly):
-        mode = "d33" if actuator.electrodes == "interdigitated" else "d31"
-    elif isinstance(actuator, TorqueTube):
-        mode = f"heat, {actuator.torque:.0f} N·m"
-    else:
-        mode = f"rotor speed, {math.degrees(actuator.twist):.2f}°"
-    passive = isinstance(actuator, ExtensionTwist)
     return {
         "actuator": actuator.id,
-        "mode": mode,
-        **_ply_properties(actuator),
-        "T °C": NONE if passive else "{:.0f}…{:.0f}".format(*actuator.temperature_range),
+        "mode": actuator.mode,
+        **blank,
+        **actuator.properties,
+        "T °C": NONE if ends is None else "{:.0f}…{:.0f}".format(*ends),
         "readiness": f"{provenance.readiness} of {len(STEPS)}",
         "grade": ", ".join(f"{len(keys)} {word}" for keys, word in graded if keys) or "sourced",
-    }
-
-
-def _ply_properties(actuator: Actuator) -> Row:
-    """What only a sheet has; dashes for the others."""
-    if not isinstance(actuator, PiezoPly):
-        return dict.fromkeys(_ply_properties(find_actuator(COMPARED_ACTUATORS[0])), NONE)
-    material, gap = actuator.material, actuator.electrode_gap
-    low, high = actuator.voltage_range
-    return {
-        "E1 GPa": f"{material.e1 / 1e9:.1f}",
-        "E2 GPa": f"{material.e2 / 1e9:.1f}",
-        "G12 GPa": f"{material.g12 / 1e9:.2f}",
-        "d pm/V": f"{actuator.d_along * 1e12:.0f}",
-        "ΔES mm": f"{gap * 1e3:.3g}",
-        "α 1e-6/V": f"{actuator.d_along / gap * 1e6:.2f}",
-        "voltage V": f"{low:g}…{high:g}",
-        "field kV/mm": f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}",
-        "free strain µε": f"{actuator.swing[0] * 1e6:.0f}",
-        "thickness mm": f"{actuator.thickness * 1e3:.3g}",
-        "density kg/m³": f"{material.density:.0f}",
     }
 
 
@@ -145,7 +119,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
 def _comparison(verdict: Verdict) -> Row:
     installed = verdict.installed
     return {
-        "actuator": f"{installed.actuator.id}, {count_text(installed)}",
+        "actuator": f"{installed.actuator.id}, {installed.count}",
         "concept": verdict.baseline.concept.name,
         "blade": installed.host.label,
         "needed °": f"{math.degrees(verdict.required):.2f}",
@@ -172,7 +146,7 @@ def kilowatts(power: float) -> str:
 def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
     """What an actuator would need to break even, one row for each rotor."""
     notes = (
-        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * ENOUGH:.0f} % of what "
+        f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * WANTED_SHARE:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
         "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
         "column.",

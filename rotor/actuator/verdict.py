@@ -7,18 +7,10 @@ from typing import Literal
 
 import numpy as np
 
-from rotor.actuator.catalogue import (
-    Actuator,
-    ExtensionTwist,
-    PiezoPly,
-    TorqueTube,
-    engines_of,
-    find_actuator,
-    fuel_caveats,
-    holding_caveats,
-)
-from rotor.actuator.installation import Drive, InstalledActuator, drive, install, segment_voltages, with_actuator_mass
-from rotor.actuator.limits import Limit, limits
+from rotor.actuator.catalogue import engines_of, find_actuator, fuel_caveats
+from rotor.actuator.installation import install, with_actuator_mass
+from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit
+from rotor.actuator.limits import limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design
@@ -29,7 +21,7 @@ from rotor.trim.doubt import Doubt, sureness
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-NOTHING = 1e-6
+MIN_TWIST = 1e-6
 """Least twist used as a divisor [rad]."""
 Against = Literal["same-blade", "best-fixed"]
 """The blade that savings are counted from: the same one without the actuator, or the best fixed one."""
@@ -79,7 +71,7 @@ class Verdict:
     @property
     def ratio(self) -> float:
         """Required over attainable twist in the worst segment."""
-        available = np.maximum(self.installed.segment_twists, NOTHING)
+        available = np.maximum(self.installed.segment_twists, MIN_TWIST)
         return float(np.max(np.abs(self.required_segments) / available))
 
     @property
@@ -176,7 +168,7 @@ class Verdict:
     def buildable(self) -> bool:
         """Whether it can be built: only limits on the twist range are exceeded, and the actuated optimum keeps
         those."""
-        return all(limit.name in ("voltage", "field", "torque") for limit in self.broken)
+        return all(limit.name in self.installed.actuator.range_limits for limit in self.broken)
 
     @property
     def pays(self) -> bool:
@@ -185,7 +177,7 @@ class Verdict:
     @property
     def voltages(self) -> tuple[tuple[float, float], ...]:
         """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
-        return segment_voltages(self.installed, self.optimum.swings)
+        return self.installed.actuator.voltages(self.optimum.swings, self.installed.host)
 
 
 def try_actuator(
@@ -230,8 +222,7 @@ def judge(
     host = host or HostBlade()
     base = baseline(pair, concept)
     rotor, aircraft = pair.design.rotor, pair.design.aircraft
-    divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
-    installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
+    installed = install(actuator, replace(placement, divisions=base.divisions), host, rotor)
     resting, counted_from = base.fixed, list(base.fixed.solutions)
     near = counted_from
     if host.kind == "retrofit" or against == "same-blade":
@@ -249,9 +240,9 @@ def judge(
             for design, best in zip(pair.designs(), base.best, strict=True)
         ]
     reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
-    required = base.segment_changes(divisions)
+    required = base.segment_changes(installed.placement.divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
-    asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, NOTHING))
+    asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
         baseline=base,
@@ -265,10 +256,10 @@ def judge(
             min(best, solution.power.total) for best, solution in zip(free, reached.solutions, strict=True)
         ),
         loaded_powers=_totals(heavy),
-        drive=drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
+        drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
         doubt=mean_doubt(pair.shares, heavy, counted_from),
         limits=limits(installed, asked, reached.solutions[-1]),
-        caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator), *fuel_caveats(aircraft)),
+        caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
 
 
@@ -277,9 +268,9 @@ def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:
     return first, second
 
 
-SMALL = 1.0
+MIN_SHOWN_W = 1.0
 """Powers below this are printed as nothing [W]."""
-PRINTED = 50.0
+MIN_SHOWN_IN_KW = 50.0
 """Least power that shows in kilowatts with one decimal [W]."""
 
 
@@ -287,9 +278,8 @@ def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
     gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
-    if verdict.net_saving < SMALL:
-        noun = {PiezoPly: "ply", TorqueTube: "tube", ExtensionTwist: "laminate"}[type(verdict.installed.actuator)]
-        return f"{text}, so this {noun} does not pay{_sure(verdict)}."
+    if verdict.net_saving < MIN_SHOWN_W:
+        return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{_sure(verdict)}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
     return f"{text}, a net saving of {kilowatt_text(verdict.net_saving)}{_sure(verdict)}{but}."
 
@@ -323,7 +313,7 @@ def _broken(verdict: Verdict) -> str:
 def _reach(verdict: Verdict) -> str:
     """Twist supplied against twist needed."""
     installed = verdict.installed
-    what = f"{installed.actuator.name} ({count_text(installed)}, {installed.host.label})"
+    what = f"{installed.actuator.name} ({installed.count}, {installed.host.label})"
     first, second = (flight_text(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
     can = "can supply" if verdict.feasible else "cannot supply"
@@ -335,9 +325,9 @@ def _savings(verdict: Verdict) -> str:
     installed, concept = verdict.installed, verdict.baseline.concept.name
     start = verdict.reference_power - verdict.bare_power
     parts = [f"Against {reference(verdict)}, its twist {_change(verdict.gross_saving)}"]
-    if abs(start) >= PRINTED:
+    if abs(start) >= MIN_SHOWN_IN_KW:
         parts[0] += f", and its built-in twist alone {_change(start)}"
-    if abs(verdict.stiffness_cost) >= PRINTED:
+    if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")
     parts.append(f"carrying {installed.masses.aircraft:.0f} kg costs {kilowatt_text(verdict.mass_cost)}")
@@ -346,19 +336,9 @@ def _savings(verdict: Verdict) -> str:
 
 
 def _change(saving: float) -> str:
-    if abs(saving) < SMALL:
+    if abs(saving) < MIN_SHOWN_W:
         return "saves nothing"
     return f"saves {kilowatt_text(saving)}" if saving > 0.0 else f"costs {kilowatt_text(-saving)}"
-
-
-def count_text(installed: InstalledActuator) -> str:
-    """Number of plies or tubes as text; "passive" for a laminate."""
-    if isinstance(installed.actuator, ExtensionTwist):
-        return "passive"
-    single, more = ("ply", "plies") if isinstance(installed.actuator, PiezoPly) else ("tube", "tubes")
-    several = isinstance(installed.actuator, TorqueTube) and installed.placement.divisions
-    plies = installed.placement.plies
-    return f"{plies} {single if plies == 1 else more}{' a segment' if several else ''}"
 
 
 def flight_text(advance_ratio: float) -> str:
@@ -366,5 +346,5 @@ def flight_text(advance_ratio: float) -> str:
 
 
 def kilowatt_text(power: float) -> str:
-    """Kilowatts with one decimal; "nothing" below SMALL."""
-    return "nothing" if abs(power) < SMALL else f"{power / 1e3:.1f} kW"
+    """Kilowatts with one decimal; "nothing" below MIN_SHOWN_W."""
+    return "nothing" if abs(power) < MIN_SHOWN_W else f"{power / 1e3:.1f} kW"

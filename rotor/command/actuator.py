@@ -11,8 +11,7 @@ import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pay import BreakEven, break_even, pay_sentence
-from rotor.actuator.pictures import break_even_chart
+from rotor.actuator.pay import BreakEven, break_even, break_even_chart, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence

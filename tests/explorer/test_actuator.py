@@ -15,9 +15,7 @@ from numpy.testing import assert_allclose
 from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
-    drive_of,
     lean_verdict,
-    swing_of,
     verdict_inputs_of,
     verdict_on,
     verdict_tasks,
@@ -26,7 +24,7 @@ from explorer.model.inputs import Inputs, ViewState, with_rotor
 from explorer.model.units import SI
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
-from explorer.picture.lifted_picture import TWIST_SCALE, flown_twist, lifted_picture
+from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
 from explorer.tabs.background import PoolAnswers
 from explorer.text.readout import balance
@@ -35,7 +33,7 @@ from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.call import Call
-from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.make_design import make_design
@@ -76,10 +74,9 @@ def test_crossed_fibres_turn_the_other_way():
 @pytest.mark.parametrize("id", ALL)
 def test_drive_and_swing_are_inverse(id: str):
     actuator = find_actuator(id)
-    for drive in (-100.0, -37.0, 0.0, 41.0, 100.0):
-        if isinstance(actuator, PiezoPly) and drive < 0.0 and actuator.voltage_range[0] == 0.0:
-            continue
-        assert_allclose(drive_of(actuator, swing_of(actuator, drive)), drive, atol=1e-9)
+    for share in (-1.0, -0.37, 0.0, 0.41, 1.0):
+        if share >= 0.0 or actuator.drive_range[0]:
+            assert_allclose(actuator.share_of(actuator.swing_at(share)), share, atol=1e-9)
 
 
 def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
@@ -117,7 +114,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
     for solid in picture.solids.values():
         assert np.isfinite(solid.mesh.vertices).all()
         assert solid.mesh.faces.max() < len(solid.mesh.vertices)
-        assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.CHORD_SCALE
+        assert np.abs(solid.mesh.vertices[:, 1]).max() < 0.5 * lifted.CHORD_EXAGGERATION
     assert sum(len(solid.mesh.vertices) for solid in picture.solids.values()) < 9_000
     assert all(np.isfinite(lines).all() for lines in picture.lines.values())
     assert {"skin", "web", "shank", "drive_0"} <= set(picture.solids)
@@ -126,7 +123,7 @@ def test_the_lifted_blade_is_whole_finite_and_small(id: str, blade):
 def test_plies_stand_outside_the_true_contour_where_they_are_placed():
     inputs = ActuatorInputs(span=(0.3, 0.8))
     blade = lifted.lifted_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
-    plies = [part for part in blade.parts if part.role == "ply"]
+    plies = [part for part in blade.parts if part.segment >= 0]
     assert len(plies) == 2
     for part in plies:
         assert_allclose((part.r[0], part.r[-1]), (0.3, 0.8))
@@ -148,7 +145,9 @@ def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
         ring = picture.lines["edges"][-38:, 0]  # The tip section, from its trailing edge over the nose.
         nose, tail = ring[19], ring[0]
         angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
-    assert_allclose(angles[1] - angles[0], TWIST_SCALE * float(inputs.change(installed, 1.0)), atol=math.radians(0.3))
+    assert_allclose(
+        angles[1] - angles[0], TWIST_EXAGGERATION * float(inputs.change(installed, 1.0)), atol=math.radians(0.3)
+    )
     assert len(rest.lines["overlay"]) == len(rest.lines["arrow"]) == 0
     assert len(driven.lines["overlay"]) > 0
     assert len(driven.lines["arrow"]) > 0
@@ -276,7 +275,7 @@ def test_the_lifted_blade_is_drawn_as_flown():
     assert_allclose(flown.moved, pitch - pitch[0], atol=math.radians(0.03))
     installed = inputs.installed(DESIGN.rotor)
     labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, flown).labels if kind == "tip"]
-    assert labels == [f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TWIST_SCALE:g}"]
+    assert labels == [f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TWIST_EXAGGERATION:g}"]
     rigid = make_design(preset="thesis", mu=0.2)
     assert flown_twist(solve(rigid), solve(rigid), 0.5) is None
 

@@ -16,8 +16,9 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
 from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
+from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ASSESSED, Assessed, assessed, choose
+from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
 from explorer.views.page_state import PageState, SetHand
@@ -45,23 +46,23 @@ def answered(against: Against, drives: tuple[float, ...]) -> PageState:
         (ACTUATOR, "lean_verdict"),
         (ACTUATOR, "flight_of"),
         (DIAL, "effect"),
-        (ASSESSED, "other_stroke"),
+        (ACTUATOR_CARD, "other_stroke"),
     ):
         now = told(panel, now, **{name: run(asked(panel, now)[name])})
     return now
 
 
 def card(now: PageState) -> AssessedPart:
-    part = ASSESSED.view(now)["assessed"]
+    part = ACTUATOR_CARD.view(now)["assessed"]
     assert isinstance(part, AssessedPart)
     return part
 
 
-def known(now: PageState) -> tuple[Assessed, Verdict]:
-    value = assessed(now)
+def known(now: PageState) -> tuple[ActuatedBlade, Verdict]:
+    value = actuated_blade(now)
     assert value is not None
-    assert value.one.verdict is not None
-    return value, value.one.verdict
+    assert value.verdict is not None
+    return value, value.verdict
 
 
 def balance_here(now: PageState) -> dict[str, str]:
@@ -84,29 +85,27 @@ def screen(now: PageState) -> dict[str, list[str]]:
         found[quantity] += [one if isinstance(one, str) else "…".join(one) for one in matches]
 
     (value, verdict), part, flight, rail = known(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
-    words = " ".join(
-        text for _, text, _ in lifted_picture(now.hand.actuator, value.one.installed, value.one.design).labels
-    )
+    words = " ".join(text for _, text, _ in lifted_picture(now.hand.actuator, value.installed, value.design).labels)
     report = re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI))
     settled, (total,) = DIAL.view(now)["dial"].settled, [bar.text for bar in flight["earns"].bars if bar.total]
-    ends = "…".join(f"{math.degrees(end):+.2f}" for end in value.reach).replace("-", "−")
+    ends = "…".join(f"{math.degrees(end):+.2f}" for end in value.inputs.reach(value.installed)).replace("-", "−")
 
     found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
     read("mass", "# kg:", rail["actuator.numbers"])
-    read("mass", "for # kg", part.said)
+    read("mass", "for # kg", part.sentence)
     read("mass", "# kg:", report)
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
     if now.hand.actuator.driven:
         read("tip", f"({NUMBER}°) at the tip", words)
     found["reach"] = [part.reach, f"{ends}°"]
-    read("reach", f"by ({NUMBER}…{NUMBER}°) in flight", part.said)
+    read("reach", f"by ({NUMBER}…{NUMBER}°) in flight", part.sentence)
     read("power here", "(?:needs|saves) # ±", part.here)
-    read("power here", "(?:needs|saves) # ± .* here", part.said)
+    read("power here", "(?:needs|saves) # ± .* here", part.sentence)
     found["power here"].append(f"{abs(settled.power[0]):.{'0' if abs(settled.power[0]) >= 10.0 else '1'}f}")
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
-    read("power over the flight", "here, (?:needs |saves )?# ±", part.said)
+    read("power over the flight", "here, (?:needs |saves )?# ±", part.sentence)
     read("power over the flight", "(?:needs|saves) # ±", report)
     found["power over the flight"] += [total.lstrip("+−")]
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
@@ -137,15 +136,15 @@ def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
     """At no voltage, and against the same blade, only mass and stiffness change power and vibration."""
     same = answered("same-blade", (0.0,) * MOST_SEGMENTS)
     (one, verdict), (other, counted) = (known(answered(against, (0.0,) * MOST_SEGMENTS)) for against in AGAINST)
-    assert one.here and other.here and one.flight and other.flight and one.line  # noqa: PT018
-    bare = replace(one.one.design, models=replace(one.one.design.models, bending=True))
-    loaded = with_actuator_mass(bare, one.one.installed)
+    assert one.here and other.here and one.over_flight and other.over_flight and one.line  # noqa: PT018
+    bare = replace(one.design, models=replace(one.design.models, bending=True))
+    loaded = with_actuator_mass(bare, one.installed)
     assert one.here.power == pytest.approx(solve(loaded).power.total - solve(bare).power.total, rel=0.03)
     assert abs(one.vibration[0]) < 0.5 * abs(other.vibration[0])
     assert other.here.power > one.here.power + 1e3
     between = verdict.bare_power - counted.reference_power
-    assert other.flight.power - one.flight.power == pytest.approx(between, abs=1.0)
-    assert one.line.net(one.range, one.mass) == pytest.approx(-one.flight.power, abs=1.0)
+    assert other.over_flight.power - one.over_flight.power == pytest.approx(between, abs=1.0)
+    assert one.line.net(one.range, one.mass) == pytest.approx(-one.over_flight.power, abs=1.0)
     assert choose(same, "best-fixed") == (SetHand(actuator={"against": "best-fixed"}),)
 
 

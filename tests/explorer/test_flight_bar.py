@@ -23,7 +23,7 @@ from explorer.parts.actuate import FlightPart
 from explorer.views.actuator import ACTUATOR
 from explorer.views.flight import (
     FLIGHT,
-    HALVES,
+    POINTS_PER_LEG,
     after_flight,
     condition_at,
     earns_state,
@@ -55,7 +55,7 @@ def flight(verdict: Verdict) -> ActuatorFlight:
 
 
 def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs():
-    assert LEGS[::HALVES] == standard_flight(RIGID)
+    assert LEGS[::POINTS_PER_LEG] == standard_flight(RIGID)
     for k, leg in enumerate(standard_flight(RIGID)):
         assert condition_at(LEGS, float(k)) == (leg.advance_ratio, leg.climb_speed)
         assert position_of(LEGS, leg.advance_ratio) == pytest.approx(k)
@@ -150,14 +150,14 @@ def test_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight
     for x, leg in enumerate(standard_flight(RIGID)):
         there = done(ready, fly_to(ready, x))
         assert (there.inputs.advance_ratio, there.inputs.climb_m_s) == (leg.advance_ratio, leg.climb_speed)
-        assert_allclose(tip(there), flight.reached[HALVES * x], atol=math.radians(0.02))  # In whole per cent.
+        assert_allclose(tip(there), flight.reached[POINTS_PER_LEG * x], atol=math.radians(0.02))  # In whole per cent.
         assert shown(there).flown
     between = done(ready, fly_to(ready, 0.25))
     assert_allclose(tip(between), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02))
     assert done(ready, fly_to(ready, 99)).inputs.advance_ratio == LEGS[-1].advance_ratio
     untrimmed = replace(ready, problem="No trim there.")  # It can be flown out of.
     assert FLIGHT.view(untrimmed) == {}
-    assert done(untrimmed, fly_to(untrimmed, 1)).inputs.advance_ratio == LEGS[HALVES].advance_ratio
+    assert done(untrimmed, fly_to(untrimmed, 1)).inputs.advance_ratio == LEGS[POINTS_PER_LEG].advance_ratio
 
 
 def test_the_voltages_follow_once_the_flight_is_known(waiting: PageState, ready: PageState, flight: ActuatorFlight):

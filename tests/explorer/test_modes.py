@@ -11,7 +11,7 @@ from explorer.model.actuator_inputs import MOST_SEGMENTS
 from explorer.page import Page
 from explorer.sharing.presentation import PRESENT, follow_name
 from explorer.story.steps import STEPS
-from explorer.views.assessed import ASSESSED
+from explorer.views.assessed import ACTUATOR_CARD
 from rotor import Design, solve
 from tests.tools.visitor import Visitor, arrived, ran
 
@@ -42,7 +42,7 @@ def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str
     frame, design = visitor.frame, design_of(page)
     power, card, parts = frame["power"], frame.get("assessed"), {"flight", "earns", "assessed"}
     shown = float(power["total"].replace("\u2009", ""))
-    verdict = ASSESSED.view(page.now())["assessed"] if look == "actuator" else None
+    verdict = ACTUATOR_CARD.view(page.now())["assessed"] if look == "actuator" else None
     seen = {name for name in parts | {"dial"} if frame.get(name) is not None}
     right = {
         "mode": frame["bar"]["mode"] == mode,

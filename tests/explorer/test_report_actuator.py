@@ -13,7 +13,8 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.text.readout import needs
-from explorer.views.assessed import ASSESSED, assessed, effect_asked
+from explorer.views.actuated import actuated_blade, effect_asked
+from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import earns_state
 from rotor.actuator.verdict import Against, Verdict, kilowatt_text, reference, try_actuator
 from rotor.command import actuator as command
@@ -85,7 +86,7 @@ def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
     call = effect_asked(now)
     now = replace(now, answers={call: call.run()})
-    driven, card, state = assessed(now), ASSESSED.view(now)["assessed"], now.state
+    driven, card, state = actuated_blade(now), ACTUATOR_CARD.view(now)["assessed"], now.state
     assert driven is not None
     words, against, kind = on_board(driven, SI)
     assert (words, kind) == (card.here, "more")

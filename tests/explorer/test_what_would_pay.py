@@ -12,7 +12,7 @@ from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.presses import SupposePress
 from explorer.views.actuated import actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.assessed import ASSESSED, assessed
+from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.page_state import OpenPanels, PageState, SetAddress
 from explorer.views.pay import PAY, move_supposed, read_place
 from rotor.actuator import OtherStroke, Verdict
@@ -34,7 +34,7 @@ def lined(judged: PageState) -> PageState:
     """With a made-up line of 4°: x(2 − x) of 3000 W, less 200 W per kilogram."""
     x = np.linspace(0.0, 1.0, 9)
     line = OtherStroke(math.radians(4.0) * x, 3000.0 * x * (2.0 - x), 200.0)
-    return told(ASSESSED, judged, other_stroke=line)
+    return told(ACTUATOR_CARD, judged, other_stroke=line)
 
 
 def test_points_are_what_the_verdicts_say(lined: PageState):
@@ -80,11 +80,11 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
 
 def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):
     now = done(lined, move_supposed(lined, "on"))
-    value, shown = assessed(now), PAY.view(now)["suppose"]
-    assert value.flight is not None
+    value, shown = actuated_blade(now), PAY.view(now)["suppose"]
+    assert value.over_flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
     words = re.search(r"needs .* more", shown.words)
-    assert words[0] == ASSESSED.view(now)["assessed"].flight
+    assert words[0] == ACTUATOR_CARD.view(now)["assessed"].flight
     other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
     assert PAY.view(other)["suppose"] is None
     assert PAY.view(replace(other, problem="No trim.")) == {}

@@ -15,7 +15,7 @@ from explorer.scene.overlays import even_colours
 
 NODE = "/lifted"
 """Name of the lifted blade in the scene."""
-_NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
+_NO_LINES = np.zeros((1, 2, 3), dtype=np.float32)
 _LINES: dict[str, tuple[Rgb, float]] = {
     "edges": (EDGE, 2.2),
     "overlay": (OVERLAY, 1.6),
@@ -25,7 +25,7 @@ _LINES: dict[str, tuple[Rgb, float]] = {
     "leaders": (LEADER, 1.2),
 }
 """Colours and widths [px] by name."""
-FLIES = 0.9
+FLIGHT_SECONDS = 0.9
 """How long the blade flies out of the rotor or back [s]."""
 
 
@@ -40,7 +40,7 @@ class LiftedScene:
         self._lines = {
             name: self._api.add_line_segments(
                 f"{NODE}/{name}",
-                _NOTHING,
+                _NO_LINES,
                 even_colours(colour, 1),
                 thickness=pixels,
                 thickness_units="screen",
@@ -111,7 +111,7 @@ class LiftedScene:
         self._held = False
         self._bridge.set(lifted_labels=[])
         self._move(False, radius)
-        self._leaving = threading.Timer(FLIES, self._hide)
+        self._leaving = threading.Timer(FLIGHT_SECONDS, self._hide)
         self._leaving.daemon = True
         self._leaving.start()
 
@@ -127,4 +127,4 @@ class LiftedScene:
     def _move(self, out: bool, radius: float) -> None:
         pose = lifted.lifted_pose(radius)
         held = {"wxyz": pose.wxyz.tolist(), "position": pose.position.tolist()}
-        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIES, held, lifted.ORIGIN_R * radius)
+        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIGHT_SECONDS, held, lifted.ORIGIN_R * radius)

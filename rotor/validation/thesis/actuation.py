@@ -8,10 +8,9 @@ import math
 import numpy as np
 
 from rotor.actuator import tables as actuator_tables
-from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
-from rotor.actuator.installation import InstalledActuator, electric_field, free_strain, install
+from rotor.actuator.catalogue import PiezoPly, of_kind
+from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.files.make_design import uh60a_rotor
 from rotor.support.chart import Series
@@ -30,16 +29,12 @@ PPM, KV_MM = 1e6, 1e-6
 """From strains and volts per metre."""
 
 
-def catalogue_ply(id: str) -> PiezoPly:
-    """A ply of the catalogue."""
-    actuator = find_actuator(id)
-    assert isinstance(actuator, PiezoPly)
-    return actuator
+PLIES = of_kind(PiezoPly)
 
 
 def fitted_blade(plies: int, host: HostBlade) -> InstalledActuator:
     """MFC P1 as the worked example places it."""
-    return install(catalogue_ply("MFC_P1"), default_placement(plies), host, uh60a_rotor("flight"))
+    return install(PLIES["MFC_P1"], default_placement(plies), host, uh60a_rotor("flight"))
 
 
 def figure_5_5() -> Report:
@@ -47,10 +42,9 @@ def figure_5_5() -> Report:
     curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
-    known = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
     # Variants for heat or cut into strips strain as their own kind does.
-    for shown in (shown for shown in known if shown.id not in ("MFC_P1_HT", "PZT5H_strips")):
-        field, (along, across) = electric_field(shown, shown.voltage_range), free_strain(shown, shown.voltage_range)
+    for shown in (shown for shown in PLIES.values() if shown.id not in ("MFC_P1_HT", "PZT5H_strips")):
+        field, (along, across) = shown.field(shown.voltage_range), shown.free_strain(shown.voltage_range)
         label = f"{shown.name} ({'d33' if shown.electrodes == 'interdigitated' else 'd31'})"
         curves.append(curve(label, KV_MM * field, PPM * along))
         rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
@@ -68,9 +62,9 @@ def figure_5_5() -> Report:
 
 def figure_5_7() -> Report:
     """Field over voltage: a line each, whose slope is 1 over the gap between electrodes."""
-    known = [catalogue_ply("MFC_P1"), catalogue_ply("MFC_P2")]
+    known = [PLIES["MFC_P1"], PLIES["MFC_P2"]]
     ends = {ply.id: np.array(ply.voltage_range) for ply in known}
-    fields = {ply.id: KV_MM * electric_field(ply, ends[ply.id]) for ply in known}
+    fields = {ply.id: KV_MM * ply.field(ends[ply.id]) for ply in known}
     lines = tuple(curve(ply.name, ends[ply.id], fields[ply.id], "both") for ply in known)
     return report(
         "5.7",
@@ -95,13 +89,14 @@ def figure_5_10() -> Report:
     curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
-    low, high = catalogue_ply("MFC_P1").voltage_range
+    ply = PLIES["MFC_P1"]
+    low, high = ply.voltage_range
     for k, (name, (plies, host)) in enumerate(BLADES.items()):
         installed = fitted_blade(plies, host)
-        up, down = (twist_under_voltage(installed, [volts]) for volts in (high, low))
-        curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
-        curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
-        rows.append((name, math.degrees(up.twist[-1]), math.degrees(down.twist[-1])))
+        r = np.linspace(float(installed.r[0]), 1.0, 61)
+        up, down = (np.degrees(installed.change([volts / ply.voltage_swing], r)) for volts in (high, low))
+        curves += curve(name, r, up, colour=k), curve("", r, down, "dashed", colour=k)
+        rows.append((name, float(up[-1]), float(down[-1])))
         numbers[name] = math.degrees(installed.attainable)
     return report(
         "5.10",

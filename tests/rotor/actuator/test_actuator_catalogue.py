@@ -7,22 +7,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import PiezoPly, Programme, actuators, find_actuator, programmes
-from rotor.actuator.installation import electric_field
+from rotor.actuator.catalogue import PiezoPly, Programme, of_kind, programmes
 from rotor.support.assets import asset_path
 
-PLIES = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
-
-
-def ply(id: str) -> PiezoPly:
-    found = find_actuator(id)
-    assert isinstance(found, PiezoPly)
-    return found
+PLIES = of_kind(PiezoPly)
 
 
 def test_mfc_data_are_consistent():
     """The maker also gives 900 N and 150 µm for a patch of 85 × 57 mm, 48.8 kJ/m³ and 0.16 g/cm²."""
-    mfc = ply("MFC_P1")
+    mfc = PLIES["MFC_P1"]
     strain = mfc.swing[0]
     assert_allclose(mfc.material.e1 * strain * 57e-3 * mfc.thickness, 900.0, rtol=0.05)
     assert_allclose(85e-3 * strain, 150e-6, rtol=0.03)
@@ -33,17 +26,17 @@ def test_mfc_data_are_consistent():
     assert_allclose(strain / mfc.voltage_swing, 0.9e-6, rtol=1e-12)
 
 
-@pytest.mark.parametrize("sheet", PLIES, ids=lambda sheet: sheet.id)
+@pytest.mark.parametrize("sheet", PLIES.values(), ids=lambda sheet: sheet.id)
 def test_strain_is_coefficient_times_field(sheet: PiezoPly):
     """Free strain over the range against d times the field's swing: they agree to the spread of the material data."""
-    field = np.ptp(electric_field(sheet, sheet.voltage_range))
+    field = np.ptp(sheet.field(sheet.voltage_range))
     assert_allclose(sheet.swing[0], sheet.d_along * field, rtol=0.06)
     assert_allclose(sheet.swing[1], sheet.d_across * field, rtol=0.06)
 
 
 def test_grades_of_the_file_are_those_of_the_lists():
     """Every number of the table is followed by its grade; R and A ones are those that the program warns about."""
-    assert "AFC: assumed values: capacitance" in " ".join(ply("AFC").provenance.warnings("AFC"))
+    assert "AFC: assumed values: capacitance" in " ".join(PLIES["AFC"].provenance.warnings("AFC"))
     text = asset_path("actuators.toml").read_text(encoding="utf-8")
     for row, block in zip(tomllib.loads(text)["ply"], text.split("[[ply]]")[1:], strict=True):
         marked: dict[str, set[str]] = {"R": set(), "A": set()}

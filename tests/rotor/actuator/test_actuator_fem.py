@@ -6,16 +6,8 @@ from numpy.testing import assert_allclose
 from section_fem import Stiffness, analyse, closed_wall, with_web
 from test_actuator_section import DIAGONAL, METAL, blade, ply
 
-from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.section import (
-    Placement,
-    SectionSpec,
-    active_section,
-    default_placement,
-    passive_skin,
-    skin,
-    web_line,
-)
+from rotor.actuator.ply import PiezoPly, active_section, passive_skin
+from rotor.actuator.section import Placement, SectionSpec, default_placement, skin, web_line
 from rotor.dynamics.structure import glass
 from rotor.dynamics.thin_wall import Layer, Material, Panel, build_section, induced_twist_rate, torsional_stiffness
 

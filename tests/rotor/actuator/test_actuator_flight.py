@@ -13,7 +13,6 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.pictures import twist_under_voltage
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.verdict import Verdict, judge
 from rotor.files.make_design import make_design
@@ -68,7 +67,7 @@ def test_voltages_make_the_reached_twist():
     assert not any(leg.climb_speed for leg in legs)  # Its models know level flight only.
     flight = fly(judged, legs)
     for volts, twist in zip(flight.voltages, flight.reached, strict=True):
-        assert_allclose(twist_under_voltage(judged.installed, volts).twist[-1], twist, atol=1e-9)
+        assert_allclose(judged.installed.tip(np.array(volts) / 2000.0), twist, atol=1e-9)
 
 
 def test_the_powers_are_those_of_trims():

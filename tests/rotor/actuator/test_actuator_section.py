@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import PiezoPly, find_actuator
+from rotor.actuator.catalogue import of_kind
+from rotor.actuator.ply import PiezoPly, active_section
 from rotor.actuator.section import (
     HostBlade,
     Placement,
     SectionSpec,
-    _panels,
-    active_section,
     default_placement,
+    panels,
     passive_wall,
     section_spec,
 )
@@ -57,9 +57,7 @@ def axial_stiffness(section: WallSection) -> float:
 
 
 def ply(id: str) -> PiezoPly:
-    found = find_actuator(id)
-    assert isinstance(found, PiezoPly)
-    return found
+    return of_kind(PiezoPly)[id]
 
 
 # Laminate
@@ -158,7 +156,7 @@ def blade(kind: str, share: float) -> SectionSpec:
 def test_contour_and_calibration():
     """Enclosed area and perimeter from the ordinates (0.01841 m², 1.076 m); GJ 69.76 kN·m²; a titanium wall of 2 mm."""
     spec = blade("retrofit", 1.0)
-    section = build_section(_panels(spec, passive_wall(spec), None, None))
+    section = build_section(panels(spec, passive_wall(spec), None, None))
     assert_allclose(section.areas.sum(), 0.01841, rtol=0.005)
     assert_allclose(section.areas[0], 0.00939, rtol=0.005)
     assert_allclose(torsional_stiffness(section), 69760.0, rtol=1e-5)

@@ -17,7 +17,6 @@ from rotor.__main__ import main
 from rotor.actuator.catalogue import actuators, engines_of, find_actuator
 from rotor.actuator.installation import change_limit, with_actuator_mass
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, best_fixed, twisted
-from rotor.actuator.pictures import electronics_station, twist_under_voltage
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.tables import verdict_table
 from rotor.actuator.verdict import Verdict, judge, verdict_details, verdict_sentence
@@ -229,16 +228,6 @@ def test_limit_for_the_optimiser():
 
 
 # Pictures and tables
-
-
-def test_pictures():
-    judged = verdict()
-    inner, outer = electronics_station(judged.installed)
-    assert inner < outer < judged.installed.placement.span[0]
-    curve = twist_under_voltage(judged.installed, (1500.0,))
-    assert_allclose(np.abs(curve.twist), 0.75 * judged.installed.limit(curve.r), atol=1e-9)
-    with pytest.raises(ValueError, match="voltage 1600"):
-        twist_under_voltage(judged.installed, (1600.0,))
 
 
 def test_table_of_verdicts():

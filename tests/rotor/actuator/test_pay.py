@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.optimum import ConditionPair, best_actuated
-from rotor.actuator.pay import ENOUGH, BreakEven, break_even, other_stroke, pay_sentence, with_mass
+from rotor.actuator.pay import WANTED_SHARE, BreakEven, break_even, other_stroke, pay_sentence, with_mass
 from rotor.actuator.tables import pay_table
 from rotor.actuator.verdict import try_actuator
 from rotor.design.twist import LinearTwist
@@ -84,7 +84,7 @@ def test_mass_costs_what_momentum_theory_says():
 def test_a_requirement_just_pays():
     even = line()
     needed = even.requirement
-    assert even.saving(needed.twist) == pytest.approx(ENOUGH * even.ideal_saving)
+    assert even.saving(needed.twist) == pytest.approx(WANTED_SHARE * even.ideal_saving)
     assert even.net(needed.twist, needed.mass, needed.drive) == pytest.approx(0.0, abs=1e-6)
     assert even.mass_allowed(needed.twist) > needed.mass  # Without a drive.
     assert even.mass_allowed(needed.twist, 2.0 * even.ideal_saving) == 0.0

@@ -4,8 +4,6 @@ from collections.abc import Callable
 
 import pytest
 
-from rotor.actuator.pictures import twist_under_voltage
-from rotor.validation.thesis.actuation import BLADES, fitted_blade
 from rotor.validation.thesis.report import Agreement, Report
 
 Make = Callable[[str], Report]
@@ -35,11 +33,10 @@ def test_figure_5_7(report: Make):
 
 def test_figure_5_10(report: Make):
     """Up at positive voltage, three times as far as down at −500 V; the worked example's tips within 10 %."""
-    numbers = alone(report, "5.10").numbers
-    for (name, (plies, host)), expected in zip(BLADES.items(), (0.92, 1.66, 2.84, 4.16), strict=True):
-        assert numbers[name] == pytest.approx(expected, rel=0.1)
-        up, down = (twist_under_voltage(fitted_blade(plies, host), [volts]).twist[-1] for volts in (1500.0, -500.0))
-        assert up == pytest.approx(-3.0 * down)
+    one = alone(report, "5.10")
+    for (name, up, down), expected in zip(one.tables[0].rows, (0.92, 1.66, 2.84, 4.16), strict=True):
+        assert one.numbers[str(name)] == pytest.approx(expected, rel=0.1)
+        assert float(up) == pytest.approx(-3.0 * float(down))
 
 
 def test_table_5_1(report: Make):
