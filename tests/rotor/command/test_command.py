@@ -8,11 +8,10 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
 from rotor.__main__ import main
-from rotor.files.make_design import make_design
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.support.user_input import parse_range
-from rotor.trim.solve import solve
 
 KEYS = [
     "schema", "version", "rotor",

@@ -10,16 +10,14 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotor import Solution, make_design, solve
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.dynamics.torsion import blade_modes
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.study.series import between_drag_areas
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 HART2 = {
     "shaft_tilt_deg": -4.3, "thrust_n": 3300.0, "density_kg_m3": 1.2055, "tip_mach": 109.12 * 2.0 / 341.7,

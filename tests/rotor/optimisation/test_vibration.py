@@ -12,12 +12,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
+from rotor import Design, Solution
 from rotor.__main__ import main
-from rotor.design.design import Design
 from rotor.optimisation.vibration import TMatrix, with_harmonics
 from rotor.trim.hub_loads import HubLoads, hub_loads
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import Solution
 
 LINEAR, LINE = "pitt-peters", "lifting-line"
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
