@@ -36,7 +36,8 @@ VIBRATION = ["hub_loads", "hub_loads_note", "blade_frequencies_per_rev"]
 
 QUICK = ("--inflow", "uniform", "--elements", "12", "--azimuths", "24")
 FORMATS = (Path(__file__).parents[3] / "docs" / "formats.md").read_text(encoding="utf-8")
-Answer, Printed = Callable[..., Any], Callable[..., str]
+Answer = Callable[..., Any]
+Printed = Callable[..., str]
 
 
 def test_json_keys_and_power(answer: Answer):

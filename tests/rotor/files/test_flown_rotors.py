@@ -188,20 +188,6 @@ def test_power_between_the_drag_areas(name: str):
 
 
 @pytest.mark.parametrize(
-    ("rotor", "mu", "stand", "said"),
-    [
-        ("pca2", 0.1, {"ct_over_sigma": 0.07, "flapping": "hub-moments"}, "on blades hinged at the shaft"),
-        ("hart2", 0.1, {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "set flapping to hub-moments"),
-        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "needed to trim the hub moments"),
-        ("hart2", 0.0, HART2, "in hover the rotor is balanced"),
-    ],
-)
-def test_a_bad_test_is_one_sentence(rotor: str, mu: float, stand: dict[str, float], said: str):
-    with pytest.raises(ValueError, match=said):
-        make_design(rotor=rotor, mu=mu, stand=stand)
-
-
-@pytest.mark.parametrize(
     ("line", "said"),
     [
         ('hub = "gimballed"\nflap_spring_nm_rad = 5.0', "flap_spring_nm_rad on a hub that is 'gimballed'"),

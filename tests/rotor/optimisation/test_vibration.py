@@ -131,23 +131,6 @@ def test_front_of_static_twist():
     assert_allclose(front.points[1].index, 0.5 * (low + high), rtol=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: rotor.vibration_front(bent(LINEAR), points=1), "1 points"),
-        (lambda: rotor.vibration_front(bent(LINEAR), reach_deg=0.0), "reach 0°"),
-        (lambda: rotor.vibration_front(bent(LINEAR), "screw"), "screw"),
-        (lambda: rotor.t_matrix(bent(LINEAR), (2, 9)), "9/rev"),
-        (lambda: rotor.t_matrix(bent(LINEAR, 0.1)), "below µ 0.2"),
-        (lambda: rotor.t_matrix(rotor.make_design(mu=0.3)), "--bending"),
-        (lambda: rotor.t_matrix(bent(LINEAR), (2,)).response("3:1:0"), "no 3/rev"),
-    ],
-)
-def test_bad_input_is_one_sentence(call, words: str):
-    with pytest.raises(ValueError, match=words):
-        call()
-
-
 @pytest.mark.slow
 def test_front_command(
     capsys: pytest.CaptureFixture[str], answer: Callable[..., Any], refused: Callable[..., str], tmp_path: Path

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor import Design, Solution, make_design, solve
 from rotor.aero.lifting_line import WakeCourse
-from rotor.design.aircraft import Stand, read_stand
+from rotor.design.aircraft import Stand
 from rotor.files.design_file import design_from_record
 from rotor.trim.analysis import Analysis, power_gradient
 
@@ -129,22 +129,6 @@ def test_negative_thrust_mirrors_positive(inflow: str, mu: float):
     assert down.power.induced == pytest.approx(up.power.induced, rel=1e-4)
     assert down.controls.flap_1c == pytest.approx(-up.controls.flap_1c, abs=1e-6)
     assert down.controls.flap_1s == pytest.approx(-up.controls.flap_1s, abs=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("record", "sentence"),
-    [
-        ({}, "none of them"),
-        ({"thrust_n": 1.0, "collective_deg": 2.0}, "thrust_n and collective_deg"),
-        ({"ct_over_sigma": 0.5}, "outside 0…0.25"),
-        ({"collective_deg": 5.0, "cyclic_1c_deg": 1.0}, "needed to trim the flapping"),
-        ({"collective_deg": "5"}, "give a number"),
-        ({"pitch": 5.0}, "is not known"),
-    ],
-)
-def test_inputs_that_do_not_fit(record: dict[str, object], sentence: str):
-    with pytest.raises(ValueError, match=sentence):
-        read_stand(record, "wind-tunnel")
 
 
 @pytest.mark.parametrize(
