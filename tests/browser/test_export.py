@@ -19,7 +19,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from rotor import make_design, solve
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 """A design with a caveat."""
 AS_LEFT = True

@@ -9,7 +9,6 @@ from watched import COARSE, Visit, Watched
 from explorer.model.inputs import Inputs
 from rotor import load_design, make_design
 
-pytestmark = pytest.mark.browser
 START = Inputs()
 
 
