@@ -153,7 +153,7 @@ def noticed(checkout: Path, file: str, text: str, tests: list[str]) -> str:
     finally:
         place.write_bytes(before)
         os.utime(place, ns=(stat.st_atime_ns, stat.st_mtime_ns))  # The kernels kept for it serve again.
-    failed = re.search(r"^(?:FAILED|ERROR) (\S+)", out, re.M)
+    failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", out, re.M)
     if failed and run(checkout, [failed[1]])[0]:
         raise RuntimeError(f"{failed[1]} fails without the fault too: mend it first")
     if failed or code in (0, -signal.SIGXCPU, -signal.SIGKILL):
