@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rotor.files.make_design import make_design
+from rotor import make_design, solve
 from rotor.support import bytes_cache
 from rotor.support.arrays import Array
 from rotor.support.bytes_cache import bytes_kept, limit_caches
-from rotor.trim.solve import solve
 
 MEGABYTE = 2**20
 

@@ -55,7 +55,7 @@
     const card = part('verdict'), shown = Boolean(one) && !power?.problem;
     card.hidden = !shown;
     page.toggleAttribute('data-assessed', shown);
-    if (!shown) return;
+    if (!one || !shown) return;
     const wait = text(one.problem || 'computing …'), {against, baselines, kind, vibration} = one;
     const column = (name, words, more, title = '') => `<div title="${text(title)}"><h4>${name}</h4>${words}
       <p class="rxf-dim rxf-num">${more}</p></div>`;
@@ -85,7 +85,7 @@
   // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
   const suppose = paced(place => RX.send('suppose', place), 80);
   drag(part('verdict'), '[data-pays]', (button, {clientX}) => {
-    const {range, kilograms} = RX.state.assessed, size = parseFloat(button.textContent);
+    const {range, kilograms} = RX.shown('assessed'), size = parseFloat(button.textContent);
     const mass = button.textContent.includes('kg'), at = share => mass
       ? [range, Math.max(size * share, .1)] : [Math.min(size * share, 20), kilograms];
     RX.send('suppose', 'on');

@@ -74,7 +74,8 @@ const Charts = (() => {
         if (here && kind === 'points' && size)
           taken.push([here[0] - size - 1, here[1] - size - 1, here[0] + size + 1, here[1] + size + 1]);
         const many = here && last && kind === 'line' ? Math.ceil(distance(here, last) / 4) : 0;
-        for (let step = 0; step < many; step++) crossed.push(here.map((value, i) => lerp(value, last[i], step / many)));
+        for (let step = 0; step < many; step++)
+          crossed.push(here?.map((value, i) => lerp(value, last[i], step / many)));
         last = here;
       });
     }
@@ -100,10 +101,10 @@ const Charts = (() => {
     line({x, y, colour, width = 2, dashes, dots, filled}, place) {
       const {X, Y} = place;
       const known = x.map((at, k) => [X(at), y[k] === null ? null : Y(y[k])]);
-      const pieces = [[]];  // A line has gaps where it has no values.
+      const pieces = [/** @type {any[]} */ ([])];  // A line has gaps where it has no values.
       for (const point of known) {
         if (point[1] === null) pieces.push([]);
-        else pieces.at(-1).push(point);
+        else pieces[pieces.length - 1].push(point);
       }
       const path = pieces.filter(piece => piece.length).map(trace).join('');
       if (!path) return '';
@@ -147,7 +148,7 @@ const Charts = (() => {
   function rule({at, to = null, along, label, colour, dashes = ''}, {X, Y, left, right, top, base, settle}) {
     if (to !== null) return [`
       <rect x="${X(at)}" y="${top}" width="${X(to) - X(at)}" height="${base - top}" fill="var(--rx-field)" data-gap/>
-      <text x="${X((at + to) / 2)}" y="${(top + base) / 2 + 4}" text-anchor="middle">${text(label)}</text>`];
+      <text x="${X((at + Number(to)) / 2)}" y="${(top + base) / 2 + 4}" text-anchor="middle">${text(label)}</text>`];
     const path = along === 'x' ? `M${X(at).toFixed(1)} ${top}V${base}` : `M${left} ${Y(at).toFixed(1)}H${right}`;
     const stands = label && along === 'x' && settle(label, X(at), base, 0, 'rule');
     const name = stands ? `<text ${stands} style="fill:${colour}" data-name>${text(label)}</text>` : '';
@@ -180,7 +181,7 @@ const Charts = (() => {
     const place = frame(chart, width, high, lower(chart) ? {bottom: 34} : {});
     const key = chart.series.filter(({label}) => label)
       .map(one => `<span class="rxf-legend-line">${swatch(one)}${text(one.label)}</span>`).join('');
-    const focus = element.contains(document.activeElement) && document.activeElement.dataset.value;
+    const focus = element.contains(document.activeElement) && document.activeElement?.dataset.value;
     const spoken = text(`${title}, ${y.label ?? ''}. ${value ?? ''} ${note ?? ''}`);
     if (note) element.title = note; else element.removeAttribute('title');
     element.innerHTML = `

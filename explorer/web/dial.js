@@ -16,6 +16,7 @@
     }, 0));
   }
   // Power and index of vibration against the other blade [%].
+  /** @returns {[number, number]} */
   function foresee(matrix, x) {
     const all = values(matrix, x), sums = [0, 0];  // Forces, moments.
     for (let k = 0; k < 5; k++) sums[k < 3 ? 0 : 1] += matrix.gains[k] ** 2 * (all[2 * k] ** 2 + all[2 * k + 1] ** 2);
@@ -25,12 +26,12 @@
   // As the hand has it, or as the sliders do.
   function wave(n) {
     const ours = held ?? (left && performance.now() - left.at < 900 ? left.waves : null);
-    return ours?.[n] ?? RX.state.dial.now.find(([order]) => order === n)?.slice(1) ?? [0, 0];
+    return ours?.[n] ?? RX.shown('dial').now.find(([order]) => order === n)?.slice(1) ?? [0, 0];
   }
   const polar = (size, angle) => [size * Math.cos(angle * DEGREE), size * Math.sin(angle * DEGREE)];
   const direction = (x, y) => turned(Math.round(Math.atan2(y, x) / DEGREE));
   const hundredths = value => Math.round(100 * value) / 100;
-  const vector = () => RX.state.dial.harmonics.flatMap(n => polar(...wave(n)));
+  const vector = () => RX.shown('dial').harmonics.flatMap(n => polar(...wave(n)));
   // Largest twist of some harmonics together over a turn [°].
   function peak(orders) {
     const waves = orders.map(n => [n, ...wave(n)]), azimuths = Array.from({length: 72}, (_, k) => 5 * k);
@@ -50,7 +51,7 @@
   }
   const ends = list => [Math.min(...list), Math.max(...list)];
   function needs(power) {
-    const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.state.dial.unit}`;
+    const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.shown('dial').unit}`;
     return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
   }
   function shakes(index) {
@@ -62,7 +63,7 @@
   }
   // Power and vibration in one sentence.
   function verdict() {
-    const {dial} = RX.state, now = change();
+    const dial = RX.shown('dial'), now = change();
     return now ? `${needs(now.power[0])}; ${shakes(now.index)}` : dial.problem || dial.words;
   }
 
@@ -70,7 +71,8 @@
   const GRID = 49;
   let known = null;
   function fieldOf() {
-    const {dial: {harmonics, reach}, dial_matrix: matrix} = RX.state, at = 2 * harmonics.indexOf(chosen), x = vector();
+    const {harmonics, reach} = RX.shown('dial'), matrix = RX.shown('dial_matrix');
+    const at = 2 * harmonics.indexOf(chosen), x = vector();
     const seen = (model, point) => { [x[at], x[at + 1]] = point; return foresee(model, x); };
     x[at] = x[at + 1] = 0;
     const key = JSON.stringify([chosen, reach, x]);
@@ -110,7 +112,7 @@
     return {path, points};
   }
   function small(n) {
-    const [size, phase] = wave(n), radius = 17, [dx, dy] = polar(radius * size / RX.state.dial.reach, phase);
+    const [size, phase] = wave(n), radius = 17, [dx, dy] = polar(radius * size / RX.shown('dial').reach, phase);
     const x = (22 + dx).toFixed(1), y = (22 - dy).toFixed(1);
     const label = `${n}/rev: ${size.toFixed(2)}° at ${phase.toFixed(0)}°`;
     return `<button data-harmonic="${n}" aria-pressed="${n === chosen}" aria-label="${label}">
@@ -124,13 +126,13 @@
   const LEVELS = [-8, -4, -2, -1, 0, 1, 2, 4, 8, 16];
   // Places on a dial of this size [px].
   function placing(size) {
-    const {reach} = RX.state.dial, middle = size / 2, radius = middle - EDGE, scale = radius / reach;
+    const {reach} = RX.shown('dial'), middle = size / 2, radius = middle - EDGE, scale = radius / reach;
     const at = (x, y) => [middle + scale * x, middle - scale * y];
     return {reach, middle, radius, scale, at, spot: (amplitude, phase) => at(...polar(amplitude, phase))};
   }
   // Lines of equal power, named inside, away from the dot and from other names; least power and least vibration.
   function drawField(size) {
-    const {power, least: all} = fieldOf(), least = RX.state.dial.computing ? [] : all;
+    const {power, least: all} = fieldOf(), least = RX.shown('dial').computing ? [] : all;
     const {middle, radius, at, spot} = placing(size), step = 2 * radius / (GRID - 1);
     const few = Math.max(...power) - Math.min(...power) >= 14, dot = spot(...wave(chosen)), names = [];
     const lines = LEVELS.filter(level => level === 0 || !few || Math.abs(level) >= 2).map(level => {
@@ -180,7 +182,8 @@
   const within = ({room, whole, harmonics}) => Math.max(room * whole - peak(harmonics.filter(n => n !== chosen)), 0);
   const beyond = dial => dial.whole && wave(chosen)[0] > within(dial) + .005;
   function dialSvg(size) {
-    const {dial, dial_matrix: matrix} = RX.state, places = placing(size), {reach, middle, scale, spot} = places;
+    const dial = RX.shown('dial'), matrix = RX.state.dial_matrix;
+    const places = placing(size), {reach, middle, scale, spot} = places;
     const [amplitude, phase] = wave(chosen), [x, y] = spot(amplitude, phase).map(v => v.toFixed(1));
     const room = within(dial);
     const ring = `<circle cx="${middle}" cy="${middle}" r="${scale * Math.min(room, reach)}" class="rxd-ring">
@@ -208,16 +211,17 @@
     [-LESS, -LESS / 2, 0, MORE / 2, MORE].map((value, k) => [25 * k, signed(value, 0)]))}`;
   function shade(canvas, size) {
     const tile = document.createElement('canvas'), style = getComputedStyle(page), pen = canvas.getContext('2d');
+    const ink = /** @type {CanvasRenderingContext2D} */ (tile.getContext('2d'));
     const tones = ['--rx-good', '--rx-bad'].map(name =>
-      style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/gi).map(byte => parseInt(byte, 16)));
+      Array.from(style.getPropertyValue(name).matchAll(/[0-9a-f]{2}/gi), ([byte]) => parseInt(byte, 16)));
     canvas.width = canvas.height = GRID * 4;
     canvas.style.cssText = `left:${EDGE}px;top:${EDGE}px;width:${size - 2 * EDGE}px;height:${size - 2 * EDGE}px`;
     tile.width = tile.height = GRID;
-    const pixels = tile.getContext('2d').createImageData(GRID, GRID);
+    const pixels = ink.createImageData(GRID, GRID);
     fieldOf().index.forEach((value, k) => {
       pixels.data.set([...tones[value > 0 ? 1 : 0], tint(value)], 4 * k);
     });
-    tile.getContext('2d').putImageData(pixels, 0, 0);
+    ink.putImageData(pixels, 0, 0);
     pen.imageSmoothingQuality = 'high';
     pen.drawImage(tile, 0, 0, canvas.width, canvas.height);
   }
@@ -236,14 +240,15 @@
   }
   // The waves of the front nearest to a pixel of its chart, between two of its points by a straight line.
   function along(element, x, y) {
-    const {front, harmonics} = RX.state.dial, {X, Y} = element.drawn.place;
+    const {front, harmonics} = RX.shown('dial'), {X, Y} = element.drawn.place;
+    /** @type {{far: number, twist: number[]} | null} */
     let best = null;
     for (let k = 0; k + 1 < front.length; k++) {
       const [[p0, v0, from], [p1, v1, to]] = [front[k], front[k + 1]];
       const x0 = X(p0), y0 = Y(v0), dx = X(p1) - x0, dy = Y(v1) - y0;
       const share = clamp(((x - x0) * dx + (y - y0) * dy) / Math.max(dx ** 2 + dy ** 2, 1e-9), 0, 1);
       const far = Math.hypot(x0 + share * dx - x, y0 + share * dy - y);
-      if (!(far >= best?.far)) best = {far, twist: from.map((value, j) => lerp(value, to[j], share))};
+      if (!best || far < best.far) best = {far, twist: from.map((value, j) => lerp(value, to[j], share))};
     }
     return best && Object.fromEntries(harmonics.map((n, k) => {
       const [a, b] = [best.twist[2 * k] ?? 0, best.twist[2 * k + 1] ?? 0];
@@ -261,7 +266,8 @@
       <em class="rxf-num" data-kind="${kind}">${words}</em></div>`;
   }
   function readout() {
-    const {dial, dial_matrix: matrix, assessed} = RX.state, [amplitude, phase] = wave(chosen), now = change();
+    const dial = RX.shown('dial'), {dial_matrix: matrix, assessed} = RX.state, now = change();
+    const [amplitude, phase] = wave(chosen);
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
     const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
       <span class="rxf-dim">at phase ${phase.toFixed(0)}°${beyond(dial) ? ', out of reach' : ''}</span></p>`;
@@ -322,7 +328,7 @@
   });
   // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
   function arrived([n, [size, phase]]) {
-    const [, amplitude, angle] = RX.state.dial.now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
+    const [, amplitude, angle] = RX.shown('dial').now.find(([order]) => order === Number(n)) ?? [0, 0, 0];
     return Math.abs(amplitude - size) < .021 && (amplitude < .03 || Math.abs(angle - phase) < .6);
   }
   RX.paint(['dial', 'dial_matrix', 'dial_front', 'assessed'], dial => {
@@ -347,7 +353,7 @@
     return [(clientX - box.left - box.width / 2) / radius, (box.top + box.height / 2 - clientY) / radius];
   }
   function turn(circle, event) {
-    const point = onDial(circle, event), size = hundredths(RX.state.dial.reach * Math.min(Math.hypot(...point), 1));
+    const point = onDial(circle, event), size = hundredths(RX.shown('dial').reach * Math.min(Math.hypot(...point), 1));
     return {[chosen]: [size < .04 ? 0 : size, direction(...point)]};  // The middle means none.
   }
   function trade(front, {clientX, clientY}) {
@@ -392,7 +398,7 @@
     if (closing) return enlarge(false);
     if (!step) return;
     event.preventDefault();
-    const [size, phase] = wave(chosen), wished = clamp(hundredths(size + many * step[0]), 0, RX.state.dial.reach);
+    const [size, phase] = wave(chosen), wished = clamp(hundredths(size + many * step[0]), 0, RX.shown('dial').reach);
     const waves = {[chosen]: [wished, (phase + many * step[1] + 360) % 360]};
     heard.send(waves);
     leave(waves);
@@ -415,7 +421,7 @@
       const {dial, dial_matrix: matrix} = RX.state, pose = viewer()?.nodePoseData?.['/airframe'];
       if (held) until = now + LONGER;
       shaking = Boolean(dial && matrix && pose) && now <= until;
-      if (!shaking) { if (rest && pose) put(pose, rest); return; }
+      if (!dial || !matrix || !shaking) { if (rest && pose) put(pose, rest); return; }
       if (pose.position !== last) rest = [...pose.position];
       const loads = values(matrix, vector()), angle = 2 * Math.PI * SHAKES * (now - begun) / 1000;
       put(pose, rest.map((value, k) =>

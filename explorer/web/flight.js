@@ -7,7 +7,7 @@
   const degrees = value => `${Common.signed(value, 2)}°`;
   let at = 0, scrubbed = false, moved = -Infinity, playing = 0, release = null;
 
-  const last = () => RX.state.flight.legs.length - 1;
+  const last = () => RX.shown('flight').legs.length - 1;
   const between = (values, x) => {
     const step = last() / (values.length - 1), k = clamp(Math.floor(x / step), 0, values.length - 2);
     return lerp(values[k], values[k + 1], x / step - k);
@@ -158,7 +158,7 @@
       <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
     const {svg, width, height} = room();
-    if (!bars.length || !svg) return;
+    if (!bars.length || !svg || !width) return;
     let sum = 0;
     const ends = bars.map(({total, value}) => {
       const from = total ? 0 : sum;
@@ -187,14 +187,14 @@
   // The break-even line, and a supposed actuator to drag by its twist and mass; real ones stand where they are.
   let held = null;
   function drawBreakEven({chart, kind, words, note, at: given}) {
-    const focused = earns.contains(document.activeElement) && document.activeElement.matches('[data-supposed]');
+    const focused = earns.contains(document.activeElement) && document.activeElement?.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
         <button class="rxf-push" data-do="suppose" data-value="off">Extra power</button></div>
       <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
       <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
         ${note ? '' : 'hidden'}>${text(note)}</div>`;
     const {svg, width, height} = room();
-    if (!chart || !svg) return;
+    if (!chart || !svg || !width) return;
     const place = Charts.frame(chart, width, height, {top: 22, bottom: 32}), {X, Y, left, right, top, base} = place;
     const [twist, mass] = held?.at ?? given;
     const spot = [clamp(X(twist), left, right), clamp(Y(mass), top, base)];
@@ -227,7 +227,7 @@
   drag(earns, '[data-supposed]', (dot, event) => {
     event.preventDefault();
     dot.focus({preventScroll: true});
-    held = {at: RX.state.suppose.at};
+    held = {at: RX.shown('suppose').at};
     return {
       move({clientX, clientY}) {
         const box = earns.querySelector('svg').getBoundingClientRect(), {atX, atY} = earns.place;
@@ -238,12 +238,12 @@
   });
   const STEPS = {ArrowLeft: [-.1, 1], ArrowRight: [.1, 1], ArrowDown: [0, 1 / 1.05], ArrowUp: [0, 1.05]};
   earns.addEventListener('keydown', event => {
-    const step = closest(event, '[data-supposed]') && STEPS[event.key];
-    if (!step) return;
+    const step = closest(event, '[data-supposed]') && STEPS[event.key], {suppose: shown} = RX.state;
+    if (!step || !shown?.at) return;
     event.preventDefault();
     event.stopPropagation();
-    const [twist, mass] = RX.state.suppose.at, many = event.shiftKey ? 5 : 1;
-    RX.state.suppose.at = suppose(twist + many * step[0], mass * step[1] ** many);
+    const [twist, mass] = shown.at, many = event.shiftKey ? 5 : 1;
+    shown.at = suppose(twist + many * step[0], mass * step[1] ** many);
   });
   for (const [name, element] of [['flight', card], ['earns', earns]])
     new ResizeObserver(() => { if (RX.state[name]) RX.again(name); }).observe(element);

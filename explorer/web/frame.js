@@ -15,7 +15,7 @@
   const icon = name => `<svg class="rxf-icon" viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
   const page = document.documentElement, root = document.getElementById('rx');
   const part = name => root.querySelector(`[data-part=${name}]`);
-  const state = /** @type {RxState} */ ({}), painters = [], changed = new Set();
+  const state = /** @type {Partial<RxState>} */ ({}), painters = [], changed = new Set();
   let bridge = null, serial = 0, sessions = 0;
   const paintChanged = soon(() => {
     const due = new Set(changed);
@@ -24,8 +24,8 @@
       if (names[0] in state && names.some(name => due.has(name))) draw(...names.map(name => state[name]));
   });
 
-  const RX = window.RX = /** @type {any} */ ({
-    state, icon, part,
+  const RX = window.RX = /** @type {Window['RX']} */ ({
+    state, icon, part, shown: name => state[name],
     // Draw with this function, once a frame at most, where one of these parts of the state has changed and the first is
     // known. It draws into elements of its own, and reads whatever it needs.
     paint(names, draw) { painters.push({names: [names].flat(), draw}); },
@@ -48,10 +48,10 @@
       if ('power' in parts) window.dispatchEvent(new Event('rx-answered'));
     },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
-    send(name, value = null) {
+    send(name, value) {
       const client = viewer();
       if (!client?.sendMessage || bridge === null) return;
-      const updates = {value: JSON.stringify([++serial, name, value])};
+      const updates = {value: JSON.stringify([++serial, name, value ?? null])};
       client.sendAfterEdits({type: 'GuiUpdateMessage', uuid: bridge, updates});
     },
     // The hand holds something; the function that is returned lets go, after what was sent last has come [ms].
@@ -125,16 +125,18 @@
     const follows = () => window.open(link.href, '_blank', 'noopener');
     navigator.clipboard.writeText(link.href).then(() => RX.say('Link copied'), follows);
   });
-  document.addEventListener('change', ({target}) => {
-    if (!target.matches?.('#rx select[data-do]')) return;
-    RX.send(target.dataset.do, target.value);
-    target.blur();
+  document.addEventListener('change', event => {
+    const menu = closest(event, '#rx select[data-do]');
+    if (!menu) return;
+    RX.send(menu.dataset.do, menu.value);
+    menu.blur();
   });
   let turning = 0;
-  document.addEventListener('input', ({target}) => {
-    if (!target.matches?.('#rx input[type=range]')) return;
+  document.addEventListener('input', event => {
+    const slider = closest(event, '#rx input[type=range]');
+    if (!slider) return;
     clearTimeout(turning);
-    turning = setTimeout(() => RX.send(target.dataset.do, Number(target.value)), 30);
+    turning = setTimeout(() => RX.send(slider.dataset.do, Number(slider.value)), 30);
   });
   // A slider of the design is held from the press to the release; viser sends its last value up to 50 ms later.
   drag(window, '[data-dock-region=right] .mantine-Slider-root',
@@ -148,11 +150,11 @@
   // Keys pressed in the frame's own controls are theirs alone.
   root.addEventListener('keydown', event => {
     const presses = event.key === ' ' || event.key === 'Enter';
-    if (event.target.matches(`select, input${presses ? ', button' : ''}`)) event.stopPropagation();
+    if (closest(event, '*').matches(`select, input${presses ? ', button' : ''}`)) event.stopPropagation();
   });
   document.addEventListener('keydown', event => {
     // In a field, Escape leaves the field and no more.
-    if (event.key !== 'Escape' || event.target.matches?.('input:not([type=range], [type=checkbox])')) return;
+    if (event.key !== 'Escape' || closest(event, 'input:not([type=range], [type=checkbox])')) return;
     if (!part('menu').hidden) part('menu').hidden = true;
     else if (state.bar?.drawer && !document.querySelector('dialog[open]')) RX.send('drawer', '');
   });
@@ -254,8 +256,8 @@
   });
 
   function pinMenu(button, keep) {
-    const menu = part('menu'), {pinned} = state.bar;
-    if (!keep && !menu.hidden) { menu.hidden = true; return; }
+    const menu = part('menu'), pinned = state.bar?.pinned;
+    if (!pinned || !keep && !menu.hidden) { menu.hidden = true; return; }
     menu.innerHTML = `<p data-explorer="pinned"><b style="color:var(--rx-pinned)">A</b> ${text(pinned.title)}<br>
       <span class="rxf-dim rxf-num">${text(pinned.power)}</span></p>
       <button data-do="swap">Swap A and B</button><button data-do="back">Back to A</button>
@@ -322,15 +324,16 @@
     if (small.matches) tellCover();  // There it is as high as its mode wants, whatever it says.
   }).observe(power);
   // Drawn for their size; the plan hides them.
-  for (const name of ['inset', 'strip']) new ResizeObserver(() => RX.again(name)).observe(part(name));
+  for (const name of /** @type {const} */ (['inset', 'strip']))
+    new ResizeObserver(() => RX.again(name)).observe(part(name));
 
   // Words at points of the scene; each of these parts of the state is a list of them.
   const LABELS = /** @type {const} */ (['lifted_labels', 'probe_label', 'hub_labels']), LABEL_SHIFT = 60;  // [px]
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
-    labels = LABELS.flatMap(list => /** @type {any} */ (state[list]) ?? []);
+    labels = LABELS.flatMap(list => state[list] ?? []);
     const all = part('labels');  // They stay where they are, and new ones are unseen, until they are placed.
-    while (all.children.length > labels.length) all.lastChild.remove();
+    while (all.children.length > labels.length) all.lastChild?.remove();
     while (all.children.length < labels.length)
       all.insertAdjacentHTML('beforeend', '<span class="rxf-label rxf-num" style="visibility:hidden"></span>');
     labels.forEach((label, k) => {
@@ -390,7 +393,7 @@
     const box = viewer().canvas.getBoundingClientRect(), prompt = part('prompt');
     if (labels.length) placeLabels(box);
     const of = state.prompt && node(state.prompt.node);
-    if (!of || !viewer().camera) return;
+    if (!state.prompt || !of || !viewer().camera) return;
     const point = project(of, state.prompt.at), width = prompt.offsetWidth;
     const left = clamp(point.left - 0.8 * width, 8, box.width - width - 8);
     const top = clamp(point.top + 20, 8, box.height - 60);

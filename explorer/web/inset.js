@@ -52,7 +52,7 @@
     cuts.forEach((cut, k) => {
       const {r, outline} = cut, [x] = at(r), odd = k % 2 === 1, shade = along(share(r));
       if (width < 560 && odd && k < last) return;  // In a narrow card every other section has room.
-      const title = `${degrees(cut.theta - cut.overlay)} from ${text(inset.overlay_name)}`;
+      const title = `${degrees(cut.theta - Number(cut.overlay))} from ${text(inset.overlay_name)}`;
       const shape = (angle, style, from) => `
         <path d="${trace(outline.map(corner => point(r, angle, corner, from)))}Z" ${style}>${
           changed(cut) ? `<title>${title}</title>` : ''}</path>`;

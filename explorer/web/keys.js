@@ -16,8 +16,8 @@
     event.preventDefault();
     event.stopPropagation();
     for (let step = 0; step < RX.state.coarse; step++) {
-      event.target.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
-      event.target.dispatchEvent(new KeyboardEvent('keyup', {key, bubbles: true}));
+      event.target?.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+      event.target?.dispatchEvent(new KeyboardEvent('keyup', {key, bubbles: true}));
       await new Promise(done => setTimeout(done));
     }
   }, true);
@@ -43,6 +43,6 @@
     });
   });
   window.addEventListener('keydown', event => {
-    if (event.key === 'Escape' && on(event, 'input')) event.target.blur();
+    if (event.key === 'Escape') on(event, 'input')?.blur();
   });
 })();

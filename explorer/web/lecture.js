@@ -15,7 +15,7 @@
   RX.paint('lecture', step => {
     const begins = step && !page.hasAttribute('data-lecture');
     page.toggleAttribute('data-lecture', Boolean(step));
-    page.toggleAttribute('data-guess', Boolean(step) && step.answer === null);
+    page.toggleAttribute('data-guess', step?.answer === null);
     place.hidden = !step;
     if (begins || !step) {
       RX.openRail(!step && RX.small.matches);  // Full-bleed, until the controls are asked for.

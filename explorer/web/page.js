@@ -11,7 +11,7 @@
   function type(label, text) {
     const input = label?.closest('[class*=Flex-root]').querySelector('input');
     if (!input) return;
-    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(input, text);
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value')?.set?.call(input, text);
     input.dispatchEvent(new Event('input', {bubbles: true}));
   }
   const labelOf = (within, field) => [...within.querySelectorAll('label')].find(label => label.textContent === field);

@@ -37,21 +37,21 @@ interface RxState {
 }
 
 interface RxPresses {
-  pin: any;
-  swap: any;
-  back: any;
-  undo: any;
-  redo: any;
-  play: any;
-  apply: any;
-  discard: any;
-  halt: any;
-  nearest: any;
-  aim: any;
-  taken: any;
-  beat: any;
-  rival_take: any;
-  rival_end: any;
+  pin: null;
+  swap: null;
+  back: null;
+  undo: null;
+  redo: null;
+  play: null;
+  apply: null;
+  discard: null;
+  halt: null;
+  nearest: null;
+  aim: null;
+  taken: null;
+  beat: null;
+  rival_take: null;
+  rival_end: null;
   along: boolean;
   hold: boolean;
   field: string;
@@ -560,13 +560,3 @@ type RxKnotPress = [name: string, change: 'start' | 'end' | 'undo' | RxKnotMove]
 type RxKnotMove = [r: number | null, theta: number];
 
 type RxWavePress = [per_rev: number, amplitude: number, phase: number];
-
-declare const RX: {
-  state: RxState;
-  paint<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
-  paint<N extends (keyof RxState)[]>(names: [...N], draw: (...values: {[K in keyof N]: RxState[N[K]]}) => void): void;
-  again(...names: (keyof RxState)[]): void;
-  set(parts: Partial<RxState>): void;
-  send<N extends keyof RxPresses>(name: N, value?: RxPresses[N]): void;
-  [name: string]: any;
-};

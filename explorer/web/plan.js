@@ -26,7 +26,7 @@
   };
   // Linear between four neighbours.
   function at(table, {r, psi}) {
-    const {root} = RX.state.plan, row = clamp((r - root) / (1 - root), 0, 1) * (RADII - 1);
+    const {root} = RX.shown('plan'), row = clamp((r - root) / (1 - root), 0, 1) * (RADII - 1);
     const i = Math.min(Math.floor(row), RADII - 2), column = turned(psi) / 360 * AZIMUTHS;
     const j = Math.floor(column) % AZIMUTHS, k = (j + 1) % AZIMUTHS, share = column - Math.floor(column);
     const along = n => lerp(table[n * AZIMUTHS + j], table[n * AZIMUTHS + k], share);
@@ -38,7 +38,7 @@
     value.margin = Math.min(value.upper - value.alpha, value.alpha - value.lower);
     return value;
   }
-  const reversed = ({r, psi}) => RX.state.plan.mu * Math.sin(psi * DEGREE) + r < 0;
+  const reversed = ({r, psi}) => RX.shown('plan').mu * Math.sin(psi * DEGREE) + r < 0;
   // Nose up, advancing side right.
   const pixel = ([x, y]) => [layout.x + layout.radius * x, layout.y + layout.radius * y];
   const xy = (r, psi) => pixel([r * Math.sin(psi * DEGREE), r * Math.cos(psi * DEGREE)]);
@@ -48,7 +48,8 @@
   // The largest circle: beside the cards, or between them on a stage that is high; there the key of the regions has
   // their shares, which labels beside the circle have else. Labels stand on its right too where that costs it little.
   function arrange() {
-    const {held} = RX.state.plan, {clientWidth: width, clientHeight: height} = place, chart = around.firstElementChild;
+    const {held} = RX.shown('plan'), {clientWidth: width, clientHeight: height} = place;
+    const chart = around.firstElementChild;
     const wide = !held && !RX.small.matches && width > 560 && width - CARDS > height - STACKED;
     const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
@@ -66,7 +67,7 @@
   }
 
   function drawRim() {
-    const {x, y, radius, width} = layout, {flight, root} = RX.state.plan;
+    const {x, y, radius, width} = layout, {flight, root} = RX.shown('plan');
     const marks = Array.from({length: 36}, (_, k) => 10 * k).map(psi =>
       trace([xy(1.008, psi), xy(psi % 90 === 0 ? 1.04 : psi % 30 === 0 ? 1.026 : 1.014, psi)]));
     // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
@@ -87,7 +88,7 @@
 
   // Beside the blade in the hand: the scale of colours, what the dashes are, and the shares of the regions.
   function drawKey(regions) {
-    const {field, unit, held} = RX.state.plan, {y, radius, width} = layout, high = y - radius - 38;
+    const {field, unit, held} = RX.shown('plan'), {y, radius, width} = layout, high = y - radius - 38;
     const {colours, ticks} = RX.state.field, from = width - 170, low = y + radius + 46;
     const stops = colours.map((colour, k) => `<stop offset="${k / (colours.length - 1)}" stop-color="${colour}"/>`);
     const numbers = ticks.map(([percent, word]) =>
@@ -107,8 +108,8 @@
     if (!layout.wide) return [];
     const from = (seen('.rxf-power')?.bottom ?? 20) + 12, x = layout.width - LABEL.width - 16;
     const to = (seen('.rxf-field')?.top ?? layout.height) - LABEL.height - 12;
-    const left = {x: 16, end: 16 + LABEL.width, from, to, taken: []};
-    const right = {x, end: x, from: 62, to: layout.height - LABEL.height - 16, taken: []};
+    const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[]} */ ([])};
+    const right = {x, end: x, from: 62, to: layout.height - LABEL.height - 16, taken: /** @type {number[]} */ ([])};
     const placed = [];
     for (const region of regions) {
       const largest = region.lines.reduce((most, line) => line.length > most.length ? line : most);
@@ -216,7 +217,7 @@
   RX.paint('turn', drawBlades);
 
   function rows(spot) {
-    const value = read(spot), {field, unit} = RX.state.plan;
+    const value = read(spot), {field, unit} = RX.shown('plan');
     const number = fixed(value.field, Math.abs(value.field) < 1 ? 3 : 1);
     const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
     if (reversed(spot)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
@@ -231,7 +232,7 @@
   // A card's size is asked for once: to ask between two writes costs a layout.
   const sizes = {};
   function sizeOf(element) {
-    const kind = `${element.querySelectorAll('dt').length} ${RX.state.plan.field}`;
+    const kind = `${element.querySelectorAll('dt').length} ${RX.shown('plan').field}`;
     return sizes[kind] ??= [element.offsetWidth || 150, element.offsetHeight || 110];
   }
   // Beside its point, away from the hub where there is room.
@@ -246,7 +247,7 @@
     if (!cursor) return;
     const spot = pointer && where(pointer);
     const ring = 'fill="none" stroke="#fff" stroke-opacity=".85" stroke-width="1.4"';
-    cursor.innerHTML = (RX.state.plan.held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
+    cursor.innerHTML = (RX.shown('plan').held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
       + (spot ? circleAt(spot, 5, 'fill="none" stroke="#fff" stroke-width="2"')
         + circleAt(spot, 6.5, 'fill="none" stroke="#000" stroke-opacity=".5"') : '');
     reading.hidden = !spot || !tables.alpha;
@@ -257,7 +258,7 @@
   // α around the circle, with the stall angles there.
   function drawAround() {
     if (!tables.alpha || !layout.chart) return;
-    const x = Array.from({length: 121}, (_, k) => 3 * k), {around: chart} = RX.state.plan;
+    const x = Array.from({length: 121}, (_, k) => 3 * k), {around: chart} = RX.shown('plan');
     const onCircle = table => x.map(psi => reversed({r: circle, psi}) ? null : at(table, {r: circle, psi}));
     const [alpha, upper, lower] = [tables.alpha, tables.upper, tables.lower].map(onCircle);
     const line = (y, colour, width, dashes) => ({kind: 'line', x, y, colour: `var(--rx-${colour})`, width, dashes});
@@ -286,7 +287,7 @@
     const box = place.getBoundingClientRect();
     const x = event.clientX - box.left - layout.x, y = event.clientY - box.top - layout.y;
     const r = Math.hypot(x, y) / layout.radius;
-    return r >= RX.state.plan.root && r <= 1 ? {r, psi: turned(Math.atan2(x, y) / DEGREE)} : null;
+    return r >= RX.shown('plan').root && r <= 1 ? {r, psi: turned(Math.atan2(x, y) / DEGREE)} : null;
   }
   place.addEventListener('pointermove', event => {
     if (!layout || !RX.state.plan) return;

@@ -35,7 +35,7 @@
     if (event.key === 'Escape' || event.key === ' ') { event.stopPropagation(); event.preventDefault(); }
     end();
   }, true);
-  addEventListener('pointerdown', event => { if (event.target.matches?.('canvas')) end(); }, true);
+  addEventListener('pointerdown', event => { if (closest(event, 'canvas')) end(); }, true);
   place.addEventListener('click', event => { if (closest(event, '[data-page-ride]')) end(); });
 
   function arrow(from, to, colour, width) {

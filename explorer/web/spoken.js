@@ -26,7 +26,7 @@
     for (const head of document.querySelectorAll(FOLDER)) {
       head.role = 'button';
       head.tabIndex = 0;
-      const open = String(Boolean(head.parentElement.offsetHeight > head.offsetHeight + 24));
+      const open = String((head.parentElement?.offsetHeight ?? 0) > head.offsetHeight + 24);
       if (head.ariaExpanded !== open) head.ariaExpanded = open;
     }
   }
@@ -34,10 +34,11 @@
   // What is pressed by key like a button, without being one.
   document.addEventListener('keydown', event => {
     if (event.key !== 'Enter' && event.key !== ' ') return;
-    if (!event.target.matches?.(`${FOLDER}, #rx [role=button]`)) return;
+    const pressed = closest(event, '*');
+    if (!pressed?.matches(`${FOLDER}, #rx [role=button]`)) return;
     event.preventDefault();
     event.stopPropagation();
-    event.target.dispatchEvent(new MouseEvent('click', {bubbles: true}));  // Parts of a drawing have no click().
+    pressed.dispatchEvent(new MouseEvent('click', {bubbles: true}));  // Parts of a drawing have no click().
     setTimeout(name, 400);  // Once the folder has unfolded.
   }, true);
 

@@ -250,7 +250,7 @@
     if (Math.min(...powers) < ends[0] + .3 * room) ends[0] = Math.min(...powers) - room;
     if (Math.max(...powers) > ends[1] - .3 * room) ends[1] = Math.max(...powers) + 2 * room;
     const span = ends[1] - ends[0], decade = 10 ** Math.floor(Math.log10(span / 4));
-    const tick = decade * [1, 2, 5, 10].find(k => k * decade >= span / 6);
+    const tick = decade * ([1, 2, 5].find(k => k * decade >= span / 6) ?? 10);
     const X = power => lerp(from, to, (power - ends[0]) / span);
     const ticks = [];
     for (let power = Math.ceil(ends[0] / tick) * tick; power <= ends[1]; power += tick)

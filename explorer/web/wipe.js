@@ -37,7 +37,7 @@
   }
   function show() {
     place.hidden = !on;
-    place.style.setProperty('--rx-wipe', at);
+    place.style.setProperty('--rx-wipe', String(at));
     handle.ariaValueNow = String(Math.round(100 * at));
     look();
   }

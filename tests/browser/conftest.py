@@ -11,6 +11,11 @@ from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
 
 
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """All tests of this folder drive a page."""
+    item.add_marker("browser")
+
+
 @pytest.fixture(scope="session")
 def server() -> Iterator[App]:
     server = App("127.0.0.1", 0)

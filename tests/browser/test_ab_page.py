@@ -7,7 +7,6 @@ from watched import Visit, Watched
 
 from explorer.model.inputs import Inputs
 
-pytestmark = pytest.mark.browser
 START = Inputs()
 _ALPHA = "RX.state.strip.find(one => one.name === 'alpha').chart.series"
 _BESIDE_A = f"{_ALPHA}.some(line => line.colour === 'var(--rx-pinned)')"

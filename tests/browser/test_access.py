@@ -9,7 +9,6 @@ from watched import ON_SCREEN, Watched
 
 from explorer.app import App
 
-pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
 CONTROLS = {"button", "checkbox", "combobox", "link", "searchbox", "slider", "spinbutton", "switch", "tab", "textbox"}
 FOCUS = """() => {

@@ -6,7 +6,6 @@ import pytest
 from playwright.sync_api import expect
 from watched import WAIT, Watched
 
-pytestmark = pytest.mark.browser
 VERDICT = 4 * WAIT
 """[ms]; four optima and their trims, in a process of low priority."""
 
@@ -21,10 +20,6 @@ def watched(shared: Watched) -> Iterator[Watched]:
     shared.answered()
     yield shared
     assert shared.complaints == []
-
-
-def seen(watched: Watched, name: str) -> bool:
-    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 
 
 TIP = """() => {
@@ -42,7 +37,7 @@ TIP = """() => {
 
 def test_the_lifted_blade_is_pulled_by_its_voltage_and_the_camera_stays(watched: Watched):
     page = watched.page
-    field = watched.row("Voltage").locator("input:not([type=hidden])").last
+    field = watched.field("Voltage")
     camera = "() => window.__viserMutable.camera.position.toArray()"
     x, y = watched.at_rest(lambda: page.evaluate(TIP))
     page.mouse.move(x, y)
@@ -78,9 +73,9 @@ def angle(watched: Watched) -> float:
 def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behind(watched: Watched):
     """Enter, move the bar, leave: the blade twists by what the chart says, and the scene is as it was."""
     page = watched.page
-    watched.until(lambda: seen(watched, "/lifted"))
-    assert seen(watched, "/airframe")  # It flies on.
-    watched.until(lambda: not seen(watched, "/rotor/disk/words"))
+    watched.until(lambda: watched.seen("/lifted"))
+    assert watched.seen("/airframe")  # It flies on.
+    watched.until(lambda: not watched.seen("/rotor/disk/words"))
     page.locator(".rxf-strip").first.wait_for(state="hidden")
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     labels, bar = page.locator('[data-explorer="labels"]'), page.locator(".rxf-fly-bar input")
@@ -100,10 +95,10 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     bar.fill("0")
     watched.until_changed(lambda: angle(watched), fast)
     watched.mode("explore")
-    watched.until(lambda: not seen(watched, "/lifted"))
+    watched.until(lambda: not watched.seen("/lifted"))
     watched.answered()
     watched.says("labels", "")
-    watched.until(lambda: seen(watched, "/rotor/disk/words"))
+    watched.until(lambda: watched.seen("/rotor/disk/words"))
     page.locator(".rxf-strip").first.wait_for(state="visible")
     page.locator('[data-explorer="flight"]').wait_for(state="hidden")
     assert page.evaluate("() => RX.state.flight === null && RX.state.earns === null")
@@ -134,10 +129,7 @@ def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched
     assert twist() == frozen
     box = watched.box(bar)
     x, y = watched.middle(bar)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 0.48 * box["width"], y, steps=6)
-    page.mouse.up()
+    watched.drag(x, y, by=(0.48 * box["width"], 0.0))
     watched.until(lambda: "mu=0.3" in page.url)
     assert twist() == frozen
     fast = page.evaluate(power)
@@ -146,7 +138,7 @@ def test_an_actuator_that_stops_keeps_its_twist_while_the_flight_goes_on(watched
     stops.click()
     expect(stops).to_have_attribute("aria-pressed", "false")
     assert twist() == frozen
-    assert watched.row("Voltage").locator("input:not([type=hidden])").last.input_value() == "77"
+    assert watched.field("Voltage").input_value() == "77"
 
 
 @pytest.mark.slow

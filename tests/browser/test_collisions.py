@@ -11,7 +11,7 @@ from watched import WAIT, Watched, opened
 
 from explorer.app import App
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 COLLIDE, FRAME = (
     (Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("collisions.js", "framing.js")

@@ -11,7 +11,6 @@ from explorer.parts.actuate import DialNumbers
 from rotor.design import Harmonic
 from tests.actuate import foreseen
 
-pytestmark = pytest.mark.browser
 START = Inputs(law="builtin", advance_ratio=0.3, bending=True)
 SIZE = MEDIUM
 
@@ -32,8 +31,7 @@ def test_a_drag_on_the_dial_is_foreseen_and_one_undo(watched: Watched):
     watched.mode("actuate")
     page.wait_for_function("() => RX.state.dial?.front.length > 2", timeout=240_000)
     x, y, radius = centre(watched)
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     page.mouse.move(x + 0.25 * radius, y - 0.433 * radius, steps=6)
     watched.until(lambda: "predicted" in watched.text("dial-read"))
     assert "Vibration" in watched.text("dial-read")

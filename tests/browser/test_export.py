@@ -17,10 +17,9 @@ from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.report import report_html
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
-from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
+from rotor import make_design, solve
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 """A design with a caveat."""
 AS_LEFT = True

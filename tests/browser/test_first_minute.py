@@ -1,9 +1,7 @@
 """A stranger's first minute, as a person would play it: each step is seen before the next begins."""
 
-import pytest
 from watched import Visit
 
-pytestmark = pytest.mark.browser
 SIZE = (1280, 720)
 
 

@@ -7,9 +7,6 @@ from watched import Visit, Watched
 
 from explorer.tabs.layout import DRAWERS
 
-pytestmark = pytest.mark.browser
-
-
 SIZE = (1500, 940)
 
 
@@ -49,8 +46,7 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     page = watched.page
     x, y = watched.middle('[data-knot="2"]')
     before = watched.text("total-power")
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     for step in range(1, 9):
         page.mouse.move(x, y - 3 * step)
         page.wait_for_timeout(60)
@@ -61,16 +57,11 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null")
     watched.until_changed(lambda: watched.text("total-power"), before)
-    outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
-    assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
+    assert 2.0 < watched.at_rest(lambda: watched.number("Δ outboard")) < 20.0  # Up is nose-up: less washout.
     watched.reads("moved", r"^[+−]\d+ kW$")
     x, y = watched.middle('[data-knot="1"]')
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 40, y, steps=6)
-    page.mouse.up()
-    division = watched.row("Break point").locator("input:not([type=hidden])").last
-    watched.until(lambda: float(division.input_value()) > 0.55)
+    watched.drag(x, y, by=(40.0, 0.0))
+    watched.until(lambda: watched.number("Break point") > 0.55)
 
 
 def kilowatts(watched: Watched, part: str) -> int:
@@ -93,8 +84,7 @@ def test_one_drag_of_a_slider_with_pauses_is_one_undo(watched: Watched):
     watched.answered()
     before = kilowatts(watched, "total-power")
     x, y = watched.thumb("Adv. ratio")
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     page.mouse.move(x - 40, y, steps=5)
     pause(watched)
     page.mouse.move(x + 60, y, steps=5)

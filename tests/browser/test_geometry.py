@@ -4,11 +4,12 @@ from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Browser, Page
+from test_sizes import MEASURE
 from watched import Watched, opened
 
 from explorer.app import App
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 # What is seen beyond the left or right edge of the box it belongs to, by more than a pixel and a half.
 _LEAVES = """([outer, inner]) => {
@@ -20,22 +21,7 @@ _LEAVES = """([outer, inner]) => {
 }"""
 
 # What stands over the scene: no two cards meet, and none leaves the window.
-_CARDS = """() => {
-  const seen = [...document.querySelectorAll('.rxf-card, .rxf-notice, .rxf-bar, .rxf-strip')]
-    .filter(e => e.checkVisibility()).map(e => [e.className, e.getBoundingClientRect()])
-    .filter(([, r]) => r.width && r.height);
-  const wrong = [];
-  for (const [name, r] of seen)
-    if (r.left < -1 || r.right > innerWidth + 1 || r.top < -1 || r.bottom > innerHeight + 1)
-      wrong.push(`${name} leaves the window`);
-  for (let i = 0; i < seen.length; i++) for (let k = i + 1; k < seen.length; k++) {
-    const [a, p] = seen[i], [b, q] = seen[k];
-    const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
-    const high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
-    if (wide > 1 && high > 1) wrong.push(`${a} meets ${b}`);
-  }
-  return wrong;
-}"""
+_CARDS = f"() => {{ const {{hit, outside}} = ({MEASURE})(); return [...hit, ...outside]; }}"
 
 SIZES = [(1280, 720), (390, 844), (1920, 1080), (1024, 768), (768, 1024)]
 

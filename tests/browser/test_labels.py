@@ -6,7 +6,6 @@ from watched import Watched
 from explorer.model.inputs import Inputs
 from explorer.tabs.layout import DRAWERS
 
-pytestmark = pytest.mark.browser
 START = Inputs(law="three")
 
 _FAULTS = """() => {

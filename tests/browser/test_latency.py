@@ -10,7 +10,7 @@ from watched import Watched
 
 from explorer.app import App
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.nightly]
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 _WATCH = """
 () => {

@@ -7,9 +7,6 @@ from watched import COARSE, Visit, Watched
 
 from explorer.story.steps import STEPS
 
-pytestmark = pytest.mark.browser
-
-
 FIGURES = '[data-explorer="figures"] b'
 LONG = 600_000
 """[ms] for the numbers of a step on a machine where much else runs."""

@@ -9,7 +9,7 @@ from watched import Visit, Watched, opened
 
 from explorer.app import App
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 MEASURE = (Path(__file__).parent / "legible.js").read_text(encoding="utf-8")
 

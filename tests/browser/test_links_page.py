@@ -10,8 +10,6 @@ from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
 from explorer.sharing.share import code_of
 
-pytestmark = pytest.mark.browser
-
 BUILT = replace(OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.793, advance_ratio=0.25)
 
 

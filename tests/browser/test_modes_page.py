@@ -7,7 +7,6 @@ from explorer.app import App
 from explorer.story.steps import STEPS
 from tests.explorer.test_modes import WALK, design_of, kilowatts
 
-pytestmark = pytest.mark.browser
 SEEN = """() => [...document.querySelectorAll('[data-explorer="total-power"], [data-explorer="assessed"]')]
     .filter(one => one.checkVisibility()).map(one => [one.dataset.explorer, one.innerText])"""
 """Total power, and the title of the verdict that stands in its place."""

@@ -18,7 +18,7 @@ from explorer.model.inputs import Inputs
 from explorer.tabs.background import PoolAnswers
 from explorer.tabs.layout import DRAWERS
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 START = Inputs(law="two", preset="thesis")
 SECTIONS = {"optimise": ("Search", "Map", "Schedule"), "open": ("Files", "History")}
 PANELS = [(name, part) for name in ("explore", "optimise", "actuate", *DRAWERS) for part in SECTIONS.get(name, ("",))]

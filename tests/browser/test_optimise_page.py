@@ -14,7 +14,6 @@ from explorer.session import Session
 from explorer.tabs.optimise.power_map import place_on
 from rotor.trim.solve import solve
 
-pytestmark = pytest.mark.browser
 START = Inputs()
 
 
@@ -88,8 +87,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.mode("explore")
     shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
-    inboard = watched.row("Inboard").locator("input:not([type=hidden])").last
-    watched.until(lambda: float(inboard.input_value()) == pytest.approx(shown.two_inner, abs=0.06))
+    watched.until(lambda: watched.number("Inboard") == pytest.approx(shown.two_inner, abs=0.06))
     watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")

@@ -7,7 +7,6 @@ from watched import Watched
 
 from explorer.model.inputs import Inputs
 
-pytestmark = pytest.mark.browser
 START = Inputs(law="builtin")
 
 
@@ -26,17 +25,14 @@ def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
 
     fastest = page.evaluate("() => RX.state.strip[0].speeds.fastest")
     x, y = watched.middle("[data-speed]")
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     page.mouse.move(x + 200, y, steps=8)  # Beyond the end of the axis.
     watched.until(lambda: mu() == pytest.approx(fastest))
     head = page.locator(".rxf-chart[data-name=power] .rxf-head [data-value]")
     watched.until(lambda: head.inner_text() == "limit: engines")
     page.mouse.up()
-    page.mouse.move(*watched.middle("[data-speed]"))
-    page.mouse.down()
-    page.mouse.move(x - 100, y, steps=4)
-    page.mouse.up()
+    at = watched.middle("[data-speed]")
+    watched.drag(*at, by=(x - 100 - at[0], y - at[1]))
     watched.until(lambda: mu() < 0.9 * fastest)
     watched.answered(wholly=True)
     page.mouse.dblclick(*watched.middle("[data-speed]"))
@@ -69,8 +65,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     )
     watched.row("Adv. ratio").get_by_role("slider").scroll_into_view_if_needed()
     x, y = watched.thumb("Adv. ratio")
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     seen_while_down, steps = 0, 0
     while seen_while_down < 5 and steps < 1000:  # As long as a slow machine needs, but never letting go.
         steps += 1
@@ -80,7 +75,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     page.mouse.up()
     assert seen_while_down >= 5
     watched.answered()
-    shown = float(watched.row("Adv. ratio").locator("input:not([type=hidden])").last.input_value())
+    shown = watched.number("Adv. ratio")
     assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3.6:.0f} km/h")
 
 

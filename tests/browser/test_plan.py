@@ -15,7 +15,6 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from rotor.trim.solve import solve
 
-pytestmark = pytest.mark.browser
 _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
 
 

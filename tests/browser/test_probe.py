@@ -11,7 +11,6 @@ from explorer.model.inputs import Inputs
 from explorer.picture.camera_views import FIELD_OF_VIEW, Covered, View, fit
 from rotor.files.make_design import uh60a_rotor
 
-pytestmark = pytest.mark.browser
 SIZE = (1500, 940)  # Room for the disk between drawer, rail and cards.
 START = Inputs(law="builtin")
 RADIUS = uh60a_rotor("flight").radius
@@ -28,14 +27,6 @@ def watched(shared: Watched) -> Iterator[Watched]:
 
 ON_BLADE = "/rotor/blade_0/probe"
 """The ring about the section that is probed."""
-
-
-def number(watched: Watched, label: str) -> float:
-    return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
-
-
-def seen(watched: Watched, name: str) -> bool:
-    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 
 
 def pose(watched: Watched, name: str) -> list[float]:
@@ -77,7 +68,7 @@ def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float
 
 def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page = watched.page
-    assert not seen(watched, ON_BLADE)
+    assert not watched.seen(ON_BLADE)
     page.keyboard.press("2")
     watched.until(lambda: stands(watched, "top"))
     watched.at_rest(lambda: eye(watched).round(2).tolist())
@@ -87,9 +78,9 @@ def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page.wait_for_function(
         "() => document.querySelector('[data-explorer=probe-place]').innerText.includes('retreating')"
     )
-    watched.until(lambda: number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02))
-    watched.until(lambda: number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0))
-    watched.until(lambda: seen(watched, ON_BLADE))
+    watched.until(lambda: watched.number("Radius r/R") == pytest.approx(0.6, abs=0.02))
+    watched.until(lambda: watched.number("Azimuth") == pytest.approx(300.0, abs=2.0))
+    watched.until(lambda: watched.seen(ON_BLADE))
     watched.reads("probe-alpha", "^α")
     label = page.locator('[data-explorer="labels"]').get_by_text("α")
     label.wait_for()
@@ -110,21 +101,21 @@ def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
     watched.at_rest(lambda: eye(watched).round(6).tolist())
 
     def place() -> tuple[float, float]:
-        return number(watched, "Radius r/R"), number(watched, "Azimuth")
+        return watched.number("Radius r/R"), watched.number("Azimuth")
 
     (r, psi), camera = place(), eye(watched)
     for key in ("ArrowUp", "Shift+ArrowUp", "ArrowRight", "Shift+ArrowLeft"):
         before = place()
         page.keyboard.press(key)
         watched.until_changed(place, before)
-    watched.until(lambda: number(watched, "Radius r/R") == pytest.approx(r + 0.11, abs=1e-9))
-    watched.until(lambda: number(watched, "Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9))
+    watched.until(lambda: watched.number("Radius r/R") == pytest.approx(r + 0.11, abs=1e-9))
+    watched.until(lambda: watched.number("Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9))
     np.testing.assert_allclose(eye(watched), camera, atol=1e-6)
 
 
 def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watched):
     page, row = watched.page, watched.row("Adv. ratio")
-    slider, field = row.get_by_role("slider"), row.locator("input:not([type=hidden])").last
+    slider, field = row.get_by_role("slider"), watched.field("Adv. ratio")
     for key, change in (("ArrowRight", 0.005), ("Shift+ArrowLeft", -0.05), ("PageUp", 0.05), ("ArrowLeft", -0.005)):
         before = float(field.input_value())
         slider.focus()
@@ -163,16 +154,16 @@ def test_a_click_on_the_blade_picks_the_section_that_is_clicked_and_keeps_the_az
     page, hinge = watched.page, uh60a_rotor("flight").blade.flap_hinge * RADIUS
     page.keyboard.press("1")
     page.evaluate("psi => RX.send('azimuth', psi)", psi_deg)
-    watched.until(lambda: number(watched, "Azimuth") == psi_deg)
+    watched.until(lambda: watched.number("Azimuth") == psi_deg)
     for r in (0.98, 0.78, 0.54, 0.35):
         x, y, out = watched.at_rest(lambda r=r: page.evaluate(ON_MESH, r * RADIUS - hinge))
         page.mouse.move(x, y)
         watched.until(lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab")
         page.mouse.click(x, y)
-        watched.until(lambda out=out: abs(number(watched, "Radius r/R") - (out + hinge) / RADIUS) <= 0.02)
+        watched.until(lambda out=out: abs(watched.number("Radius r/R") - (out + hinge) / RADIUS) <= 0.02)
         watched.answered()
-        assert number(watched, "Azimuth") == psi_deg
-        assert seen(watched, ON_BLADE)
+        assert watched.number("Azimuth") == psi_deg
+        assert watched.seen(ON_BLADE)
 
 
 def test_a_double_click_beside_the_disk_brings_the_camera_back(watched: Watched):
@@ -181,10 +172,7 @@ def test_a_double_click_beside_the_disk_brings_the_camera_back(watched: Watched)
     before = watched.at_rest(lambda: eye(watched).round(2).tolist())
     box = watched.box(page.locator("canvas").first)
     x, y = box["x"] + 0.04 * box["width"], box["y"] + 0.35 * box["height"]
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 150, y + 40, steps=5)
-    page.mouse.up()
+    watched.drag(x, y, by=(150.0, 40.0))
     watched.until_changed(lambda: eye(watched).round(2).tolist(), before)
     watched.at_rest(lambda: eye(watched).round(2).tolist())
     page.mouse.dblclick(x, y)
@@ -194,28 +182,28 @@ def test_a_double_click_beside_the_disk_brings_the_camera_back(watched: Watched)
 def test_a_double_click_on_a_slider_or_its_name_sets_the_default_and_can_be_undone(watched: Watched):
     watched.reset()
     page, row = watched.page, watched.row("Adv. ratio")
-    default = number(watched, "Adv. ratio")
+    default = watched.number("Adv. ratio")
     for target in (row.locator(".mantine-Slider-thumb"), row.locator("label").first):
         watched.press("Adv. ratio", "ArrowRight", 4)
-        watched.until(lambda: number(watched, "Adv. ratio") == pytest.approx(default + 0.02))
+        watched.until(lambda: watched.number("Adv. ratio") == pytest.approx(default + 0.02))
         watched.answered()
         target.dblclick()
-        watched.until(lambda: number(watched, "Adv. ratio") == default)
+        watched.until(lambda: watched.number("Adv. ratio") == default)
         watched.answered()
     page.evaluate("() => document.activeElement?.blur()")
     page.keyboard.press("Control+z")
-    watched.until(lambda: number(watched, "Adv. ratio") == pytest.approx(default + 0.02))
+    watched.until(lambda: watched.number("Adv. ratio") == pytest.approx(default + 0.02))
     row.locator("label").first.dblclick()
-    watched.until(lambda: number(watched, "Adv. ratio") == default)
+    watched.until(lambda: watched.number("Adv. ratio") == default)
 
 
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")
     page.get_by_role("button", name="Stop the rotor").wait_for()
-    radius = number(watched, "Radius r/R")
+    radius = watched.number("Radius r/R")
     page.keyboard.press("ArrowUp")  # The radius alone: it plays on.
-    watched.until(lambda: number(watched, "Radius r/R") != radius)
+    watched.until(lambda: watched.number("Radius r/R") != radius)
     assert page.get_by_role("button", name="Stop the rotor").count()
     page.keyboard.press("Shift+ArrowRight")
     page.get_by_role("button", name="Turn the rotor").wait_for()

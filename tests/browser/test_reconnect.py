@@ -15,7 +15,6 @@ from watched import COARSE, OPEN, WAIT, Watched
 from explorer.app import App
 
 pytestmark = [
-    pytest.mark.browser,
     pytest.mark.slow,
     # A connection that comes while the proxy ends is left to the collector.
     pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
@@ -165,10 +164,9 @@ def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: Pag
 def test_nothing_can_be_changed_while_the_server_is_away(twisted: Page, proxy: Proxy):
     """A slider once stood at −7.3 while the server was away, and at −7.9 after it had come back."""
     page, watched = twisted, Watched(twisted)
-    field = watched.row("Δ inboard").locator("input:not([type=hidden])").last
+    field = watched.field("Δ inboard")
     x, y = watched.thumb("Δ inboard")
-    page.mouse.move(x, y)
-    page.mouse.down()  # The drag that is under way ends with the connection.
+    watched.hold(x, y)  # The drag that is under way ends with the connection.
     page.wait_for_function("() => location.search.includes(':-8,')")
     proxy.cut()
     page.wait_for_selector("#rx-gone")

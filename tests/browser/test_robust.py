@@ -18,7 +18,6 @@ from explorer import web
 from explorer.app import App
 from explorer.hosting.server_limits import ServerLimits
 
-pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parent.parent.parent
 _WATCH = """
 window.__shift = 0; window.__opened = null;

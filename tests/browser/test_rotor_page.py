@@ -8,7 +8,7 @@ from watched import WAIT, Watched
 from explorer.model.inputs import Inputs
 from rotor.support.assets import asset_path
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 START = Inputs(law="builtin")
 BLADES = r"""() => Object.entries(window.__viserSceneTree.getState()).filter(
     ([name, node]) => /blade_\d+$/.test(name) && (node.overrideVisibility ?? node.visibility) !== false).length"""

@@ -19,7 +19,6 @@ from explorer.picture.picture import disk_png
 from explorer.picture.wake import tip_vortices
 from rotor.trim.solve import solve
 
-pytestmark = pytest.mark.browser
 START = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
 SIZE = (1280, 720)
 VORTEX = """() => {
@@ -60,14 +59,10 @@ AZIMUTH = """() => {
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
     begun = [-14.0, -8.0, 0.5]
-    shared.until(lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == begun)
+    shared.until(lambda: [shared.number(label) for label in ("Inboard", "Outboard", "Break point")] == begun)
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert shared.complaints == []
-
-
-def value(watched: Watched, label: str) -> float:
-    return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
 
 
 # Height [px] of the held trailing edge, where the blade is seen from the tip.
@@ -107,14 +102,14 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null && RX.state.twisting === null")
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-twisting')")
-    outer = watched.at_rest(lambda: value(watched, "Outboard"))
+    outer = watched.at_rest(lambda: watched.number("Outboard"))
     assert outer > -7.0
-    assert value(watched, "Inboard") == -14.0
+    assert watched.number("Inboard") == -14.0
     # Released, the camera follows the shaft tilt; an orbit would have moved it by metres.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.4)
     page.evaluate("() => RX.send('undo', '')")
-    watched.until_changed(lambda: value(watched, "Outboard"), outer)
-    assert watched.at_rest(lambda: value(watched, "Outboard")) == -8.0
+    watched.until_changed(lambda: watched.number("Outboard"), outer)
+    assert watched.at_rest(lambda: watched.number("Outboard")) == -8.0
 
 
 def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched):
@@ -125,13 +120,13 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
     watched.drawn()  # Keys are heard from the frame on that shows it.
     for _ in range(3):
         page.keyboard.press("Shift+ArrowUp")
-    watched.until(lambda: value(watched, "Outboard") > -3.0)
+    watched.until(lambda: watched.number("Outboard") > -3.0)
     for _ in range(20):
         page.keyboard.press("Shift+ArrowUp")
     page.wait_for_function("() => RX.part('twisting').textContent.includes('limit of Outboard')")
-    watched.until(lambda: value(watched, "Outboard") == 10.0)
+    watched.until(lambda: watched.number("Outboard") == 10.0)
     page.keyboard.press("Escape")
-    watched.until(lambda: value(watched, "Outboard") == -8.0)
+    watched.until(lambda: watched.number("Outboard") == -8.0)
     page.wait_for_function("() => RX.state.twisting === null")
     watched.answered()
     assert page.evaluate("() => RX.state.bar.undo") is undo

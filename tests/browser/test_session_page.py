@@ -7,10 +7,8 @@ import pytest
 from watched import COARSE, Visit, Watched
 
 from explorer.model.inputs import Inputs
-from rotor.files.design_file import load_design
-from rotor.files.make_design import make_design
+from rotor import load_design, make_design
 
-pytestmark = pytest.mark.browser
 START = Inputs()
 
 

@@ -7,8 +7,6 @@ import pytest
 from playwright.sync_api import expect
 from watched import LARGE, ON_SCREEN, Visit, Watched
 
-pytestmark = pytest.mark.browser
-
 MEASURE = (Path(__file__).parent / "overlaps.js").read_text(encoding="utf-8")
 CLEAN: dict[str, list[str]] = {"hit": [], "outside": [], "hidden": [], "nameless": [], "cut": []}
 SMALL = [(390, 844), (844, 390), (812, 734), (768, 1024)]
@@ -132,8 +130,7 @@ def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
     box = watched.box(grip)
     half, high = page.evaluate(sheet), page.evaluate(canvas)
     x, y = box["x"] + 150, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     page.mouse.move(x, y - 120, steps=4)
     pulled = pytest.approx(half + 120, abs=3)
     watched.until(lambda: page.evaluate(sheet) == pulled)

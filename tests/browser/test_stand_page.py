@@ -6,7 +6,7 @@ from watched import WAIT, Watched
 
 from explorer.model.inputs import Inputs
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 START = Inputs(law="builtin")
 
 
@@ -22,7 +22,7 @@ def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
     until(watched, f"() => {power}?.value.startsWith('FC2: ')")
     watched.until(lambda: "FC2" in watched.row("Point").locator("input").first.input_value())
-    expect(watched.row("Altitude").locator("input:not([type=hidden])").last).to_have_value("1521")
+    expect(watched.field("Altitude")).to_have_value("1521")
     watched.page.locator("[data-name=power] [data-value=FC4]").click()
     until(watched, f"() => {power}?.value.startsWith('FC4: ')")
     watched.drawer("probe")

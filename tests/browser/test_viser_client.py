@@ -6,7 +6,6 @@ from watched import Watched
 from explorer.app import App
 from rotor.aero.switches import SWITCHES
 
-pytestmark = pytest.mark.browser
 SIZE = (1500, 940)
 AS_LEFT = True
 
@@ -110,8 +109,7 @@ def test_the_picture_shrinks_while_something_is_dragged(watched: Watched):
     page, width = watched.page, "() => __viserMutable.canvas.width"
     sharp = watched.at_rest(lambda: page.evaluate(width))
     x, y = watched.thumb("Adv. ratio")
-    page.mouse.move(x, y)
-    page.mouse.down()
+    watched.hold(x, y)
     page.mouse.move(x + 2, y)
     assert page.evaluate(width) == sharp  # No drag yet.
     page.mouse.move(x + 7, y)

@@ -57,6 +57,26 @@ class Watched:
         named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
         return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
 
+    def field(self, label: str) -> Locator:
+        """Where a slider's number stands."""
+        return self.row(label).locator("input:not([type=hidden])").last
+
+    def number(self, label: str) -> float:
+        return float(self.field(label).input_value())
+
+    def seen(self, node: str) -> bool:
+        """Whether a node of the scene is visible."""
+        return self.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", node)
+
+    def hold(self, x: float, y: float) -> None:
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+
+    def drag(self, x: float, y: float, *, by: tuple[float, float], steps: int = 5) -> None:
+        self.hold(x, y)
+        self.page.mouse.move(x + by[0], y + by[1], steps=steps)
+        self.page.mouse.up()
+
     def unfold(self, label: str) -> None:
         """Show a control that is folded at first."""
         if label == "Limit stall" and not self.row(label).is_visible():
@@ -86,7 +106,7 @@ class Watched:
 
     def type(self, label: str, value: float) -> None:
         self.unfold(label)
-        self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
+        self.field(label).fill(f"{value:g}")
         self.page.keyboard.press("Enter")
 
     def mode(self, name: str) -> None:

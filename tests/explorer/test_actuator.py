@@ -40,6 +40,7 @@ from rotor.files.make_design import make_design
 from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
 from tests.actuate import actuate, told
+from tests.waited import until
 
 DESIGN = make_design(preset="flight", mu=0.2)
 FULL = (100.0,) * MOST_SEGMENTS
@@ -194,14 +195,6 @@ class FakePool:
     def end(self, result: object) -> None:
         """End the last job."""
         self.jobs[-1][1](JobEnded(result))
-
-
-def until(true: Callable[[], bool]) -> None:
-    """Fails after a minute."""
-    end = time.monotonic() + 60.0
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.01)
 
 
 def test_the_chosen_actuator_is_judged_first_and_then_all_others():

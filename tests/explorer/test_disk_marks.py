@@ -26,10 +26,8 @@ from explorer.picture.polar import (
     region_masks,
 )
 from explorer.picture.wake import tip_vortices
+from rotor import Solution, make_design, solve
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 ALPHA = FIELDS["Angle of attack"]
 

@@ -10,8 +10,7 @@ import pytest
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS
 from explorer.text.status import status_panel
-from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
+from rotor import make_design, solve
 
 ROOT = Path(__file__).parent.parent.parent
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")

@@ -22,12 +22,8 @@ from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
 from explorer.tabs.lecture import lecture_panel
 from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel
-from rotor import hub_loads
+from rotor import Solution, hub_loads, make_design, optimise, solve
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.files.make_design import make_design
-from rotor.optimisation.search import optimise
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.validation.thesis.ladder import RUNGS, SPEEDS, moving_twist
 
 BY_TITLE = {step.text.title: step for step in STEPS}

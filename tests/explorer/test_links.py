@@ -17,6 +17,7 @@ from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from tests.waited import until
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
 """Characters of a query that the parser of addresses leaves as they are; a `#` would end the query."""
@@ -206,7 +207,5 @@ class TestAddress:
                 address["d"] = str(k)
             if time.monotonic() - begun < pause:
                 break
-        deadline = time.monotonic() + pause + 60.0
-        while written[-1] != "?d=49" and time.monotonic() < deadline:
-            time.sleep(0.01)
+        until(lambda: written[-1] == "?d=49")
         assert written == ["?d=0", "?d=49"]

@@ -16,11 +16,9 @@ from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Cove
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_picture, rotate, tip_path_pose
 from explorer.picture.polar import DrawnSolution, PolarGrid, RefinedFlow, polar_grid
+from rotor import Solution, make_design, solve
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
 def grid_of(solution: Solution) -> PolarGrid:

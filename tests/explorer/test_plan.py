@@ -10,10 +10,8 @@ from explorer.parts.stage import PackedTable
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
 from explorer.picture.polar import DrawnSolution, polar_grid
-from rotor.files.make_design import make_design
+from rotor import Solution, make_design, solve
 from rotor.support.arrays import Array
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 ALPHA = FIELDS["Angle of attack"]
 

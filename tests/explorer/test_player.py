@@ -4,6 +4,7 @@ import threading
 import time
 
 from explorer.tabs.context import BEAT, Player
+from tests.waited import until
 
 
 def playing(name: str) -> int:
@@ -31,9 +32,6 @@ def test_it_gives_the_time_that_has_gone_and_ends_with_pause():
     assert min(steps) >= 0.9 * BEAT
     assert sum(steps) <= gone + BEAT
     count = len(steps)
-    deadline = time.monotonic() + 60.0
-    while playing("walk") and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert playing("walk") == 0
+    until(lambda: not playing("walk"))
     assert len(steps) <= count + 1  # One may have been under way.
     player.pause()  # Nothing plays: nothing happens.

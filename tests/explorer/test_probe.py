@@ -17,11 +17,9 @@ from explorer.picture.picture import DISK_DROP, composed_rotation, make_picture,
 from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.tabs.probe_drawing import drawing, probe_panel
 from explorer.tabs.probe_measured import lift_chart
+from rotor import Solution, make_design, solve
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
 CASES = {

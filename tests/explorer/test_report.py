@@ -29,11 +29,7 @@ from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.web import json_block
-from rotor import doubt, hub_loads
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Status
-from rotor.trim.solve import solve
+from rotor import Design, Status, doubt, hub_loads, make_design, solve
 from tests.tools.lint_web import html_faults
 
 NOW = solve(Inputs().design())

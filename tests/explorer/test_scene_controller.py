@@ -20,10 +20,8 @@ from explorer.picture.picture import field_values, flown_twist
 from explorer.picture.polar import DrawnSolution, polar_grid
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
+from rotor import Solution, make_design, solve
 from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 ROTOR = make_design().rotor
 VIEW = ViewState()

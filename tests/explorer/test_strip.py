@@ -20,10 +20,8 @@ from explorer.charts.strip import (
     with_speeds,
 )
 from explorer.model.units import AVIATION
-from rotor.files.make_design import make_design
+from rotor import Solution, Status, make_design, solve
 from rotor.support.chart import Chart, Line, Points, drawn_chart
-from rotor.trim.solution import Solution, Status
-from rotor.trim.solve import solve
 
 
 @pytest.fixture(scope="module")

@@ -18,12 +18,9 @@ from explorer.text import readout
 from explorer.text.design_words import model_words
 from explorer.text.status import provenance, status_panel, trust_page
 from explorer.text.why import why
+from rotor import Caveat, Design, Solution, Status, make_design, solve
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Caveat, Solution, Status
-from rotor.trim.solve import solve
 from rotor.validation.trust import KINDS, trust_rows
 
 LINEAR = Inputs(law="linear", linear=-8.0).design()

@@ -11,11 +11,8 @@ from numpy.testing import assert_allclose
 
 from explorer.model.units import AVIATION
 from explorer.text.why import lift_centroid, why
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.switches import with_switches
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
 @cache

@@ -34,11 +34,13 @@ def patch() -> Iterator[Patch]:
 
 @pytest.fixture
 def printed(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
-    """What a command prints where all is well."""
+    """What a command prints that ends with this code, and says nothing on stderr."""
 
-    def run(*words: str) -> str:
-        assert main(list(words)) == 0
-        return capsys.readouterr().out
+    def run(*words: str, code: int = 0) -> str:
+        assert main(list(words)) == code
+        out, err = capsys.readouterr()
+        assert err == ""
+        return out
 
     return run
 
@@ -50,7 +52,7 @@ def answer(printed: Callable[..., str]) -> Callable[..., Any]:
     def strange(name: str) -> None:
         pytest.fail(f"{name} in JSON")
 
-    return lambda *words: json.loads(printed(*words, "--json"), parse_constant=strange)
+    return lambda *words, code=0: json.loads(printed(*words, "--json", code=code), parse_constant=strange)
 
 
 @pytest.fixture

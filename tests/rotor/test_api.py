@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import urllib.request
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -330,14 +331,40 @@ WRONG = {
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
     "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
     "rotor.plot_field(solution, 'noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
+    "rotor.vibration_front(bent, points=1)": (ValueError, "1 points"),
+    "rotor.vibration_front(bent, reach_deg=0.0)": (ValueError, "reach 0°"),
+    "rotor.vibration_front(bent, 'screw')": (ValueError, "screw"),
+    "rotor.t_matrix(bent, (2, 9))": (ValueError, "9/rev"),
+    "rotor.t_matrix(bent.at(mu=0.1))": (ValueError, "below µ 0.2"),
+    "rotor.t_matrix(design.at(mu=0.3))": (ValueError, "--bending"),
+    "rotor.t_matrix(bent, (2,)).response('3:1:0')": (ValueError, "no 3/rev"),
+    "stand({'ct_over_sigma': 0.07, 'flapping': 'hub-moments'}, rotor='pca2')": (ValueError, "on blades hinged at"),
+    "stand({'ct_over_sigma': 0.07, 'hub_roll_nm': 5.0}, rotor='hart2')": (ValueError, "set flapping to hub-moments"),
+    "stand({**MOMENTS, 'cyclic_1c_deg': 1.0}, rotor='hart2')": (ValueError, "needed to trim the hub moments"),
+    "stand({**MOMENTS, 'hub_roll_nm': 20.0}, rotor='hart2', mu=0.0)": (ValueError, "in hover the rotor is balanced"),
+    "stand({})": (ValueError, "none of them"),
+    "stand({'thrust_n': 1.0, 'collective_deg': 2.0})": (ValueError, "thrust_n and collective_deg"),
+    "stand({'ct_over_sigma': 0.5})": (ValueError, "outside 0…0.25"),
+    "stand({'collective_deg': 5.0, 'cyclic_1c_deg': 1.0})": (ValueError, "needed to trim the flapping"),
+    "stand({'collective_deg': '5'})": (ValueError, "give a number"),
+    "stand({'pitch': 5.0})": (ValueError, "is not known"),
 }
+
+
+BENT = rotor.make_design(mu=0.3, inflow="pitt-peters", bending=True)
+
+
+def on_stand(stand: dict[str, Any], **given: Any) -> rotor.Design:
+    return rotor.make_design(trim="wind-tunnel", stand=stand, **given)
 
 
 @pytest.mark.parametrize("call", WRONG)
 def test_a_wrong_argument_fails_at_once(call: str, design: rotor.Design, solution: rotor.Solution):
     kind, words = WRONG[call]
+    names = {"rotor": rotor, "explorer": explorer, "design": design, "solution": solution, "bent": BENT}
+    names |= {"MOMENTS": {"thrust_n": 3300.0, "flapping": "hub-moments"}, "stand": partial(on_stand, mu=0.1)}
     with pytest.raises(kind) as caught:
-        eval(call, {"rotor": rotor, "explorer": explorer, "design": design, "solution": solution})
+        eval(call, names)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 

@@ -28,6 +28,7 @@ from rotor.support.processes import (
     WorkerLost,
     run_tasks,
 )
+from tests.waited import until
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 120.0
@@ -291,10 +292,7 @@ def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Process
     begin(pool, Count(1))[1].until(JobEnded)
     (before,) = pids_of(pool)
     os.kill(before, signal.SIGKILL)
-    deadline = time.monotonic() + PATIENCE
-    while pids_of(pool) in ((), (before,)) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert pids_of(pool) not in ((), (before,))
+    until(lambda: pids_of(pool) not in ((), (before,)))
     _, heard = begin(pool, Count(2))
     assert heard.until(JobEnded) == JobEnded(2)
     assert not any(isinstance(event, JobFailed) for event in heard)
@@ -377,10 +375,3 @@ def lives(process: int) -> bool:
     with suppress(psutil.NoSuchProcess):
         return psutil.Process(process).status() != psutil.STATUS_ZOMBIE
     return False
-
-
-def until(true: Callable[[], bool]) -> None:
-    begin = time.monotonic()
-    while not true():
-        assert time.monotonic() - begin < PATIENCE, "waited too long"
-        time.sleep(0.05)

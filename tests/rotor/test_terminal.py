@@ -12,10 +12,9 @@ from pathlib import Path
 import pytest
 
 from explorer.__main__ import main as explorer
+from rotor import make_design, solve
 from rotor.__main__ import main
-from rotor.files.make_design import make_design
 from rotor.support.terminal import StopSignal, run_command
-from rotor.trim.solve import solve
 
 
 def piped(monkeypatch: pytest.MonkeyPatch, encoding: str) -> tuple[io.BytesIO, io.BytesIO]:

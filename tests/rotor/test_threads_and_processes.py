@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from rotor import make_design, solve
 from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
 from rotor.support.blas_threads import _libraries, one_blas_thread
-from rotor.trim.solve import solve
 
 
 def threads() -> list[int]:

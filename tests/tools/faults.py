@@ -100,14 +100,17 @@ def sample(parts: list[str], each: int, seed: int) -> list[tuple[str, str, str, 
 
 
 def imported_by() -> dict[str, set[str]]:
-    """By module, the files that import it or something of it."""
+    """By module, the files that import it or something of it; a name of `rotor` is of the module that it is from."""
     users = defaultdict[str, set[str]](set)
+    public = ast.parse((ROOT / "rotor" / "public.py").read_text("utf-8")).body
+    homes = {one.name: node.module for node in public if isinstance(node, ast.ImportFrom) for one in node.names}
     for folder in ("rotor", "explorer", "tests"):
         for path in (ROOT / folder).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text("utf-8"))):
                 names = [alias.name for alias in getattr(node, "names", []) if isinstance(alias, ast.alias)]
                 if isinstance(node, ast.ImportFrom):
-                    names = [f"{node.module}", *(f"{node.module}.{name}" for name in names)]
+                    own = [homes.get(name, "") for name in names if node.module == "rotor"]
+                    names = [f"{node.module}", *own, *(f"{node.module}.{name}" for name in names)]
                 for name in names if isinstance(node, ast.Import | ast.ImportFrom) else ():
                     users[name].add(str(path.relative_to(ROOT)))
     return users
@@ -150,7 +153,7 @@ def noticed(checkout: Path, file: str, text: str, tests: list[str]) -> str:
     finally:
         place.write_bytes(before)
         os.utime(place, ns=(stat.st_atime_ns, stat.st_mtime_ns))  # The kernels kept for it serve again.
-    failed = re.search(r"^(?:FAILED|ERROR) (\S+)", out, re.M)
+    failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", out, re.M)
     if failed and run(checkout, [failed[1]])[0]:
         raise RuntimeError(f"{failed[1]} fails without the fault too: mend it first")
     if failed or code in (0, -signal.SIGXCPU, -signal.SIGKILL):

@@ -18,19 +18,8 @@ from explorer.parts import Parts
 from explorer.parts.presses import PRESSES
 
 FILE = Path(__file__).parents[2] / "explorer" / "web" / "parts.d.ts"
-_PLAIN = {str: "string", int: "number", float: "number", bool: "boolean", types.NoneType: "null", Any: "any"}
+_PLAIN = {str: "string", int: "number", float: "number", bool: "boolean", types.NoneType: "null", None: "null"}
 _HEAD = "// Made by `python -m tests.tools.page_types` from explorer/parts and presses.PRESSES: change those."
-_PAGE = """\
-declare const RX: {
-  state: RxState;
-  paint<N extends keyof RxState>(name: N, draw: (value: RxState[N]) => void): void;
-  paint<N extends (keyof RxState)[]>(names: [...N], draw: (...values: {[K in keyof N]: RxState[N[K]]}) => void): void;
-  again(...names: (keyof RxState)[]): void;
-  set(parts: Partial<RxState>): void;
-  send<N extends keyof RxPresses>(name: N, value?: RxPresses[N]): void;
-  [name: string]: any;
-};
-"""
 
 
 class _Declared:
@@ -87,9 +76,9 @@ def page_types() -> str:
     """The text of the file."""
     declared = _Declared()
     parts = {name: declared.type_of(kind) for name, kind in get_type_hints(Parts, include_extras=True).items()}
-    presses = {name: "any" if kind is None else declared.type_of(kind) for name, kind in PRESSES.items()}
+    presses = {name: declared.type_of(kind) for name, kind in PRESSES.items()}
     tables = _interface("RxState", parts), _interface("RxPresses", presses)
-    return "\n\n".join([_HEAD, *tables, *declared.texts.values(), _PAGE])
+    return "\n\n".join([_HEAD, *tables, *declared.texts.values()]) + "\n"
 
 
 def main(arguments: Sequence[str]) -> int:

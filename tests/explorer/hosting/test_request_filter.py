@@ -4,7 +4,6 @@ import asyncio
 import json
 import socket
 import threading
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -28,6 +27,7 @@ from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import make_design, solve
 from tests.tools import wire
 from tests.tools.visitor import Visitor, arrived, ran
+from tests.waited import until
 
 OUTER = "Δ outboard [°/R]"
 CLIENT = (
@@ -105,12 +105,7 @@ class TestFirstAnswer:
     """The loading screen has the number that the page then shows; a bad address has none, and asks nothing twice."""
 
     def words(self, app: App, query: str) -> list[str]:
-        lines: list[str] = []
-        deadline = time.monotonic() + 120.0
-        while not lines and time.monotonic() < deadline:
-            lines = fetch(f"{app.address}/first-answer{query}")[1].decode().strip().splitlines()
-            time.sleep(0.05)
-        return lines
+        return until(lambda: fetch(f"{app.address}/first-answer{query}")[1].decode().strip().splitlines())
 
     def test_it_is_the_power_of_the_design_of_the_address(self, app: App):
         power, design, flight = self.words(app, "?d=1;linear:-12;mu=0.33")
@@ -125,10 +120,7 @@ class TestFirstAnswer:
         first = FirstAnswers(lambda: OPENING, pool)
 
         def answered(query: str) -> str:
-            deadline = time.monotonic() + 60.0
-            while (query, OPENING) not in first._known and time.monotonic() < deadline:
-                first(query)
-                time.sleep(0.01)
+            until(lambda: first(query) or (query, OPENING) in first._known)
             return first._known[query, OPENING]
 
         assert first("d=1;linear:-8") == first("d=1;linear:-9") == ""

@@ -3,23 +3,16 @@
 import itertools
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 
 from explorer.workers import newest_wins
 from explorer.workers.newest_wins import NewestWins, UpdatePool
+from tests.waited import until
 
 LONG = 60.0
 """[s]; how long a step of another thread may take before a test gives up: far more than on a busy machine."""
-
-
-def until(true: Callable[[], bool]) -> None:
-    """Wait for what another thread brings about."""
-    end = time.monotonic() + LONG
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.001)
 
 
 def blocked(pool: UpdatePool) -> tuple[NewestWins, threading.Event]:

@@ -8,14 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from rotor import Design, Solution, make_design
 from rotor.aero.disk import stations
 from rotor.aero.display import as_asked, resampling
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
 

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import TrimState
+from rotor import TrimState, make_design
 from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import disk_sums as sums_at
-from rotor.files.make_design import make_design
 from rotor.trim.power import hub_moment
 from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
 

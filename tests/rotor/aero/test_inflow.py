@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
 from rotor.aero.disk import build_disk
 from rotor.aero.inflow import DiskFlow
 from rotor.aero.inflow.interface import Losses
@@ -14,9 +15,7 @@ from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import build_problem
 from rotor.engine.waves import waves_at
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
-from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24

@@ -7,14 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.testing import assert_allclose
 
+from rotor import Solution, make_design, solve
 from rotor.aero.losses import HUB_FACTOR, loss_factor, mean_loss_factor
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.quantities import LOSS_ON, LossOn
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
 def test_tip_and_hub_factors_by_hand():

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem, skin_friction
 from rotor.aero.section import FR, FX, UP, UR, UT, section
 from rotor.aero.switches import no_effect, with_switches
 from rotor.design.design import BEYOND_DOCUMENT
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
-from rotor.trim.solve import solve
 from tests.solved import assert_same_trim
 
 

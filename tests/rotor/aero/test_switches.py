@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.integrate import dblquad
 
-from rotor.aero.elements import TrimState
+from rotor import TrimState, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import DiskFlow, Losses
 from rotor.aero.inflow.local_momentum import GAIN
@@ -22,14 +21,12 @@ from rotor.aero.switches import SWITCHES, no_effect, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
 from rotor.design.design import BEYOND_DOCUMENT, Design
 from rotor.files.design_file import design_from_record
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.study.series import PARTS, waterfall, waterfall_steps
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
-from rotor.trim.power import hub_moment, power_budget
-from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
+from rotor.trim.power import hub_moment
+from tests.rotor.check_jacobian import elements_at, point_at
 from tests.solved import assert_same_trim
 
 
@@ -86,23 +83,6 @@ class TestReverseFlow:
         for field in (solution.disk.dct, solution.disk.dcq, solution.disk.cl, solution.disk.cd):
             assert not field[inside].any()
             assert field[~inside].any()
-
-    def test_profile_power_of_a_constant_drag_without_the_circle(self):
-        """C_P0 = σC_d/4π ∬ (r + µ sin ψ)³ over the rest of the blade, by quadrature."""
-        mu, drag = 0.4, 0.01
-        design = make_design(preset="thesis", mu=mu)
-        problem = build_problem(with_switches(design, ("reverse_flow",)))
-        assert problem.unloaded is not None
-        e = elements_at(problem, TrimState(lambda0=1e-9))
-        pull = np.where(problem.unloaded, 0.0, drag) * problem.disk.half_solidity[:, None] * np.hypot(e.u_t, e.u_p)
-        e = replace(e, fx=pull * e.u_t, fz=-pull * e.u_p)
-        got = power_budget(problem, e, disk_sums(problem.disk, e)).profile / design.power_unit
-        root = design.rotor.blade.root_cutout
-        whole, _ = dblquad(
-            lambda r, psi: (r + mu * math.sin(psi)) ** 3, 0.0, 2.0 * math.pi,
-            lambda psi: max(root, -mu * math.sin(psi)), 1.0,
-        )  # fmt: skip
-        assert_allclose(got, design.rotor.solidity * drag * whole / (4.0 * math.pi), rtol=5e-4)
 
 
 class TestCompressibility:

@@ -7,20 +7,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Aircraft, Design, make_design, solve
 from rotor.aero.problem import build_problem
 from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.decks import SectionTraits, assemble_deck
 from rotor.airfoil.polars import COLUMNS, Polar
 from rotor.airfoil.reynolds import by_reynolds, shares
 from rotor.airfoil.sections import OwnSection, install_own
-from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Span
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.trim.analysis import power_gradient
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solve import solve
 
 KNOTS = (50e3, 100e3, 200e3, 400e3)
 ALPHA = np.arange(-10.0, 16.5, 0.5)

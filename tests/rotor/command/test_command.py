@@ -1,18 +1,24 @@
-"""The command line as scripts see it: flags, JSON keys, exit codes, one line for bad input."""
+"""The command line as scripts see it: flags, ranges, JSON and its keys, CSV, exit codes, completion, bad input."""
 
 import csv
-import json
+import io
 import math
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.__main__ import main
-from rotor.files.make_design import make_design
+from rotor import make_design, solve
+from rotor.__main__ import build_parser
+from rotor.design.quantities import CONDITION
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.support.user_input import parse_range
-from rotor.trim.solve import solve
+from rotor.trim.export import SCHEMA
 
 KEYS = [
     "schema", "version", "rotor",
@@ -28,78 +34,65 @@ KEYS = [
 VIBRATION = ["hub_loads", "hub_loads_note", "blade_frequencies_per_rev"]
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    code = main(list(arguments))
-    out, err = capsys.readouterr()
-    return code, out, err
+QUICK = ("--inflow", "uniform", "--elements", "12", "--azimuths", "24")
+FORMATS = (Path(__file__).parents[3] / "docs" / "formats.md").read_text(encoding="utf-8")
+Answer = Callable[..., Any]
+Printed = Callable[..., str]
 
 
-def solved(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict:
-    code, out, err = run(capsys, "solve", "--json", *arguments)
-    assert (code, err) == (0, "")
-    return json.loads(out)
-
-
-def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
-    answer = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
-    assert list(answer) == [*KEYS, *VIBRATION]
-    power = answer["power_w"]
+def test_json_keys_and_power(answer: Answer):
+    found = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
+    assert list(found) == [*KEYS, *VIBRATION]
+    power = found["power_w"]
     assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "climb", "tail"]
     assert_allclose(power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12)
     assert_allclose(power["total"], power["main_rotor"] + power["tail"], rtol=1e-12)
-    assert answer["status"] == "converged"
-    assert answer["twist"] == "linear:-8"
-    assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
-    loads = answer["hub_loads"]
+    assert (found["status"], found["twist"]) == ("converged", "linear:-8")
+    assert_allclose(found["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
+    loads = found["hub_loads"]
     assert list(loads) == ["per_rev", "fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "index_percent", "band_percent"]
     assert loads["band_percent"][0] <= loads["index_percent"] <= loads["band_percent"][1]
     force = math.hypot(0.5 * loads["fx_n"], 0.67 * loads["fy_n"], loads["fz_n"])
     moment = math.hypot(loads["mx_nm"], loads["my_nm"]) / 8.1788
     weight = make_design().condition.weight
     assert_allclose(loads["index_percent"], 100.0 * (force + moment) / weight, rtol=1e-9)
-    assert list(answer["blade_frequencies_per_rev"]) == ["flap", "lag", "torsion"]
+    assert list(found["blade_frequencies_per_rev"]) == ["flap", "lag", "torsion"]
 
 
-def test_without_hub_loads_a_note_says_why(capsys: pytest.CaptureFixture[str]):
-    slow, unknown = solved(capsys, "--mu", "0.1"), solved(capsys, "--rotor", "r22", "--mu", "0.25")
+def test_without_hub_loads_a_note_says_why(printed: Printed, answer: Answer):
+    slow, unknown = answer("solve", "--mu", "0.1"), answer("solve", "--rotor", "r22", "--mu", "0.25")
     assert slow["hub_loads"] is unknown["hub_loads"] is unknown["blade_frequencies_per_rev"] is None
     assert "Hub loads are not shown below µ 0.2" in slow["hub_loads_note"]
     assert "blade in flap and lag is not known" in unknown["hub_loads_note"]
     assert slow["caveats"] == [one.sentence for one in solve(make_design(mu=0.1)).caveats]
-    code, out, _ = run(capsys, "solve", "--mu", "0.3", "--bending")
-    assert code == 0
+    out = printed("solve", "--mu", "0.3", "--bending")
     for words in ("converged: Trimmed.", "induced", "kW", "collective", "L/D_e", "σ 0.0821", "hub loads at 4/rev: fx"):
         assert words in out
 
 
 @pytest.mark.slow
-def test_distribution(capsys: pytest.CaptureFixture[str]):
-    answer = solved(capsys, "--mu", "0.2", "--distribution")
-    assert list(answer) == [*KEYS, "distribution", *VIBRATION]
-    found = answer["distribution"]
+def test_distribution(printed: Printed, answer: Answer):
+    whole = answer("solve", "--mu", "0.2", "--distribution")
+    assert list(whole) == [*KEYS, "distribution", *VIBRATION]
+    found = whole["distribution"]
     assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
     assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
-    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in run(capsys, "solve", "--distribution")[1]
+    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in printed("solve", "--distribution")
     heavy = ("solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
-    code, out, _ = run(capsys, *heavy, "--json")
-    assert (code, json.loads(out)["distribution"]) == (1, None)
-    assert "lift of one blade" not in run(capsys, *heavy)[1]
+    assert answer(*heavy, code=1)["distribution"] is None
+    assert "lift of one blade" not in printed(*heavy, code=1)
 
 
-def test_an_optimum_beyond_autorotation_is_refused(capsys: pytest.CaptureFixture[str]):
-    code, out, _ = run(capsys, "optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band")
-    assert code == 1
+def test_an_optimum_beyond_autorotation_is_refused(printed: Printed):
+    out = printed("optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band", code=1)
     assert "descend more slowly, or use the objective induced" in " ".join(out.split())
 
 
-def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
-    code, out, err = run(capsys, "solve", "--json", "--hover", "--mass-kg", "20000", "--altitude-m", "4000")
-    answer = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
-    assert (code, err) == (1, "")
-    assert list(answer) == [*KEYS, *VIBRATION]
-    assert answer["status"] == "not-converged"
-    assert answer["power_w"]["total"] is None
-    assert "lower the mass" in answer["message"]
+def test_not_converged_is_exit_1_with_nulls(answer: Answer):
+    found = answer("solve", "--hover", "--mass-kg", "20000", "--altitude-m", "4000", code=1)
+    assert list(found) == [*KEYS, *VIBRATION]
+    assert (found["status"], found["power_w"]["total"]) == ("not-converged", None)
+    assert "lower the mass" in found["message"]
 
 
 @pytest.mark.parametrize(
@@ -128,12 +121,8 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["study", "show", "nowhere"], "nowhere"),
     ],
 )
-def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], words: str):
-    code, out, err = run(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("rotor: ")
-    assert err.count("\n") == 1
-    assert words in err
+def test_bad_input_is_exit_2_and_one_line(refused: Printed, arguments: list[str], words: str):
+    assert words in refused(*arguments)
 
 
 @pytest.mark.parametrize(
@@ -144,19 +133,18 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
         (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "by their data, not by their airfoils"),
     ],
 )
-def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, capsys: pytest.CaptureFixture[str]):
+def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, answer: Answer):
     def caveats(*flags: str) -> str:
-        return " ".join(solved(capsys, "--inflow", "uniform", *flags)["caveats"])
+        return " ".join(answer("solve", "--inflow", "uniform", *flags)["caveats"])
 
     assert words in caveats(*flags)
     assert words not in caveats("--twist", "linear:-18", "--airfoils", "sc1095-thesis")
 
 
-def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
     path = tmp_path / "sweep.csv"
-    code, out, _ = run(capsys, "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))
+    out = printed("sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
-    assert code == 0
     assert [row["mu"] for row in rows] == ["0.1", "0.2", "0.3"] * 2
     assert {row["twist"] for row in rows} == {"linear:-8", "linear:-16"}
     assert out.count("\n") == 7
@@ -164,28 +152,25 @@ def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path)
     level = [name for name in columns if not name.startswith("climb") and name not in ("status", "message")]
     assert out.splitlines()[0].split() == level  # Headings stand apart.
     assert max(map(len, out.splitlines())) <= 100
-    single = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
+    single = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["total_kw"]), single["power_w"]["total"] / 1e3, atol=0.006)
 
 
-def test_airfoil_as_table_and_as_json(capsys: pytest.CaptureFixture[str]):
-    def shown(*words: str) -> str:
-        code, out, err = run(capsys, "airfoil", "show", *words)
-        assert (code, err) == (0, "")
-        return out
-
-    point = json.loads(shown("sc1095", "--mach", "0.7", "--alpha", "4", "--json"))
+def test_airfoil_as_table_and_as_json(printed: Printed, answer: Answer):
+    show = "airfoil", "show"
+    point = answer(*show, "sc1095", "--mach", "0.7", "--alpha", "4")
     assert list(point) == ["cl", "cd", "cm"]
     assert_allclose([point["cl"], point["cd"], point["cm"]], [0.72, 0.036, 0.001], atol=0.06)  # The C81 deck.
-    assert json.loads(shown("sc1095-thesis", "--mach", "0.3", "--alpha", "4", "--json"))["cm"] is None
-    answer = json.loads(shown("sc1094r8", "--json"))
-    assert answer["incidence_offset_deg"] == 1.0
-    k = answer["mach"].index(0.3)
-    assert_allclose(answer["cl_alpha_per_deg"][k], 0.1104, rtol=0.01)  # McCroskey's, as in the data tests
-    assert_allclose(answer["cm_at_0_deg"][k], -0.0236, atol=1e-3)
+    assert answer(*show, "sc1095-thesis", "--mach", "0.3", "--alpha", "4")["cm"] is None
+    found = answer(*show, "sc1094r8")
+    assert found["incidence_offset_deg"] == 1.0
+    k = found["mach"].index(0.3)
+    assert_allclose(found["cl_alpha_per_deg"][k], 0.1104, rtol=0.01)  # McCroskey's, as in the data tests
+    assert_allclose(found["cm_at_0_deg"][k], -0.0236, atol=1e-3)
     for name in ("sc1095", "sc1095-thesis"):
-        assert "nan" not in shown(name)
-        assert len(shown(name).splitlines()) in (13, 14)  # A long source takes two lines.
+        shown = printed(*show, name)
+        assert "nan" not in shown
+        assert len(shown.splitlines()) in (13, 14)  # A long source takes two lines.
 
 
 def test_ranges():
@@ -205,12 +190,67 @@ def test_ranges():
         ("--trim", "wind-tunnel", "--thrust-n", "60000", "--hover"),
     ],
 )
-def test_trims_of_a_test_stand(capsys: pytest.CaptureFixture[str], flags: tuple[str, ...]):
-    answer = solved(capsys, *flags)
-    assert answer["trim"] == flags[1]
-    given = answer["stand"]
-    found = {"ct_over_sigma": answer["ct_over_sigma"], "collective_deg": answer["collective_deg"]}
-    for key in found.keys() & given.keys():
-        assert_allclose(found[key], given[key], rtol=1e-9)
-    assert_allclose(answer["power_w"]["total"], answer["shaft_torque_nm"] * 27.02, rtol=2e-3, atol=1.0)
-    assert_allclose(answer["cq_over_sigma"], answer["cq"] * answer["ct_over_sigma"] / answer["ct"], rtol=1e-9)
+def test_trims_of_a_test_stand(answer: Answer, flags: tuple[str, ...]):
+    found = answer("solve", *flags)
+    assert found["trim"] == flags[1]
+    for key in {"ct_over_sigma", "collective_deg"} & found["stand"].keys():
+        assert_allclose(found[key], found["stand"][key], rtol=1e-9)
+    assert_allclose(found["power_w"]["total"], found["shaft_torque_nm"] * 27.02, rtol=2e-3, atol=1.0)
+    assert_allclose(found["cq_over_sigma"], found["cq"] * found["ct_over_sigma"] / found["ct"], rtol=1e-9)
+
+
+def test_a_sweep_goes_over_any_quantity_of_flight_and_hover(printed: Printed, answer: Answer):
+    rows = [*csv.DictReader(io.StringIO(printed("sweep", "--speed-kt", "60:100:20", "--csv", "-", *QUICK)))]
+    assert [float(row["speed_kt"]) for row in rows] == [60.0, 80.0, 100.0]
+    rows = answer("sweep", "--mu", "0.2", "--mass-kg", "7000,8000", *QUICK)
+    assert [row["mass_kg"] for row in rows] == [7000.0, 8000.0]
+    assert rows[0]["total_kw"] < rows[1]["total_kw"]
+    rows = answer("sweep", "--hover", "--isa-offset-c", "0:20:20", *QUICK)
+    assert [(row["mu"], row["isa_offset_c"]) for row in rows] == [(0.0, 0.0), (0.0, 20.0)]
+
+
+def test_a_stand_says_its_altitude_and_a_model_rotor_its_torque(printed: Printed):
+    out = printed("solve", "--rotor", "knight-hefner-3", "--hover", "--ct-over-sigma", "0.01", "--altitude-m", "900")
+    assert "flapping trimmed, 900 m" in out
+    assert re.search(r"torque 0\.\d{3} N m", out)
+
+
+def test_two_ranges_or_outputs_at_once_are_refused(refused: Printed):
+    for words in ([], ["--mu", "0.1:0.3:0.1", "--mass-kg", "7000:8000:500"], ["--mu", "0.1", "--speed-kt", "80"]):
+        assert "give one range" in refused("sweep", *words)
+    assert "both print" in refused("sweep", "--mu", "0.1:0.2:0.1", "--csv", "-", "--json")
+
+
+def test_keys_of_the_json_are_documented(answer: Answer):
+    found = answer("solve", "--mu", "0.3", "--bending", "--doubt")
+    assert (found["schema"], found["rotor"], found["mass_kg"], found["altitude_m"]) == (SCHEMA, "UH-60A", 8322.4, 0.0)
+    assert found["version"]
+    documented = set(re.findall(r"`([a-z][a-z0-9_]*)`", FORMATS[FORMATS.index("(solve-json)=") :]))
+    assert set(found) <= documented
+
+
+def test_the_ranges_of_the_flight_condition_are_documented():
+    for name, row in CONDITION.items():
+        stand = f" (on a test stand {row.high_on_stand:g})" if row.high_on_stand else ""
+        assert f"`{name}` {row.low:g}…{row.high:g}{stand}" in FORMATS
+
+
+def test_hub_loads_without_bending_say_whose_they_are(answer: Answer):
+    found = answer("solve", "--mu", "0.3")
+    assert found["hub_loads"]
+    assert "hub loads are those of bending blades" in found["hub_loads_note"]
+
+
+def test_a_list_that_begins_with_a_minus_is_a_value():
+    args = build_parser().parse_args(["optimise", "--mu", "0.2", "--rate-deg", "-20,0"])
+    assert args.rate_deg == "-20,0"
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
+def test_bash_completes_commands_and_flags(printed: Printed):
+    script = printed("completion")
+    for words, expected in (("rotor so", "solve"), ("rotor solve --dou", "--doubt")):
+        last = len(words.split()) - 1
+        program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
+        done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
+        assert done.stdout.split() == [expected]

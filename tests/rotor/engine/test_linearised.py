@@ -15,13 +15,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Design, make_design
 from rotor.aero.section import M
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.aircraft import Stand
-from rotor.design.design import Design
 from rotor.engine.linearise import MeasureSlopes, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
 from rotor.trim.solve import analyse
 

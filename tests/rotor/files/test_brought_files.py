@@ -8,13 +8,11 @@ from numpy.testing import assert_allclose
 from test_rotor_file import GOOD, POLARS, polar_file, read
 
 from explorer.tabs.design_files import UploadedFiles
+from rotor import Aircraft, make_design, solve
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import Contour, load_contour, parse_contour, resample, thickness_and_camber
 from rotor.airfoil.polars import Polar, parse_polars
 from rotor.airfoil.sections import load_section
-from rotor.design.aircraft import Aircraft
-from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
 
 POINTS = resample(load_contour("naca2412"), 41).points
 UPPER, LOWER = POINTS[:21], POINTS[20:]

@@ -10,16 +10,14 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from rotor import Solution, make_design, solve
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.dynamics.torsion import blade_modes
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.study.series import between_drag_areas
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 HART2 = {
     "shaft_tilt_deg": -4.3, "thrust_n": 3300.0, "density_kg_m3": 1.2055, "tip_mach": 109.12 * 2.0 / 341.7,
@@ -187,20 +185,6 @@ def test_power_between_the_drag_areas(name: str):
     work = 0.5 * solution.design.condition.density * solution.design.airspeed**3 * (area[1] - area[0])
     assert 1.0 < (high - low) / work < 1.3
     assert between_drag_areas(solve(make_design(rotor=name, hover=True)).require()) is None
-
-
-@pytest.mark.parametrize(
-    ("rotor", "mu", "stand", "said"),
-    [
-        ("pca2", 0.1, {"ct_over_sigma": 0.07, "flapping": "hub-moments"}, "on blades hinged at the shaft"),
-        ("hart2", 0.1, {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "set flapping to hub-moments"),
-        ("hart2", 0.1, HART2 | {"cyclic_1c_deg": 1.0}, "needed to trim the hub moments"),
-        ("hart2", 0.0, HART2, "in hover the rotor is balanced"),
-    ],
-)
-def test_a_bad_test_is_one_sentence(rotor: str, mu: float, stand: dict[str, float], said: str):
-    with pytest.raises(ValueError, match=said):
-        make_design(rotor=rotor, mu=mu, stand=stand)
 
 
 @pytest.mark.parametrize(

@@ -15,13 +15,11 @@ from numpy.testing import assert_allclose
 from test_rotor_file import DECK, GOOD, POLARS, polar_file
 
 from explorer.tabs.design_files import UploadedFiles
+from rotor import Aircraft, make_design, solve
 from rotor.airfoil.c81 import format_c81, parse_c81
 from rotor.airfoil.polars import COLUMNS, Polar, parse_polars
-from rotor.design.aircraft import Aircraft
 from rotor.files import rotor_file
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import load_rotor, read_aircraft, read_tables
-from rotor.trim.solve import solve
 
 POLAR = POLARS[2]
 

@@ -9,15 +9,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import hub_loads, make_design
+from rotor import Aircraft, hub_loads, make_design, solve
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81, read_c81
 from rotor.airfoil.decks import on_run_time_grid
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.sections import load_installed
-from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.support.assets import asset_path
-from rotor.trim.solve import solve
 
 POLARS = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
 DECK = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")

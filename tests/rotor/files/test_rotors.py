@@ -11,11 +11,10 @@ from typing import Any
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import make_design
+from rotor import make_design, solve
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
-from rotor.trim.solve import solve
 from tests.solved import SAME
 from tests.tools.ideal_bound import find_bound
 

@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import make_design, parse_twist
+from rotor import load_design, make_design, parse_twist, solve
 from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.blade import airfoils_spec
 from rotor.design.twist import LinearTwist, QuadraticTwist, SplineTwist
-from rotor.files.design_file import load_design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, nearest, on_top, restrict
-from rotor.trim.solve import solve
 
 R = np.linspace(0.141, 0.989, 40)
 EVERY = pytest.mark.parametrize("concept", CONCEPTS.values(), ids=CONCEPTS)

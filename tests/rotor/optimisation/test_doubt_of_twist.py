@@ -8,14 +8,13 @@ from typing import Any
 import pytest
 
 import rotor
-from rotor.design.design import Design
+from rotor import Design, doubt
 from rotor.design.uncertain import UNCERTAIN
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.objective import at_condition, over_conditions
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.optimisation.search import Search, best_linear_twist, nearby_flights, run_search
-from rotor.trim.doubt import doubt
 from tests.patched import Patch
 from tests.uncertain import either_side
 

@@ -8,15 +8,13 @@ import pytest
 from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
 
+from rotor import Design, make_design, solve
 from rotor.aero.lifting_line import LiftingLine, WakeCourse
 from rotor.aero.problem import build_problem
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.arrays import Array
 from rotor.support.assets import asset_path, csv_rows
 from rotor.trim.forward import with_course
-from rotor.trim.solve import solve
 from tests.tools.ideal_bound import (
     AZIMUTHS,
     COLUMNS,

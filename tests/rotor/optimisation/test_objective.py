@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.design.aircraft import FlightCondition
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
+from rotor import Design, FlightCondition, make_design, solve
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.limits import stalled_share
 from rotor.optimisation.objective import (
@@ -23,7 +21,6 @@ from rotor.optimisation.objective import (
 )
 from rotor.trim.analysis import Analysis
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solve import solve
 
 
 def small(mu: float, **choices: float) -> Design:

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Design, hub_loads, make_design, solve
 from rotor.aero.problem import build_problem
-from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
 from rotor.optimisation.limits import ChangeLimit, Limits, even_change_limit
 from rotor.optimisation.objective import (
@@ -27,9 +26,7 @@ from rotor.optimisation.objective import (
 )
 from rotor.optimisation.results import Minimum, Optimum, Progress, SearchStatus
 from rotor.optimisation.search import STARTS, Search, run_search
-from rotor.trim.hub_loads import hub_loads
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solve import solve
 
 DEGREE = math.radians(1.0)
 

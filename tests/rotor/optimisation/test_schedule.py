@@ -9,14 +9,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
+from rotor import Design, Limits, make_design, solve
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.results import Minimum, SearchStatus
 from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
-from rotor.trim.solve import solve
 from tests.solved import SAME
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")

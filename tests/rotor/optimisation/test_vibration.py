@@ -12,12 +12,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
+from rotor import Design, Solution
 from rotor.__main__ import main
-from rotor.design.design import Design
 from rotor.optimisation.vibration import TMatrix, with_harmonics
 from rotor.trim.hub_loads import HubLoads, hub_loads
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import Solution
 
 LINEAR, LINE = "pitt-peters", "lifting-line"
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
@@ -130,23 +129,6 @@ def test_front_of_static_twist():
     assert front.preview_error is None
     low, high = front.points[0].index, front.points[-1].index
     assert_allclose(front.points[1].index, 0.5 * (low + high), rtol=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: rotor.vibration_front(bent(LINEAR), points=1), "1 points"),
-        (lambda: rotor.vibration_front(bent(LINEAR), reach_deg=0.0), "reach 0°"),
-        (lambda: rotor.vibration_front(bent(LINEAR), "screw"), "screw"),
-        (lambda: rotor.t_matrix(bent(LINEAR), (2, 9)), "9/rev"),
-        (lambda: rotor.t_matrix(bent(LINEAR, 0.1)), "below µ 0.2"),
-        (lambda: rotor.t_matrix(rotor.make_design(mu=0.3)), "--bending"),
-        (lambda: rotor.t_matrix(bent(LINEAR), (2,)).response("3:1:0"), "no 3/rev"),
-    ],
-)
-def test_bad_input_is_one_sentence(call, words: str):
-    with pytest.raises(ValueError, match=words):
-        call()
 
 
 @pytest.mark.slow

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import suppress
@@ -23,6 +22,7 @@ from rotor.study.chunks import evaluate_points
 from rotor.study.results import Results, read_results
 from rotor.study.run import run_study
 from rotor.study.study_file import read_study
+from tests.waited import until
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parent.parent.parent.parent
@@ -98,15 +98,6 @@ def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     # Before there is work: a worker that comes late would find all of it done by the other.
     subprocess.run([sys.executable, "-c", _BOTH, cluster.address], check=True, timeout=PATIENCE)
     return cluster
-
-
-def until(true: Callable[[], bool], run: "subprocess.Popen[bytes] | None" = None) -> None:
-    """Wait; fail if the run has ended."""
-    begin = time.monotonic()
-    while not true():
-        assert time.monotonic() - begin < PATIENCE, "waited too long"
-        assert run is None or run.poll() is None, f"the run ended with {run.returncode}"
-        time.sleep(0.05)
 
 
 def files(folder: Path) -> dict[str, int]:

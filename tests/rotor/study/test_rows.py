@@ -7,12 +7,11 @@ from typing import Any
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.files.design_file import load_design
+from rotor import load_design, solve
 from rotor.study.chunks import StudyFolder, StudyProvenance, arrow_modules, evaluate_chunk
 from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
 from rotor.study.study_file import StudyFile, parse_study
 from rotor.support.assets import asset_path, package_version
-from rotor.trim.solve import solve
 from tests.solved import assert_same_trim
 
 TRIMS = """

@@ -18,11 +18,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor import Design, hub_loads
+from rotor import Design, hub_loads, make_design, run_study
 from rotor.__main__ import main
 from rotor.command.common import interruptible
 from rotor.command.study import record, report
-from rotor.files.make_design import make_design
 from rotor.study import point as study_point
 from rotor.study.chunks import (
     FinishedChunk,
@@ -34,7 +33,6 @@ from rotor.study.chunks import (
 )
 from rotor.study.point import WarmStarts
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
-from rotor.study.run import run_study
 from rotor.study.study import QUANTITIES, StudyAxis, StudyPoints, StudySample, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.support.assets import asset_path

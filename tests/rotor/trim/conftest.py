@@ -3,10 +3,9 @@
 import pytest
 from patched import Patch
 
+from rotor import Design, make_design
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.problem import build_problem
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.trim import forward
 
 

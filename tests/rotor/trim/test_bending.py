@@ -10,12 +10,12 @@ from numpy.testing import assert_allclose
 from patched import Patch
 
 import rotor
+from rotor import Design, Solution
 from rotor.aero.bending import BladeBending
 from rotor.aero.bent_section import SV, SW
 from rotor.aero.problem import Problem
 from rotor.aero.section import FR, FX, FZ, RATE, TH, UP, UR, UT, M
 from rotor.columns.bending import coordinates_of
-from rotor.design.design import Design
 from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
 from rotor.support.arrays import Array
@@ -24,7 +24,6 @@ from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.hub_loads import HubLoads, hub_loads, index_along
 from rotor.trim.newton import SolverOptions
 from rotor.trim.no_hub_loads import why_no_hub_loads
-from rotor.trim.solution import Solution
 from tests.rotor.check_jacobian import check_along
 from tests.rotor.root_loads import displacements, root_loads
 

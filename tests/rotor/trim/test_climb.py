@@ -22,7 +22,6 @@ from rotor.design.design import Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import load_rotor
-from rotor.trim.analysis import power_gradient
 from rotor.trim.export import solution_record
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
@@ -216,23 +215,6 @@ def test_power_is_continuous_in_the_rate_of_climb_where_hover_is_held_at_the_edg
     power = [solve(design(0.08, rate), None, TIGHT).require().power.total for rate in rates]
     assert abs(float(np.diff(power, 2)[0])) < 0.02 * np.ptp(power)
     assert np.ptp(power) < 2e-3 * 1.5 * design(0.08, 0.0).condition.weight
-
-
-@pytest.mark.parametrize(
-    ("mu", "climb", "hover_inflow"),
-    [(0.0, 5.0, "annulus"), (0.0, -4.0, "closed-form"), (0.03, 5.0, "annulus"),
-     (0.2, -12.0, "annulus"), (0.25, 8.0, "annulus")],
-)  # fmt: skip
-def test_gradient_by_twist_agrees_with_differences(mu: float, climb: float, hover_inflow: str):
-    at = design(mu, climb, hover_inflow=hover_inflow)
-    gradient = power_gradient(solve(at).require())
-    step = 0.02
-
-    def power(change: float) -> float:
-        return solve(at.with_twist(f"linear:{-12.0 + change!r}")).require().power.total
-
-    slope = (power(step) - power(-step)) / (2.0 * math.radians(step))
-    assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4, abs=200.0)
 
 
 SYMMETRIC = """

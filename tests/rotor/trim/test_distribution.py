@@ -10,10 +10,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
+from rotor import Distribution, Solution, distribution
 from rotor.aero.problem import LOW_MACH, build_problem
 from rotor.aero.unsteady_section import SLOWEST
-from rotor.trim.distribution import Distribution, distribution
-from rotor.trim.solution import Solution
 
 
 def with_models(design: rotor.Design, **models: object) -> rotor.Design:

@@ -8,12 +8,9 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from rotor import make_design, optimise, solve, sweep
+from rotor import Design, distribution, make_design, optimise, solution_record, solve, sweep
 from rotor.aero.switches import no_effect
-from rotor.design.design import Design
 from rotor.trim.analysis import Analysis, power_gradient
-from rotor.trim.distribution import distribution
-from rotor.trim.export import solution_record
 from rotor.trim.forward import first_guess
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import SolverOptions, newton

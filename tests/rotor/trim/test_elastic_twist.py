@@ -10,20 +10,17 @@ from numpy.testing import assert_allclose
 from patched import Patch
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem
 from rotor.aero.section import LOSS, RATE, TH, UP, UR, UT, M, section
 from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.design import Design
 from rotor.engine.newton import Factors
 from rotor.engine.waves import rate_of, wave_grid, waves_at
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import SolverOptions, newton
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from tests.solved import assert_same_trim
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)

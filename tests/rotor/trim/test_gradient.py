@@ -7,17 +7,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Design, FlightCondition, Solution, make_design
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.aircraft import FlightCondition
-from rotor.design.design import Design
 from rotor.design.twist import TableTwist
-from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, evaluate_objective
 from rotor.trim.adjoint import Adjoint, ElementSlopes
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)

@@ -8,14 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
+from rotor import Solution, make_design, solve
 from rotor.aero.problem import build_problem
 from rotor.airfoil.sections import load_installed
 from rotor.columns.hover import closed_form_inflow, hover_system, lift_curve
 from rotor.command.solve import report
 from rotor.engine.linearise import evaluate
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 R = np.linspace(0.13, 0.99, 44)
 SIGMA, SLOPE = 0.0821, 5.9

@@ -8,22 +8,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Design, Solution, make_design, optimise
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.section import UP, UT
 from rotor.columns.flight import disk_sums
-from rotor.design.design import Design
 from rotor.engine.linearise import Point
 from rotor.engine.newton import Factors
-from rotor.files.make_design import make_design
-from rotor.optimisation.search import optimise
 from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import along, trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.power import power_budget
-from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 from rotor.validation.compare import design_at, load_set
 

@@ -6,13 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotor import Design, make_design, solve
 from rotor.aero.momentum import glauert_inflow
-from rotor.design.design import Design
 from rotor.design.quantities import LowSpeed
-from rotor.files.make_design import make_design
 from rotor.trim.low_speed import FASTEST, axial_share, inflow_ratio
 from rotor.trim.newton import SolverOptions
-from rotor.trim.solve import solve
 from tests.patched import Patch
 from tests.solved import assert_same_trim
 

@@ -8,13 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
 
-from rotor.aero.elements import TrimState
+from rotor import TrimState, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import MODELS
 from rotor.aero.problem import build_problem
-from rotor.files.make_design import make_design
+from rotor.aero.switches import with_switches
 from rotor.trim.power import power_budget, profile_power_coefficient, tail_rotor_power
-from rotor.trim.solve import solve
 from tests.rotor.check_jacobian import disk_sums, elements_at
 
 TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8,-18"]
@@ -71,21 +70,23 @@ def test_eq_3_15_with_its_first_coefficient_corrected(mu: float):
         assert_allclose(sigma * drag * whole / (2.0 * math.pi), 2.0 * sigma * drag / 8.0, rtol=1e-12)
 
 
-def test_numerical_profile_power_of_a_constant_drag():
-    """Σ U dD on the grid for C_d = 0.01, U_P = 0 against the closed form less the cut-out's share."""
-    problem = build_problem(make_design(preset="thesis", mu=0.3))
+@pytest.mark.parametrize("off", [(), ("reverse_flow",)], ids=["", "no reverse flow"])
+def test_numerical_profile_power_of_a_constant_drag(off: tuple[str, ...]):
+    """σC_d/4π ∬ |r + µ sin ψ|³ over the blade by quadrature; without reverse flow over the rest of it."""
+    mu, drag = 0.4, 0.01
+    problem = build_problem(with_switches(make_design(preset="thesis", mu=mu), off))
     elements = elements_at(problem, TrimState(lambda0=1e-9))
-    drag = 0.01 * problem.disk.half_solidity[:, None] * np.hypot(elements.u_t, elements.u_p)
-    elements = replace(elements, fx=drag * elements.u_t, fz=-drag * elements.u_p)
-    budget = power_budget(problem, elements, disk_sums(problem.disk, elements))
-    start = problem.design.rotor.blade.root_cutout
-    sigma = problem.design.rotor.solidity
-
-    def inside(r: float, psi: float) -> float:
-        return abs(r + 0.3 * math.sin(psi)) ** 3
-
-    cut, _ = dblquad(inside, 0.0, 2.0 * math.pi, 0.0, start)
-    expected = profile_power_coefficient(sigma, 0.01, 0.3) - sigma * 0.01 * cut / (4.0 * math.pi)
+    assert (problem.unloaded is None) == (not off)
+    loaded = 1.0 if problem.unloaded is None else ~problem.unloaded
+    pull = drag * loaded * problem.disk.half_solidity[:, None] * np.hypot(elements.u_t, elements.u_p)
+    elements = replace(elements, fx=pull * elements.u_t, fz=-pull * elements.u_p)
+    budget, rotor = power_budget(problem, elements, disk_sums(problem.disk, elements)), problem.design.rotor
+    root = rotor.blade.root_cutout
+    whole, _ = dblquad(
+        lambda r, psi: abs(r + mu * math.sin(psi)) ** 3, 0.0, 2.0 * math.pi,
+        lambda psi: max(root, -mu * math.sin(psi)) if off else root, 1.0,
+    )  # fmt: skip
+    expected = rotor.solidity * drag * whole / (4.0 * math.pi)
     assert_allclose(budget.profile / problem.design.power_unit, expected, rtol=5e-4)  # midpoint rule in r
 
 

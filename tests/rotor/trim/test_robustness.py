@@ -10,17 +10,14 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import build_problem
 from rotor.design.aircraft import Stand
-from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, PRESETS, STAND
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.trim.validity import MOST_STALLED
 from tests.tools.designs import FIRST, RIGHT, run, share
 

@@ -6,10 +6,8 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from rotor.files.make_design import make_design
+from rotor import make_design, optimise, solve
 from rotor.optimisation.concepts import find_concept
-from rotor.optimisation.search import optimise
-from rotor.trim.solve import solve
 from tests.tools.sweeps import STEPS, Sweep, largest_jump, lasting_jump, random_sweep, sweep, values_of
 
 ROTORS = [("uh60a", False), ("uh60a", True), ("gazelle", False)]

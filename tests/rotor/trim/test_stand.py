@@ -7,15 +7,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.lifting_line import WakeCourse
-from rotor.design.aircraft import Stand, read_stand
-from rotor.design.design import Design
-from rotor.design.twist import LinearTwist
+from rotor.design.aircraft import Stand
 from rotor.files.design_file import design_from_record
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis, power_gradient
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 TRIMS = {
     "tunnel-thrust": ("wind-tunnel", Stand(shaft_tilt=math.radians(5.0), ct_over_sigma=0.075)),
@@ -99,25 +95,6 @@ def test_hover_at_a_collective_and_without_thrust():
     assert 0.006 < 8.0 * solution.cp / solution.design.rotor.solidity < 0.016
 
 
-@pytest.mark.parametrize("name", ["tunnel-thrust", "tunnel-collective", "controls"])
-@pytest.mark.parametrize("mu", [0.0, 0.2])
-def test_gradient_of_shaft_power_against_differences(name: str, mu: float):
-    design = bench(name, 0.2, "lifting-line")
-    if mu == 0.0 and name == "controls":
-        design = replace(design, condition=replace(design.condition, stand=Stand(collective=0.12, flapping="free")))
-    design = design.at(mu=mu)
-    design = design.with_twist("linear:-8")
-    gradient = power_gradient(solve(design))
-    step = 1e-4
-
-    def power(rate: float) -> float:
-        return solve(design.with_twist(LinearTwist(rate))).require().power.shaft
-
-    base = math.radians(-8.0)
-    difference = (power(base + step) - power(base - step)) / (2.0 * step)
-    assert_allclose(gradient.along((gradient.r - 0.75)[None]), difference, rtol=2e-4, atol=5.0)
-
-
 def test_shaft_power_of_a_free_rotor_has_no_gradient():
     solution = solve(bench("free-thrust"))
     with pytest.raises(RuntimeError, match="no power from its shaft"):
@@ -152,22 +129,6 @@ def test_negative_thrust_mirrors_positive(inflow: str, mu: float):
     assert down.power.induced == pytest.approx(up.power.induced, rel=1e-4)
     assert down.controls.flap_1c == pytest.approx(-up.controls.flap_1c, abs=1e-6)
     assert down.controls.flap_1s == pytest.approx(-up.controls.flap_1s, abs=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("record", "sentence"),
-    [
-        ({}, "none of them"),
-        ({"thrust_n": 1.0, "collective_deg": 2.0}, "thrust_n and collective_deg"),
-        ({"ct_over_sigma": 0.5}, "outside 0…0.25"),
-        ({"collective_deg": 5.0, "cyclic_1c_deg": 1.0}, "needed to trim the flapping"),
-        ({"collective_deg": "5"}, "give a number"),
-        ({"pitch": 5.0}, "is not known"),
-    ],
-)
-def test_inputs_that_do_not_fit(record: dict[str, object], sentence: str):
-    with pytest.raises(ValueError, match=sentence):
-        read_stand(record, "wind-tunnel")
 
 
 @pytest.mark.parametrize(

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import Solution, make_design, solve
 from rotor.aero.lifting_line import WakeCourse
-from rotor.files.make_design import make_design
 from rotor.trim.analysis import Analysis
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.validation import hart2
 from rotor.validation.airloads import (
     HART2_BASELINE,

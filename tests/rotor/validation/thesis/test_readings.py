@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
 from rotor.airfoil.polynomial import THESIS_NAME, THESIS_READING, parse_reading, thesis_polar
 from rotor.airfoil.sections import load_section
-from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
 from rotor.validation.thesis import readings
 from rotor.validation.thesis.ladder import RUNGS, linear_optimum, moving_twist, rung_design
 from rotor.validation.thesis.misprints import MISPRINTS, Misprint, shown_values
