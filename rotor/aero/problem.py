@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rotor.aero.air import AirMotion, air_motion
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
 from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_bending, can_bend
 from rotor.aero.bent_section import BentData, bending_interface
@@ -43,6 +44,8 @@ class Problem:
 
     design: Design
     disk: Disk
+    air: AirMotion
+    """How the air moves at the elements, but for what the load there induces."""
     twist: Array
     """θ_tw at the elements [rad]."""
     waves: Array
@@ -81,8 +84,6 @@ class Problem:
     """Along which a wake of vortices lies; see `rotor.trim.forward`."""
     freedoms: tuple[Any, ...] = ()
     """Further degrees of freedom of the blade, each a `rotor.columns.blade.Freedom`."""
-    joined: tuple[Array, Array] | None = None
-    """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
     scatter: Array = field(default_factory=lambda: NO_SCATTER)
     """By how much the section data are changed, see `rotor.aero.section`."""
     tip_spacing: float = 1.0
@@ -130,8 +131,7 @@ class Problem:
     @cached_property
     def half_chord(self) -> Array:
         """b/R, (elements,)."""
-        rotor = self.design.rotor
-        return 0.5 * rotor.blade.chord(self.disk.r) / rotor.radius
+        return _half_chord(self.design, self.disk)
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
@@ -188,6 +188,7 @@ def build_problem(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
+        air=_air(design, disk),
         twist=twist,
         waves=waves,
         flap=flap,
@@ -203,7 +204,7 @@ def build_problem(design: Design) -> Problem:
         torsion=torsion,
         bending=bending,
         stall=stall,
-        unsteady=models.has("unsteady") and not design.hovering,
+        unsteady=_unsteady(design),
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
@@ -217,6 +218,19 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     numbers, tables = build_onset(disk, None if models.compressibility else LOW_MACH)
     own = {"numbers": numbers, "tables": tables, "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius)}
     return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
+
+
+def _half_chord(design: Design, disk: Disk) -> Array:
+    return 0.5 * design.rotor.blade.chord(disk.r) / design.rotor.radius
+
+
+def _air(design: Design, disk: Disk) -> AirMotion:
+    """How the air moves at the elements, with unsteady flow or without."""
+    return air_motion(design, disk, _half_chord(design, disk) if _unsteady(design) else None)
+
+
+def _unsteady(design: Design) -> bool:
+    return design.models.has("unsteady") and not design.hovering
 
 
 def grid_of(design: Design) -> tuple[int, int]:
@@ -237,9 +251,9 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     psi = azimuths_of(azimuths)
     disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
     waves, *rates = _pitch_waves(problem.design, disk)
-    return replace(
-        problem, disk=disk, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
-    )
+    air = replace(_air(problem.design, disk), joined=problem.air.joined)
+    unloaded = _unloaded(problem.design, disk)
+    return replace(problem, disk=disk, air=air, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=unloaded)
 
 
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:

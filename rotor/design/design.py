@@ -25,6 +25,7 @@ from rotor.design.active_twist import (
 )
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
 from rotor.design.blade import Rotor, airfoils_spec
+from rotor.design.gust import Gust
 from rotor.design.quantity import takes
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.support.user_input import check_suffix, write_whole
@@ -164,6 +165,8 @@ class Design:
     """Twist as a function of azimuth, added to the twist law in forward flight."""
     pitch_per_rev: tuple[Harmonic, ...] = ()
     """Root pitch at 2 to 8/rev, beside collective and cyclic, in forward flight: higher-harmonic control."""
+    gust: Gust | None = None
+    """How the air moves beside the climb; None in still air. Files and the command line have none."""
 
     def __post_init__(self) -> None:
         check_root_pitch(self.pitch_per_rev)
@@ -174,6 +177,8 @@ class Design:
                 f"rate of climb {self.condition.climb_speed:g} m/s: the document's equations (3.3), (3.6) are those of "
                 "level flight; use the preset flight, or leave the rate of climb out"
             )
+        if self.gust is not None and not self.models.disk_axial_flow:
+            raise ValueError(f"{self.gust!r:.80}: the document's equations are those of still air; use preset flight")
         if (trim in quantities.STAND_TRIMS) != (stand is not None):
             raise ValueError(
                 f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
@@ -244,7 +249,9 @@ class Design:
         return ideal_tip_pitch(self.weight_coefficient, self.rotor.solidity, slope)
 
     def to_dict(self) -> dict[str, Any]:
-        """The record of a design file: texts, numbers and lists only."""
+        """The record of a design file: texts, numbers and lists only. ValueError for a gust, which files have not."""
+        if self.gust is not None:
+            raise ValueError(f"design files have no {self.gust!r:.80}: write replace(design, gust=None)")
         changed = self.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
@@ -312,9 +319,9 @@ class Design:
 
     @property
     def vertical_speed(self) -> float:
-        """V_c, up through the air [m/s]: the rate of climb. Rotor, wake, airframe and power read it here, so what else
-        moves the air along, as vertical wind would, is a further term of this sum."""
-        return self.condition.climb_speed
+        """V_c, up through the air [m/s]: the rate of climb less the uniform gust. Rotor, wake, airframe and power read
+        it here; what blades meet on top of it is in `rotor.aero.air`."""
+        return self.condition.climb_speed - (0.0 if self.gust is None else self.gust.uniform)
 
     @property
     def vertical_ratio(self) -> float:

@@ -126,6 +126,7 @@ def make_design(
         tail_rotor=aircraft.tail_rotor,
         models=with_grid(_changed(models, inflow, off, chosen), elements, azimuths),
         active_twist=active,
+        gust=case.gust if case else None,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
     if twist is not None:

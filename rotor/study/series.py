@@ -279,7 +279,7 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
     for solution in solutions:
         curves.setdefault(_label(solution.design), []).append(solution)
     if len(tables) == 1 and len(curves) == 1:
-        climbs = any(solution.design.vertical_speed for solution in solutions)
+        climbs = any(solution.last_power.climb for solution in solutions)
         shown = [(part, solutions, part) for part in POWERS if climbs or part != "climb"]
     else:
         shown = [(name, curve, "total") for name, curve in curves.items()]

@@ -173,7 +173,7 @@ def as_built(design: Design) -> Design:
 def start_as_built(problem: Problem) -> Guess | None:
     """The trim of the blade as built at the condition of a problem, where a lifting line starts; None elsewhere."""
     design, free = problem.design, problem.design.models.trim == "free-rotor"
-    if problem.inflow.wake_along is None or free or problem.freedoms or problem.joined:
+    if problem.inflow.wake_along is None or free or problem.freedoms or problem.air.joined:
         return None
     return _trim_as_built(as_built(design))
 

@@ -26,7 +26,7 @@ def hover(problem: Problem, start: Guess | None = None, options: SolverOptions =
         return _with_collective(problem, system, _first(problem, system, stand.collective, start), options)
     if collective is None:
         collective = 6.0 * problem.weight / (problem.design.rotor.solidity * 5.9)
-        climb = problem.design.vertical_ratio
+        climb = problem.air.climb
         collective += 1.5 * (axial_inflow(problem.weight, climb) + climb)
     return _for_thrust(problem, system, _first(problem, system, collective, start), options)
 

@@ -111,7 +111,9 @@ def _section(row: int, unit: float = 1.0) -> Change:
 
 def _rebuilt(problem: Problem, design: Design) -> Problem:
     """The problem of a design nearby, on the same course of the wake."""
-    return replace(build_problem(design), course=problem.course, joined=problem.joined, freedoms=problem.freedoms)
+    built = build_problem(design)
+    air = replace(built.air, joined=problem.air.joined)
+    return replace(built, course=problem.course, air=air, freedoms=problem.freedoms)
 
 
 def _fuselage(name: str, counts: Callable[[Design], bool]) -> Change:

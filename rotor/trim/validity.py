@@ -177,7 +177,7 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
         said["low-speed-inflow"] = (
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
         )
-    if hover_share(design) and trim.problem.joined is None:
+    if hover_share(design) and trim.problem.air.joined is None:
         said["low-speed-not-matched"] = (
             "The hover model has no solution at this weight, so the inflow is not blended into hover at low speed."
         )
