@@ -8,6 +8,7 @@ models, and `thesis`, those that the document states.
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,10 +24,10 @@ from rotor.design.active_twist import (
     linear_active_twist,
     root_pitch,
 )
-from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
+from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition, in_words
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.gust import Gust
-from rotor.design.quantity import takes
+from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.support.user_input import check_suffix, write_whole
 
@@ -172,6 +173,8 @@ class Design:
         check_root_pitch(self.pitch_per_rev)
         object.__setattr__(self, "rotor", self.rotor.at_speed(self.condition.rotor_speed_percent))
         trim, stand = self.models.trim, self.condition.stand
+        for row in _OUTSIDE.values():
+            row.check(row.of(self))
         if self.condition.climb_speed and not self.models.disk_axial_flow:
             raise ValueError(
                 f"rate of climb {self.condition.climb_speed:g} m/s: the document's equations (3.3), (3.6) are those of "
@@ -212,13 +215,12 @@ class Design:
         if condition.stand is not None:
             height = f", {condition.altitude:.0f} m" if condition.altitude else ""
             load = f"{self.models.trim}: {condition.stand}{height}"
-        load = ", ".join((load, *condition.unusual))
+        load = ", ".join((load, *in_words(self.unusual)))
         return (
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
         )
 
-    @takes(quantities.SWEPT, after="hover", elsewhere=lambda name: _other_change(name))
     def at(
         self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
     ) -> "Design":
@@ -227,10 +229,10 @@ class Design:
         The arguments are those of `make_design`; `mu`, `speed_kt` and `hover` exclude one another.
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
+        check_names(Design.at, flight, quantities.SWEPT, _other_change)
         tip_speed = self.rotor.at_speed(100.0).tip_speed
-        return replace(
-            self, condition=changed_condition(self.condition, tip_speed, {"mu": mu, "hover": hover, **flight})
-        )
+        asked = {"mu": mu, "hover": hover, **flight}
+        return with_numbers(replace(self, condition=changed_condition(self.condition, tip_speed, asked)), asked)
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """This design with another twist: a law, or a SPEC as `parse_twist` reads it.
@@ -264,8 +266,8 @@ class Design:
             "twist": inline_spec(self.twist),
             **{
                 row.key: row.of(self)
-                for row in quantities.CONDITION.values()
-                if row.written or row.of(self) != row.default
+                for row in quantities.NUMBERS.values()
+                if row.written or row.of(self) != row.usual(self)
             },
             "inflow": self.models.inflow,
             **{
@@ -292,6 +294,16 @@ class Design:
         """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
         check_suffix(path, ".json")
         write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The numbers of the table by name."""
+        return {name: row.of(self) for name, row in quantities.NUMBERS.items()}
+
+    @property
+    def unusual(self) -> dict[str, float]:
+        """Those that differ from ordinary level flight of the aircraft as built."""
+        return {name: row.of(self) for name, row in quantities.UNUSUAL.items() if row.of(self) != row.usual(self)}
 
     @property
     def linear_active_twist(self) -> tuple[Harmonic, ...]:
@@ -412,6 +424,21 @@ class Design:
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed
+
+
+_OUTSIDE = {name: row for name, row in quantities.NUMBERS.items() if name not in quantities.CONDITION}
+"""Numbers of a design outside its flight condition."""
+
+
+def with_numbers(design: Design, asked: Mapping[str, Any]) -> Design:
+    """The design with the numbers asked for outside its flight condition, by name; None leaves one as it is.
+
+    Raises TypeError or ValueError with one sentence for a value that is no number or lies outside.
+    """
+    for name, row in _OUTSIDE.items():
+        if asked.get(name) is not None:
+            design = row.put(design, row.read(asked[name]))
+    return design
 
 
 FLIGHT_MODELS = Models(

@@ -318,7 +318,7 @@ def _condition(design: Design) -> Row:
     return {
         "rotor": design.aircraft.key or design.aircraft.name,
         "speed_m_s": design.airspeed,
-        **{name: design.condition.numbers[name] for name in reported_names([design.condition])},
+        **{name: design.numbers[name] for name in reported_names([design.unusual])},
         "preset": design.preset,
         "inflow": design.models.inflow,
     }

@@ -14,7 +14,7 @@ from rotor.aero.momentum import VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
-from rotor.design.aircraft import FIXED_SHARE, Stand
+from rotor.design.aircraft import FIXED_SHARE, Stand, in_words
 from rotor.design.design import Design
 from rotor.support.arrays import Array
 from rotor.support.units import power_text
@@ -398,7 +398,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
     share, advice = _share(stalled, reached), _advice(design)
-    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.unusual))
+    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual)))
     if design.hovering:
         return (
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
