@@ -20,7 +20,7 @@ from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.section import LOSS, NO_MOMENT, NO_SCATTER, NOTHING_ADDED, SectionData
+from rotor.aero.section import LOSS, NO_INCREMENTS, NO_MOMENT, NO_SCATTER, SectionData
 from rotor.aero.stalling_section import StallingData, stalling_interface
 from rotor.aero.unsteady_section import UnsteadyData, unsteady_interface
 from rotor.design.design import Design
@@ -149,7 +149,7 @@ class Problem:
             friction=self.friction,
             lossy=(LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
             unloaded=_ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
-            added=NOTHING_ADDED,
+            added=NO_INCREMENTS,
             scatter=self.scatter,
             **(NO_MOMENT if torsion is None else {name: getattr(torsion, name) for name in NO_MOMENT}),
         )
@@ -305,7 +305,7 @@ def expected_flow(design: Design) -> DiskFlow:
 
 
 def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeCourse:
-    """Course of the wake by momentum theory under blades that cone as the thrust tells and flap as they are told to."""
+    """Course of the wake by momentum theory under blades that cone with its thrust and flap as given."""
     condition, rotor = design.condition, design.rotor
     thrust = 2.0 * flow.lambda0 * flow.speed
     coning = flap.load_gain * 0.7 * thrust - flap.droop if rotor.precone is None else rotor.precone

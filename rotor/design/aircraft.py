@@ -230,7 +230,7 @@ class Fuselage:
 def reported_names(unusual: Iterable[Mapping[str, float]]) -> tuple[str, ...]:
     """Names of the numbers that a table of conditions or designs with these unusual ones shows."""
     names = {name for one in unusual for name in one}
-    return tuple(name for name, row in NUMBERS.items() if row.told or name in names)
+    return tuple(name for name, row in NUMBERS.items() if row.reported or name in names)
 
 
 def in_words(unusual: Mapping[str, float]) -> tuple[str, ...]:

@@ -121,7 +121,7 @@ _CONDITION = (
     Quantity(
         "mu", "number", "advance ratio V/(ΩR) from the horizontal speed (default 0.2)",
         place="condition.advance_ratio", what="advance ratio", low=0.0, high=0.6, high_on_stand=0.75, default=0.2,
-        examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, told=True,
+        examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, reported=True,
         input="advance_ratio", slider=Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
         hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
     ),
@@ -133,7 +133,7 @@ _CONDITION = (
     Quantity(
         "mass_kg", "number", "gross mass (default: the rotor's reference mass)", unit="kg",
         place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
-        examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
+        examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, reported=True,
         input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg", "t", 1e3),
         aviation=Slider("Mass [lb]", 11_000.0, 24_300.0, 100.0, 0.2 * POUND, "/200 lb", "lb", POUND),
         hint="Gross mass; the rotor carries its weight W = mg. | section 2",
@@ -141,7 +141,7 @@ _CONDITION = (
     Quantity(
         "altitude_m", "number", "pressure altitude (default 0)", unit="m",
         place="condition.altitude", what="altitude", low=-500.0, high=8_000.0, default=0.0,
-        examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, told=True,
+        examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, reported=True,
         input="altitude_m", slider=Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
         aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft", "ft", FOOT),
         in_place="density_kg_m3",
@@ -163,7 +163,7 @@ _CONDITION = (
         unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
         plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
-        key="climb_m_s", word="climb", section="fixed", told=True, input="climb_m_s",
+        key="climb_m_s", word="climb", section="fixed", reported=True, input="climb_m_s",
         slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
         aviation=Slider(
             "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0

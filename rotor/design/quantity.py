@@ -91,7 +91,7 @@ class Quantity:
     """Section of a study file; as an axis it is in [axes]. Empty: not for studies."""
     written: bool = False
     """Whether every design file has it; else only where it is not the default."""
-    told: bool = False
+    reported: bool = False
     """Whether every table and JSON has it; else only where it is not the default."""
     input: str = ""
     """Name of the page's input."""

@@ -261,7 +261,7 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
 def _continue(
     problem: Problem, best: TrimResult, passes: int, options: SolverOptions, most_stalled: float
 ) -> TrimResult:
-    """Follow the trim from an easier condition in adaptive steps; where it ends on the way, tell how far it came."""
+    """Follow the trim from an easier condition in adaptive steps; where it ends on the way, return how far it came."""
     design = problem.design
     easy = _easier(design, 0.0)
     result = newton(easy, first_guess(easy), options)

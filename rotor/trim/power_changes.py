@@ -26,7 +26,7 @@ from rotor.trim.low_speed import hover_share
 from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
-_PART = 0.1
+_STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
 
 
@@ -44,8 +44,8 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
         if row.name in _POWERS:
             if power := _POWERS[row.name](solution):
                 changes[row.name] = 0.01 * row.size * power
-        elif (changed := _CHANGES[row.name](near.problem, _PART * row.size)) is not None:
-            changes[row.name] = near.change(changed) / _PART
+        elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
+            changes[row.name] = near.change(changed) / _STEP_SHARE
     return changes
 
 
