@@ -27,7 +27,7 @@ from rotor.design import (
 )
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, grid_asked, preset_models, with_grid
-from rotor.design.quantities import CONDITION, NUMBERS, QUANTITIES
+from rotor.design.quantities import AIRFRAME, CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
@@ -106,7 +106,7 @@ _TWISTS = (
 """The page's own: parameters of its twist laws."""
 FLIGHT = {row.input: row for row in CONDITION.values()}
 """Quantities of the flight condition, by input."""
-AIRFRAME = {row.input: row for name, row in NUMBERS.items() if name not in CONDITION}
+HELD = {row.input: row for row in AIRFRAME.values()}
 """Numbers outside it, by input; None is the rotor's own. Files and links set them, no slider."""
 MODELS = {
     row.input: row for row in QUANTITIES.values() if row.input and row.place == f"models.{row.input}" != "models.trim"
@@ -128,7 +128,7 @@ if TYPE_CHECKING:
     _Quantities = Any  # Fields that are data are no more than that to a type checker.
 else:
     _Quantities = make_dataclass(
-        "_Quantities", [(name, Any, _default(row)) for name, row in (ROWS | AIRFRAME).items()], frozen=True
+        "_Quantities", [(name, Any, _default(row)) for name, row in (ROWS | HELD).items()], frozen=True
     )
 
 
@@ -184,7 +184,7 @@ class Inputs(_Quantities):
             rotor=self.aircraft,
             twist=self.twist(),
             **self._flight(),
-            **{row.name: getattr(self, name) for name, row in AIRFRAME.items()},
+            **{row.name: getattr(self, name) for name, row in HELD.items()},
             models=with_grid(
                 replace(models, **{name: getattr(self, name) for name in MODELS}), self.elements, self.azimuths
             ),
@@ -318,7 +318,7 @@ def inputs_of(design: Design) -> Inputs:
         twist_per_rev=() if active is None else active.harmonics,
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
         **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
-        **{name: design.unusual.get(row.name) for name, row in AIRFRAME.items()},
+        **{name: design.unusual.get(row.name) for name, row in HELD.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
         **grid_asked(design.models),
     )
@@ -345,7 +345,7 @@ def with_rotor(inputs: Inputs, name: str, brought: Aircraft | None = None) -> In
     elif inputs.stand is not None:
         mu = OPENING.advance_ratio
     changed = replace(changed, advance_ratio=mu, stand=stand)
-    waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None, **dict.fromkeys(AIRFRAME)}
+    waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None, **dict.fromkeys(HELD)}
     return replace(changed, law="builtin", mass_t=mass, given=None, optimised=None, airfoils="", **plain, **waves)
 
 

@@ -26,17 +26,13 @@ class AirMotion:
     joined: tuple[Array, Array] | None = None
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
 
-    def through_annuli(self, elements: int) -> Array:
-        """λ_c of hover and axial flight, (elements,)."""
-        return np.full(elements, self.climb) + (0.0 if self.gust is None else self.gust[:, 0])
 
+def air_motion(design: Design, disk: Disk) -> AirMotion:
+    """Value and rate at the elements of a disk.
 
-def air_motion(design: Design, disk: Disk, half_chord: Array | None) -> AirMotion:
-    """Value and rate at the elements of a disk; half_chord: b/R in unsteady flow, (elements,).
-
-    A section in unsteady flow moves through the gust: its value is that at three quarters of the chord, its rate that
-    in the middle, behind the quarter chord by b/r and b/2r of azimuth. To first order in b the lift is then the steady
-    one of the air in the middle (Sears, J. Aero. Sci. 8(3), 1941, at C = 1).
+    A section in unsteady flow moves through the gust: its value is that at three quarters of the chord 2b, its rate
+    that in the middle, behind the quarter chord by b/r and b/2r of azimuth. To first order in b the lift is then the
+    steady one of the air in the middle (Sears, J. Aero. Sci. 8(3), 1941, at C = 1).
 
     Raises ValueError in hover for a gust that follows the azimuth.
     """
@@ -45,7 +41,8 @@ def air_motion(design: Design, disk: Disk, half_chord: Array | None) -> AirMotio
         return AirMotion(design.vertical_ratio)
     if design.hovering and not gust.axisymmetric:
         raise ValueError(f"{gust!r:.80} changes with azimuth, and hover has one azimuth: give a speed, or w(r) alone")
-    r, lag = disk.r[:, None], 0.0 if half_chord is None else (half_chord / disk.r)[:, None]
+    r, unsteady = disk.r[:, None], design.models.has("unsteady") and not design.hovering
+    lag = 0.5 * design.rotor.blade.chord(r) / (design.rotor.radius * r) if unsteady else 0.0
     value, rate = gust.over_disk(r, disk.psi - lag), gust.over_disk(r, disk.psi - 0.5 * lag, 1)
     value, rate = (np.broadcast_to(-each / speed, disk.shape) for each in (value, rate))
     return AirMotion(design.vertical_ratio, value, rate)

@@ -131,7 +131,8 @@ class Problem:
     @cached_property
     def half_chord(self) -> Array:
         """b/R, (elements,)."""
-        return _half_chord(self.design, self.disk)
+        rotor = self.design.rotor
+        return 0.5 * rotor.blade.chord(self.disk.r) / rotor.radius
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
@@ -188,7 +189,7 @@ def build_problem(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
-        air=_air(design, disk),
+        air=air_motion(design, disk),
         twist=twist,
         waves=waves,
         flap=flap,
@@ -204,7 +205,7 @@ def build_problem(design: Design) -> Problem:
         torsion=torsion,
         bending=bending,
         stall=stall,
-        unsteady=_unsteady(design),
+        unsteady=models.has("unsteady") and not design.hovering,
         wave_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
     )
@@ -218,19 +219,6 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     numbers, tables = build_onset(disk, None if models.compressibility else LOW_MACH)
     own = {"numbers": numbers, "tables": tables, "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius)}
     return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
-
-
-def _half_chord(design: Design, disk: Disk) -> Array:
-    return 0.5 * design.rotor.blade.chord(disk.r) / design.rotor.radius
-
-
-def _air(design: Design, disk: Disk) -> AirMotion:
-    """How the air moves at the elements, with unsteady flow or without."""
-    return air_motion(design, disk, _half_chord(design, disk) if _unsteady(design) else None)
-
-
-def _unsteady(design: Design) -> bool:
-    return design.models.has("unsteady") and not design.hovering
 
 
 def grid_of(design: Design) -> tuple[int, int]:
@@ -251,7 +239,7 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     psi = azimuths_of(azimuths)
     disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
     waves, *rates = _pitch_waves(problem.design, disk)
-    air = replace(_air(problem.design, disk), joined=problem.air.joined)
+    air = replace(air_motion(problem.design, disk), joined=problem.air.joined)
     unloaded = _unloaded(problem.design, disk)
     return replace(problem, disk=disk, air=air, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=unloaded)
 

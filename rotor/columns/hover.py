@@ -230,7 +230,8 @@ def hover_system(problem: Problem) -> System:
             0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
         ]
     )
-    (slope, zero), climb = lift_curve(problem) if closed else (none, none), problem.air.through_annuli(len(disk.r))
+    (slope, zero), gust = lift_curve(problem) if closed else (none, none), problem.air.gust
+    climb = np.full_like(disk.r, problem.air.climb) if gust is None else problem.air.climb + gust[:, 0]
     data = AnnulusData(
         Annuli(r=disk.r, climb=climb, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
         section=problem.section_data(len(disk.psi)),

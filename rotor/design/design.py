@@ -173,7 +173,7 @@ class Design:
         check_root_pitch(self.pitch_per_rev)
         object.__setattr__(self, "rotor", self.rotor.at_speed(self.condition.rotor_speed_percent))
         trim, stand = self.models.trim, self.condition.stand
-        for row in _OUTSIDE.values():
+        for row in quantities.AIRFRAME.values():
             row.check(row.of(self))
         if self.condition.climb_speed and not self.models.disk_axial_flow:
             raise ValueError(
@@ -426,16 +426,12 @@ class Design:
         return self.thrust_unit * self.rotor.tip_speed
 
 
-_OUTSIDE = {name: row for name, row in quantities.NUMBERS.items() if name not in quantities.CONDITION}
-"""Numbers of a design outside its flight condition."""
-
-
 def with_numbers(design: Design, asked: Mapping[str, Any]) -> Design:
     """The design with the numbers asked for outside its flight condition, by name; None leaves one as it is.
 
     Raises TypeError or ValueError with one sentence for a value that is no number or lies outside.
     """
-    for name, row in _OUTSIDE.items():
+    for name, row in quantities.AIRFRAME.items():
         if asked.get(name) is not None:
             design = row.put(design, row.read(asked[name]))
     return design

@@ -373,6 +373,8 @@ NUMBERS = {row.name: row for row in (*_CONDITION, *_AIRFRAME) if row.place}
 """Numbers of a design, wherever their place is."""
 CONDITION = {name: row for name, row in NUMBERS.items() if row.place.startswith("condition.")}
 """Those of its flight condition, which a mission sets for each leg."""
+AIRFRAME = {name: row for name, row in NUMBERS.items() if name not in CONDITION}
+"""Those outside it, which all legs of a mission share."""
 SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *NUMBERS)}
 """What a sweep may go over, and what `Design.at` takes beside `hover`."""
 UNUSUAL = {name: row for name, row in NUMBERS.items() if row.short}

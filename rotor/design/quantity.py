@@ -165,7 +165,7 @@ class Quantity:
 
     def put(self, design: Any, value: Any) -> Any:
         """The design with this value, in the unit of the name; ValueError where it lies outside."""
-        return _replaced(design, self.place.split("."), self.si(value))
+        return replaced(design, self.place.split("."), self.si(value))
 
     def si(self, value: Any) -> Any:
         """The value as the design holds it: angles in radians."""
@@ -220,6 +220,7 @@ def check_names(
             raise TypeError(f"{function.__name__}() has no argument {name!r}{hint}")
 
 
-def _replaced(thing: Any, names: list[str], value: Any) -> Any:
+def replaced(thing: Any, names: list[str], value: Any) -> Any:
+    """A value made of dataclasses with another value in the field that `names` lead to."""
     first, *rest = names
-    return replace(thing, **{first: _replaced(getattr(thing, first), rest, value) if rest else value})
+    return replace(thing, **{first: replaced(getattr(thing, first), rest, value) if rest else value})

@@ -182,10 +182,7 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
     known = {row.name: row for row in uncertain_inputs(solution.design)}
     rows = [
         DoubtRow(
-            name,
-            row.words,
-            row.size,
-            row.source,
+            **vars(row),
             power=here.get(name, 0.0),
             change=None if there is None else here.get(name, 0.0) - there.get(name, 0.0),
         )

@@ -64,21 +64,17 @@ def test_energy_closes_in_a_gust_and_its_power_has_its_exact_gradient(inflow: st
     assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4)
 
 
-@pytest.mark.parametrize("per_rev", [1, 3])
-def test_rate_is_the_derivative_by_azimuth(per_rev: int):
-    """Both lag behind the quarter chord: the value at three quarters of the chord by b/r, the rate by half of it."""
-    problem = build_problem(gusty(Wave(per_rev=per_rev), 0.2))
-    air, lag = problem.air, (problem.half_chord / problem.disk.r)[:, None]
-    assert air.gust is not None
-    assert air.gust_rate is not None
-    by = problem.design.rotor.tip_speed
-    gust, psi = Wave(per_rev=per_rev), problem.disk.psi - 0.5 * lag
-    ahead, behind = (gust.over_disk(problem.disk.r[:, None], psi + step) for step in (1e-5, -1e-5))
-    assert_allclose(air.gust_rate, (behind - ahead) / (2e-5 * by), atol=1e-9)
-    assert_allclose(air.gust, -gust.over_disk(problem.disk.r[:, None], problem.disk.psi - lag) / by, rtol=1e-14)
-    steady = build_problem(gusty(gust, 0.2, off="unsteady")).air.gust
-    assert steady is not None
-    assert_allclose(steady, -gust.over_disk(problem.disk.r[:, None], problem.disk.psi) / by, rtol=1e-14)
+def test_rate_is_the_derivative_by_azimuth():
+    """In unsteady flow at half the chord's delay of the value; the value of steady flow is that at the element."""
+    unsteady, steady = (build_problem(gusty(Wave(), 0.2, off=off)) for off in (None, "unsteady"))
+    r, psi, by = unsteady.disk.r[:, None], unsteady.disk.psi, unsteady.design.rotor.tip_speed
+    lag = unsteady.half_chord[:, None] / r
+    assert unsteady.air.gust_rate is not None
+    ahead, behind = (Wave().over_disk(r, psi - 0.5 * lag + step) / by for step in (1e-5, -1e-5))
+    assert_allclose(unsteady.air.gust_rate, (behind - ahead) / 2e-5, atol=1e-9)
+    for problem, late in ((unsteady, lag), (steady, 0.0)):
+        assert problem.air.gust is not None
+        assert_allclose(problem.air.gust, -Wave().over_disk(r, psi - late) / by, rtol=1e-14)
 
 
 @pytest.mark.parametrize("per_rev", [2, 6])
@@ -109,7 +105,6 @@ def test_hover_has_a_ring_of_gust_but_none_that_follows_the_azimuth():
     assert_allclose(disk.u_p[:, 0], disk.induced[:, 0] - 3.0 * disk.r**2 / speed, rtol=1e-13)
     for power in (found.power, near.power):
         assert_allclose(power.shaft, power.main_rotor, rtol=1e-12)
-        assert power.climb == pytest.approx(found.power.climb, rel=1e-6)
     assert near.power.total == pytest.approx(found.power.total, rel=1e-5)
 
 
