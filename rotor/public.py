@@ -7,6 +7,7 @@ from rotor.columns.blade import Freedom
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
+from rotor.design.gust import Gust
 from rotor.design.twist import parse_twist
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
@@ -33,6 +34,7 @@ __all__ = (
     "Distribution",
     "FlightCondition",
     "Freedom",
+    "Gust",
     "Limits",
     "Models",
     "Optimum",

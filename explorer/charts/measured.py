@@ -253,7 +253,7 @@ def source_of(design: Design) -> str:
 def _shown(design: Design) -> tuple[MeasuredPower, ...]:
     """The flights of this rotor; none on a stand, in climb, at another rotor speed, and with another blade."""
     here = design.condition
-    level = here.stand is None and not here.unusual and not design.pitch_per_rev
+    level = here.stand is None and not design.unusual and not design.pitch_per_rev
     return flight_powers(design.aircraft.key) if level and as_measured(design) else ()
 
 

@@ -139,7 +139,7 @@ class PowerCurves:
             self._band = family
         # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
         near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
-        level = near is not None and near.condition.unusual == design.condition.unusual
+        level = near is not None and near.unusual == design.unusual
         band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
         reference_total = self._curves.get(_family(reference), blank)[0]
         return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)

@@ -19,6 +19,7 @@ from explorer.text.design_words import inflow_words, physics_words, title_words
 from explorer.text.glossary import COLUMNS
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
+from rotor.design.aircraft import in_words
 from rotor.support.arrays import Array
 from rotor.support.assets import commit
 from rotor.support.units import KNOT
@@ -54,7 +55,7 @@ def condition_line(design: Design) -> str:
     load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
     if condition.stand is not None:
         load = f"{design.models.trim}: {condition.stand}"
-    return ", ".join((speed, *condition.unusual, load))
+    return ", ".join((speed, *in_words(design.unusual), load))
 
 
 def provenance_lines(solution: Solution) -> list[str]:

@@ -217,7 +217,7 @@ def _least_induced(solution: Solution, units: Units) -> str:
 
 
 def _speed(design: Design, units: Units) -> Content:
-    climb = ", ".join(units.unusual(design.condition))
+    climb = ", ".join(units.unusual(design))
     if design.hovering:
         return _below("hover", climb) if climb else "hover"
     speed = units.speed[0].text(design.airspeed) + (f", {climb}" if climb else "")

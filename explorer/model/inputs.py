@@ -18,7 +18,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import ActiveTwist, Harmonic, IdealTwist, SumTwist, TwistLaw
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, grid_asked, preset_models, with_grid
-from rotor.design.quantities import CONDITION, QUANTITIES
+from rotor.design.quantities import AIRFRAME, CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
 from rotor.files.rotor_file import shipped_aircraft
@@ -113,6 +113,8 @@ TWISTS = {name: _row(name, one) for law in LAWS.values() for name, one in zip(la
 """Parameters of the twist laws, by input."""
 FLIGHT = {row.input: row for row in CONDITION.values()}
 """Quantities of the flight condition, by input."""
+HELD = {row.input: row for row in AIRFRAME.values()}
+"""Numbers outside it, by input; None is the rotor's own. Files and links set them, no slider."""
 MODELS = {
     row.input: row for row in QUANTITIES.values() if row.input and row.place == f"models.{row.input}" != "models.trim"
 }
@@ -126,13 +128,15 @@ def _default(row: Quantity) -> Any:
     """Default of the first rotor, where the table leaves it to rotor or preset."""
     if row.place == "condition.mass":
         return reference_mass_t(shipped_aircraft(SHIPPED_ROTORS[0]))
-    return getattr(FLIGHT_MODELS, row.field) if row.default is None else row.default
+    return getattr(FLIGHT_MODELS, row.field) if row.default is None and row.input in MODELS else row.default
 
 
 if TYPE_CHECKING:
     _Quantities = Any  # Fields that are data are no more than that to a type checker.
 else:
-    _Quantities = make_dataclass("_Quantities", [(name, Any, _default(row)) for name, row in ROWS.items()], frozen=True)
+    _Quantities = make_dataclass(
+        "_Quantities", [(name, Any, _default(row)) for name, row in (ROWS | HELD).items()], frozen=True
+    )
 
 
 @dataclass(frozen=True)
@@ -204,6 +208,7 @@ class Inputs(_Quantities):
             rotor=self.aircraft,
             twist=self.twist(),
             **self._flight(),
+            **{row.name: getattr(self, name) for name, row in HELD.items()},
             models=with_grid(
                 replace(models, **{name: getattr(self, name) for name in MODELS}), self.elements, self.azimuths
             ),
@@ -282,6 +287,7 @@ def inputs_of(design: Design) -> Inputs:
         twist_per_rev=() if active is None else active.harmonics,
         active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
         **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
+        **{name: design.unusual.get(row.name) for name, row in HELD.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
         **grid_asked(design.models),
     )
@@ -308,7 +314,7 @@ def with_rotor(inputs: Inputs, name: str, brought: Aircraft | None = None) -> In
     elif inputs.stand is not None:
         mu = OPENING.advance_ratio
     changed = replace(changed, advance_ratio=mu, stand=stand)
-    waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None}
+    waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None, **dict.fromkeys(HELD)}
     return replace(changed, law="builtin", mass_t=mass, given=None, optimised=None, airfoils="", **plain, **waves)
 
 

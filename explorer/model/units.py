@@ -4,9 +4,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotor import Aircraft, FlightCondition
+from rotor import Aircraft
 from rotor.design.aircraft import SEA_LEVEL_DENSITY
-from rotor.design.quantities import UNUSUAL
+from rotor.design.design import Design
+from rotor.design.quantities import NUMBERS
 from rotor.design.quantity import Quantity, Slider
 from rotor.support import units
 
@@ -103,13 +104,15 @@ class Units:
         """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""
         if value == row.default:
             return ""
+        if row.slider is None:
+            return row.in_words(value)
         form, falls = form_of(row, self), bool(row.below) and value < 0.0
         unit = Unit(form.unit or row.unit, form.size)
         return f"{row.below if falls else row.short} {unit.text(abs(value) if falls else value, form.digits)}"
 
-    def unusual(self, condition: FlightCondition) -> list[str]:
+    def unusual(self, design: Design) -> list[str]:
         """What is not as in most flights, in words."""
-        return [words for row in UNUSUAL.values() if (words := self.in_words(row, getattr(condition, row.field)))]
+        return [self.in_words(NUMBERS[name], value) for name, value in design.unusual.items()]
 
     def airspeed(self, value: float) -> str:
         """A speed [m/s] in all three units; `hover` for zero."""

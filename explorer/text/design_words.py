@@ -96,7 +96,7 @@ def flight_words(design: Design, units: Units = SI) -> str:
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
-    beside = units.unusual(condition)
+    beside = units.unusual(design)
     if (stand := stand_of(design)) is not None:
         return " · ".join((where, *beside, stand_words(stand)))
     mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)

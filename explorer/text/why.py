@@ -127,9 +127,9 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         causes.append(began if old.stand is None or new.stand is None else "another test")
         return causes
     for row in UNUSUAL.values():
-        before, now = (row.of(design) for design in (a, b))
+        before, now = (design.unusual.get(row.name) for design in (a, b))
         if before != now:
-            causes.append(SI.in_words(row, now) or row.plain)
+            causes.append(row.plain if now is None else SI.in_words(row, now))
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
         causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")

@@ -42,13 +42,13 @@ STATES = (SEPARATION, VORTEX, POSITION, ONSET_GATE) = tuple(range(4))
 """What is shown: f″, C_nᵛ, τ and g."""
 FULL, GONE = math.radians(25.0), math.radians(50.0)
 """Angles from zero lift up to which, and from which nothing of, the unsteady part counts."""
-_GATE = 0.04
+_RISE_WIDTH = 0.04
 _ARM = 0.2
 _LEAST_FINE = 48
 """Azimuths on which the lags are followed: 15° are up to eight semi-chords of travel. Our choice: 96 take nearly
 twice as long. 192 raise the power of the UH-60A between µ .1 and .3 by up to .01 % at 8,322 kg, .05 % at 10,900 kg and,
 with 8 % of the disk stalled, .19 % at 12,500 kg."""
-_LONGEST = 40.0
+_MOST_LAGS = 40.0
 """Step over a lag time that leaves nothing of what was before."""
 _PI = math.pi
 
@@ -114,7 +114,7 @@ def lag_weights(h: Any, weights: Any) -> None:
     """
     for k in range(len(h)):
         step = h[k] + 1e-30
-        y = 0.03125 * min(step, _LONGEST)
+        y = 0.03125 * min(step, _MOST_LAGS)
         q = 1.0 - y * (1.0 / 10.0) * (1.0 - y * (1.0 / 11.0))
         q = 1.0 - y * (1.0 / 8.0) * (1.0 - y * (1.0 / 9.0) * q)
         q = 1.0 - y * (1.0 / 6.0) * (1.0 - y * (1.0 / 7.0) * q)
@@ -166,8 +166,8 @@ def window(y: float) -> Any:
 def _gate(x: float, positive: float, negative: float) -> Any:
     """0 below, 1 above x = onset, smoothly over ±4 %; slopes by x and onset."""
     onset = positive if x > 0.0 else negative
-    u = min(max((x / onset - 1.0 + _GATE) / (2.0 * _GATE), 0.0), 1.0)
-    by = 6.0 * u * (1.0 - u) / (2.0 * _GATE)
+    u = min(max((x / onset - 1.0 + _RISE_WIDTH) / (2.0 * _RISE_WIDTH), 0.0), 1.0)
+    by = 6.0 * u * (1.0 - u) / (2.0 * _RISE_WIDTH)
     return u * u * (3.0 - 2.0 * u), by / onset, -by * x / (onset * onset)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rotor.aero.air import AirMotion, air_motion
 from rotor.aero.bending import HARMONICS as BENDING_HARMONICS
 from rotor.aero.bending import MODES, REFERENCE_COLLECTIVE, BladeBending, build_bending, can_bend
 from rotor.aero.bent_section import BentData, bending_interface
@@ -19,7 +20,7 @@ from rotor.aero.inflow import DiskFlow, InflowModel, inflow_model
 from rotor.aero.inflow.interface import InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.section import LOSS, NO_MOMENT, NO_SCATTER, NOTHING_ADDED, SectionData
+from rotor.aero.section import LOSS, NO_INCREMENTS, NO_MOMENT, NO_SCATTER, SectionData
 from rotor.aero.stalling_section import StallingData, stalling_interface
 from rotor.aero.unsteady_section import UnsteadyData, unsteady_interface
 from rotor.design.design import Design
@@ -43,6 +44,8 @@ class Problem:
 
     design: Design
     disk: Disk
+    air: AirMotion
+    """How the air moves at the elements, but for what the load there induces."""
     twist: Array
     """θ_tw at the elements [rad]."""
     waves: Array
@@ -81,8 +84,6 @@ class Problem:
     """Along which a wake of vortices lies; see `rotor.trim.forward`."""
     freedoms: tuple[Any, ...] = ()
     """Further degrees of freedom of the blade, each a `rotor.columns.blade.Freedom`."""
-    joined: tuple[Array, Array] | None = None
-    """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
     scatter: Array = field(default_factory=lambda: NO_SCATTER)
     """By how much the section data are changed, see `rotor.aero.section`."""
     tip_spacing: float = 1.0
@@ -149,7 +150,7 @@ class Problem:
             friction=self.friction,
             lossy=(LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
             unloaded=_ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
-            added=NOTHING_ADDED,
+            added=NO_INCREMENTS,
             scatter=self.scatter,
             **(NO_MOMENT if torsion is None else {name: getattr(torsion, name) for name in NO_MOMENT}),
         )
@@ -188,6 +189,7 @@ def build_problem(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
+        air=air_motion(design, disk),
         twist=twist,
         waves=waves,
         flap=flap,
@@ -237,9 +239,9 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     psi = azimuths_of(azimuths)
     disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
     waves, *rates = _pitch_waves(problem.design, disk)
-    return replace(
-        problem, disk=disk, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
-    )
+    air = replace(air_motion(problem.design, disk), joined=problem.air.joined)
+    unloaded = _unloaded(problem.design, disk)
+    return replace(problem, disk=disk, air=air, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=unloaded)
 
 
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
@@ -291,7 +293,7 @@ def expected_flow(design: Design) -> DiskFlow:
 
 
 def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeCourse:
-    """Course of the wake by momentum theory under blades that cone as the thrust tells and flap as they are told to."""
+    """Course of the wake by momentum theory under blades that cone with its thrust and flap as given."""
     condition, rotor = design.condition, design.rotor
     thrust = 2.0 * flow.lambda0 * flow.speed
     coning = flap.load_gain * 0.7 * thrust - flap.droop if rotor.precone is None else rotor.precone

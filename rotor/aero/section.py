@@ -76,7 +76,7 @@ class SectionData(NamedTuple):
     """j"""
 
 
-NOTHING_ADDED = np.zeros((3, 0, 0))
+NO_INCREMENTS = np.zeros((3, 0, 0))
 """`SectionData.added` in steady flow."""
 SCATTER = (MORE_LIFT, MORE_DRAG, MORE_MOMENT, EARLIER_RISE) = tuple(range(4))
 """Rows of `SectionData.scatter`: shares of C_l and C_d, an amount of C_m, and the Mach number by which drag rises

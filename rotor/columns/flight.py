@@ -1,7 +1,7 @@
 """Forward flight, in an aircraft or on a stand, as a system of the engine.
 
     U_T = r − u + µ_x sin ψ                                (3.5) with the swirl u
-    U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ             (3.6)
+    U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ             (3.6), and a gust of `rotor.aero.air`
     U_R = µ_x cos ψ
 
 µ_x = µ cos α − µ_c sin α, µ_z = µ sin α + µ_c cos α with µ_c = V_c/ΩR. Where the models leave out the axial flow of the
@@ -19,7 +19,7 @@ from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums,
 from rotor.aero.inflow.interface import DiskFlow, InflowTerms
 from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import FZ, LOSS, RATE, TH, UP, UR, UT, M
-from rotor.aero.unsteady_section import DTH, RATES
+from rotor.aero.unsteady_section import DTH, DUP, RATES
 from rotor.columns.bending import bends, coordinates_of, freedoms_of
 from rotor.columns.blade import Freedom, Torsion, add_accelerations, add_pitch_rates, add_rigid_blade, power_of_air
 from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers, trim_of
@@ -209,16 +209,21 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     disk = problem.disk
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT] = problem.twist, disk.r
-    if problem.joined is not None:
-        steady[UP] += problem.joined[0]
-        steady[UT] -= problem.joined[1]
+    if problem.air.joined is not None:
+        steady[UP] += problem.air.joined[0]
+        steady[UT] -= problem.air.joined[1]
     if not structure.shapes[LOSS]:
         steady[LOSS] = 1.0
-    varying = dict[int, Array]()
+    varying, first = dict[int, Array](), problem.inflow_terms.interface.channels
     if problem.waves.size > 1:
-        varying = {TH: problem.waves[:, ::step], RATE: problem.wave_rates[0][:, ::step]}
+        varying = {TH: problem.waves, RATE: problem.wave_rates[0]}
         if problem.unsteady:
-            varying[problem.inflow_terms.interface.channels + DTH] = problem.wave_rates[1][:, ::step]
+            varying[first + DTH] = problem.wave_rates[1]
+    if problem.air.gust is not None and problem.air.gust_rate is not None:
+        varying[UP] = problem.air.gust
+        if problem.unsteady:
+            varying[first + DUP] = problem.air.gust_rate
+    varying = {channel: added[:, ::step] for channel, added in varying.items()}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
     return Grid(waves, steady, varying, problem.grid_data(step))
 
@@ -305,9 +310,9 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     if (nodes := point.system.nodes) is not None:
         induced += nodes.field(x[structure.given :]).reshape(induced.shape)
     swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
-    if problem.joined is not None:
-        induced += problem.joined[0][:, None]
-        swirl = swirl + problem.joined[1]
+    if problem.air.joined is not None:
+        induced += problem.air.joined[0][:, None]
+        swirl = swirl + problem.air.joined[1]
     twist = None
     if torsion is not None:
         coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)

@@ -82,7 +82,8 @@ class Annuli(NamedTuple):
     """What the balance of annuli needs beside their pitch, for compiled code."""
 
     r: Array
-    climb: float
+    climb: Array
+    """λ_c with an axisymmetric gust."""
     windmill: bool
     """Whether the wake goes with the wind, against the thrust."""
     swirls: bool
@@ -136,7 +137,7 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
     """Channels of the section, (channels, elements, 1), and the slope of the swirl by λ_i, (elements,)."""
     channels, turning = np.zeros((6, len(theta), 1)), np.zeros(len(theta))
     for i in range(len(theta)):
-        total, r = inflow[i] + annuli.climb, annuli.r[i]
+        total, r = inflow[i] + annuli.climb[i], annuli.r[i]
         channels[TH, i, 0], channels[UT, i, 0], channels[UP, i, 0], channels[LOSS, i, 0] = theta[i], r, total, 1.0
         if annuli.swirls:
             swirl, slope = swirl_of(r, inflow[i] * total)
@@ -156,7 +157,7 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
     flow = closed and slopes  # False. As a constant it would be a type of its own, and the section compiled twice.
     f, d, _ = section(channels, data, slopes, flow)
     for i in range(len(theta)):
-        r, total = annuli.r[i], inflow[i] + annuli.climb
+        r, total = annuli.r[i], inflow[i] + annuli.climb[i]
         (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
         factor, slope, size = tip * hub, tip_slope * hub + tip * hub_slope, abs(total)
         signed = math.copysign(inflow[i], inflow[i] * total)
@@ -182,7 +183,8 @@ def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
     """
     inflow, bracket, left = start.copy(), bracket_of(len(start)), MOST_PASSES
     if annuli.windmill:
-        bracket[0 if annuli.climb > 0.0 else 1][:] = -annuli.climb  # The disk does not turn the wind back.
+        for i in range(len(inflow)):  # The disk does not turn the wind back.
+            bracket[0 if annuli.climb[i] > 0.0 else 1][i] = -annuli.climb[i]
     while True:
         balance = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
         if annuli.windmill:
@@ -247,13 +249,14 @@ def hover_system(problem: Problem, ct: float | None = None) -> System:
             0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
         ]
     )
-    (slope, zero), climb = lift_curve(problem) if closed else (none, none), problem.design.vertical_ratio
-    thrust = problem.weight if ct is None else ct
-    windmill = is_windmill(thrust, climb)
+    windmill = is_windmill(problem.weight if ct is None else ct, problem.air.climb)
+    thrust = math.copysign(problem.scale, problem.weight) if ct is None else ct
+    (slope, zero), gust = lift_curve(problem) if closed else (none, none), problem.air.gust
+    climb = np.full_like(disk.r, problem.air.climb) if gust is None else problem.air.climb + gust[:, 0]
     data = AnnulusData(
         Annuli(r=disk.r, climb=climb, windmill=windmill, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
         section=problem.section_data(len(disk.psi)),
-        start=np.full_like(disk.r, 0.0 if windmill else axial_inflow(thrust, climb)),
+        start=np.full_like(disk.r, 0.0 if windmill else axial_inflow(thrust, problem.air.climb)),
     )
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
@@ -269,7 +272,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     channels, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     collective, coning = (float(point.x[states[name]]) for name in ("collective", "coning"))
-    lambda0 = axial_inflow(float(disk.dr @ f[FZ, :, 0]), problem.design.vertical_ratio)
+    lambda0 = axial_inflow(float(disk.dr @ f[FZ, :, 0]), problem.air.climb)
     everywhere = partial(over_azimuths, azimuths=azimuths)
     twist = None
     if torsion is not None:
@@ -278,7 +281,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
         twist = TwistState(coordinates, everywhere(torsion.radial.T @ coordinates[:, 0]), everywhere(f[M, :, 0]))
     return BladeElements(
         state=TrimState(collective=collective, coning=coning, lambda0=lambda0),
-        flow=DiskFlow(0.0, problem.design.vertical_ratio, lambda0),
+        flow=DiskFlow(0.0, problem.air.climb, lambda0),
         theta=everywhere(channels[TH]),
         u_t=everywhere(channels[UT]),
         u_p=everywhere(channels[UP]),

@@ -20,7 +20,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command.names import COMMANDS
 from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
-from rotor.design.quantities import ARGUMENTS, CONDITION, HOVER_INFLOWS, SPEED, STAND, SWEPT
+from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, NUMBERS, SPEED, STAND, SWEPT
 from rotor.design.quantity import Quantity
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
@@ -73,7 +73,7 @@ def add_design_arguments(
             if row.section == "models" or name in ("low_speed", "loss_on", "off")
             else blade
         )
-        group = speeds if name in SPEED else condition if name in CONDITION else group
+        group = speeds if name in SPEED else condition if name in NUMBERS else group
         how = _how(row)
         if name == "twist" and twists:
             how["nargs"] = "+"

@@ -7,7 +7,7 @@ from typing import Any
 
 from rotor.command import common
 from rotor.command.optimise import named
-from rotor.design.aircraft import reported_names
+from rotor.design.aircraft import in_words, reported_names
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
@@ -127,7 +127,7 @@ def record(schedule: Schedule) -> dict[str, Any]:
 
 def _quantities(plan: SchedulePlan) -> tuple[str, ...]:
     """Quantities of the flight conditions that tables and JSON have."""
-    return reported_names(condition.flight for condition in plan.conditions)
+    return reported_names(condition.flight.unusual for condition in plan.conditions)
 
 
 def _baseline(schedule: Schedule, condition: int) -> float | None:
@@ -187,9 +187,8 @@ def _where(schedule: Schedule, condition: int | None) -> str:
     if condition is None:
         return "One fixed blade for all"
     flight = schedule.plan.conditions[condition].flight
-    return ", ".join(
-        (f"µ {flight.advance_ratio:.4g}", f"{flight.mass:.6g} kg", f"{flight.altitude:.4g} m", *flight.unusual)
-    )
+    mass, altitude = f"{flight.mass:.6g} kg", f"{flight.altitude:.4g} m"
+    return ", ".join((f"µ {flight.advance_ratio:.4g}", mass, altitude, *in_words(flight.unusual)))
 
 
 def _power(power: float | None) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
+from rotor.design.aircraft import in_words
 from rotor.design.design import Design
 from rotor.study.series import between_drag_areas
 from rotor.support.table import LEFT, CellValue, Column, table
@@ -114,9 +115,9 @@ def _load(design: Design) -> str:
     """What the rotor carries: weight at an altitude, or the inputs of a test."""
     condition = design.condition
     if condition.stand is None:
-        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *condition.unusual))
+        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *in_words(design.unusual)))
     height = [f"{condition.altitude:.0f} m"] if condition.altitude else []
-    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *condition.unusual))
+    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *in_words(design.unusual)))
 
 
 def _decimals(value: float) -> int:

@@ -16,7 +16,7 @@ from rotor.airfoil.sections import TABLE_NAMES, Section, load_installed
 from rotor.command import common
 from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
-from rotor.design.quantities import CONDITION, SWEPT
+from rotor.design.quantities import NUMBERS, SWEPT
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
 from rotor.study.series import PARTS, SHARED_COLUMNS, SweepTable, Waterfall, WaterfallStep, sweep, waterfall
 from rotor.support.arrays import Array
@@ -87,7 +87,7 @@ def _sweep_column(name: str, level: bool, fine: int) -> Column:
         return Column("change %", "+.2f", name, ".3f")
     if name.endswith("_kw"):
         return Column(head, f"z.{1 + fine}f", name, f"z.{2 + fine}f")
-    shown = ".4g" if name in CONDITION else ".1f" if name == "speed_kt" else ".2f"
+    shown = ".4g" if name in NUMBERS else ".1f" if name == "speed_kt" else ".2f"
     return Column(head, shown, name, shown)
 
 

@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
-from rotor.design.quantities import CONDITION, LOAD_KEYS, QUANTITIES, STAND, UNUSUAL, Flapping
+from rotor.design.quantities import CONDITION, LOAD_KEYS, NUMBERS, QUANTITIES, STAND, UNUSUAL, Flapping
 from rotor.design.twist import TwistLaw
 from rotor.support.units import GRAVITY, KNOT
 
@@ -166,10 +166,10 @@ class FlightCondition:
         return {name: getattr(self, row.field) for name, row in CONDITION.items()}
 
     @property
-    def unusual(self) -> tuple[str, ...]:
-        """The quantities that differ from ordinary level flight, in words: `climb 5 m/s`."""
-        numbers = self.numbers
-        return tuple(row.in_words(numbers[name]) for name, row in UNUSUAL.items() if numbers[name] != row.default)
+    def unusual(self) -> dict[str, float]:
+        """The quantities that differ from ordinary level flight, by name."""
+        rows = {name: row for name, row in UNUSUAL.items() if name in CONDITION}
+        return {name: value for name, row in rows.items() if (value := getattr(self, row.field)) != row.default}
 
     @property
     def weight(self) -> float:
@@ -227,12 +227,15 @@ class Fuselage:
         return 0.5 * density * speed**2 * self.drag_area
 
 
-def reported_names(conditions: Iterable[FlightCondition]) -> tuple[str, ...]:
-    """Names of the quantities that a table of these conditions shows: the usual ones, and those that are set."""
-    numbers = [condition.numbers for condition in conditions]
-    return tuple(
-        name for name, row in CONDITION.items() if row.told or any(value[name] != row.default for value in numbers)
-    )
+def reported_names(unusual: Iterable[Mapping[str, float]]) -> tuple[str, ...]:
+    """Names of the numbers that a table of conditions or designs with these unusual ones shows."""
+    names = {name for one in unusual for name in one}
+    return tuple(name for name, row in NUMBERS.items() if row.reported or name in names)
+
+
+def in_words(unusual: Mapping[str, float]) -> tuple[str, ...]:
+    """Unusual numbers in words: `climb 5 m/s`."""
+    return tuple(NUMBERS[name].in_words(value) for name, value in unusual.items())
 
 
 def changed_condition(

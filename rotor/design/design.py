@@ -8,6 +8,7 @@ models, and `thesis`, those that the document states.
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,9 +24,10 @@ from rotor.design.active_twist import (
     linear_active_twist,
     root_pitch,
 )
-from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition
+from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition, in_words
 from rotor.design.blade import Rotor, airfoils_spec
-from rotor.design.quantity import takes
+from rotor.design.gust import Gust
+from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.support.user_input import check_suffix, write_whole
 
@@ -164,16 +166,22 @@ class Design:
     """Twist as a function of azimuth, added to the twist law in forward flight."""
     pitch_per_rev: tuple[Harmonic, ...] = ()
     """Root pitch at 2 to 8/rev, beside collective and cyclic, in forward flight: higher-harmonic control."""
+    gust: Gust | None = None
+    """How the air moves beside the climb; None in still air. Files and the command line have none."""
 
     def __post_init__(self) -> None:
         check_root_pitch(self.pitch_per_rev)
         object.__setattr__(self, "rotor", self.rotor.at_speed(self.condition.rotor_speed_percent))
         trim, stand = self.models.trim, self.condition.stand
+        for row in quantities.AIRFRAME.values():
+            row.check(row.of(self))
         if self.condition.climb_speed and not self.models.disk_axial_flow:
             raise ValueError(
                 f"rate of climb {self.condition.climb_speed:g} m/s: the document's equations (3.3), (3.6) are those of "
                 "level flight; use the preset flight, or leave the rate of climb out"
             )
+        if self.gust is not None and not self.models.disk_axial_flow:
+            raise ValueError(f"{self.gust!r:.80}: the document's equations are those of still air; use preset flight")
         if (trim in quantities.STAND_TRIMS) != (stand is not None):
             raise ValueError(
                 f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
@@ -207,13 +215,12 @@ class Design:
         if condition.stand is not None:
             height = f", {condition.altitude:.0f} m" if condition.altitude else ""
             load = f"{self.models.trim}: {condition.stand}{height}"
-        load = ", ".join((load, *condition.unusual))
+        load = ", ".join((load, *in_words(self.unusual)))
         return (
             f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
         )
 
-    @takes(quantities.SWEPT, after="hover", elsewhere=lambda name: _other_change(name))
     def at(
         self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
     ) -> "Design":
@@ -222,10 +229,10 @@ class Design:
         The arguments are those of `make_design`; `mu`, `speed_kt` and `hover` exclude one another.
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
+        check_names(Design.at, flight, quantities.SWEPT, _other_change)
         tip_speed = self.rotor.at_speed(100.0).tip_speed
-        return replace(
-            self, condition=changed_condition(self.condition, tip_speed, {"mu": mu, "hover": hover, **flight})
-        )
+        asked = {"mu": mu, "hover": hover, **flight}
+        return with_numbers(replace(self, condition=changed_condition(self.condition, tip_speed, asked)), asked)
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """This design with another twist: a law, or a SPEC as `parse_twist` reads it.
@@ -244,7 +251,9 @@ class Design:
         return ideal_tip_pitch(self.weight_coefficient, self.rotor.solidity, slope)
 
     def to_dict(self) -> dict[str, Any]:
-        """The record of a design file: texts, numbers and lists only."""
+        """The record of a design file: texts, numbers and lists only. ValueError for a gust, which files have not."""
+        if self.gust is not None:
+            raise ValueError(f"design files have no {self.gust!r:.80}: write replace(design, gust=None)")
         changed = self.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
@@ -257,8 +266,8 @@ class Design:
             "twist": inline_spec(self.twist),
             **{
                 row.key: row.of(self)
-                for row in quantities.CONDITION.values()
-                if row.written or row.of(self) != row.default
+                for row in quantities.NUMBERS.values()
+                if row.written or row.of(self) != row.usual(self)
             },
             "inflow": self.models.inflow,
             **{
@@ -287,6 +296,16 @@ class Design:
         write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
 
     @property
+    def numbers(self) -> dict[str, float]:
+        """The numbers of the table by name."""
+        return {name: row.of(self) for name, row in quantities.NUMBERS.items()}
+
+    @property
+    def unusual(self) -> dict[str, float]:
+        """Those that differ from ordinary level flight of the aircraft as built."""
+        return {name: row.of(self) for name, row in quantities.UNUSUAL.items() if row.of(self) != row.usual(self)}
+
+    @property
     def linear_active_twist(self) -> tuple[Harmonic, ...]:
         """Harmonics of an active twist that is linear from the root cut-out to the tip; none for any other."""
         active, root = self.active_twist, self.rotor.blade.root_cutout
@@ -312,9 +331,9 @@ class Design:
 
     @property
     def vertical_speed(self) -> float:
-        """V_c, up through the air [m/s]: the rate of climb. Rotor, wake, airframe and power read it here, so what else
-        moves the air along, as vertical wind would, is a further term of this sum."""
-        return self.condition.climb_speed
+        """V_c, up through the air [m/s]: the rate of climb less the uniform gust. Rotor, wake, airframe and power read
+        it here; what blades meet on top of it is in `rotor.aero.air`."""
+        return self.condition.climb_speed - (0.0 if self.gust is None else self.gust.uniform)
 
     @property
     def vertical_ratio(self) -> float:
@@ -405,6 +424,17 @@ class Design:
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed
+
+
+def with_numbers(design: Design, asked: Mapping[str, Any]) -> Design:
+    """The design with the numbers asked for outside its flight condition, by name; None leaves one as it is.
+
+    Raises TypeError or ValueError with one sentence for a value that is no number or lies outside.
+    """
+    for name, row in quantities.AIRFRAME.items():
+        if asked.get(name) is not None:
+            design = row.put(design, row.read(asked[name]))
+    return design
 
 
 FLIGHT_MODELS = Models(

@@ -4,7 +4,7 @@ From a row come the argument of `make_design` and its words, the flag, the key o
 quantity of studies and sweeps, columns of tables, keys of JSON, and on the page slider, tooltip, units and sentence.
 
 `QUANTITIES[name]` is a row by the name that commands and studies use; `BY_KEY` by the key of design files, `BY_INPUT`
-by the name of the page's input. `ARGUMENTS`, `CONDITION`, `SWITCHES` and `STAND` are the rows of a kind, in order.
+by the name of the page's input. `ARGUMENTS`, `NUMBERS`, `SWITCHES` and `STAND` are the rows of a kind, in order.
 `row.of(design)` is the value that a design has, in the unit of its row, `row.put(design, value)` the
 design with another, `row.check(value)` refuses what lies outside its bounds, `row.in_words(value)` is it in words, and
 `row.slider` what the page shows. How to add one: docs/developers/quantity.md. One file, because it is one table.
@@ -30,10 +30,7 @@ Value = TypeVar("Value")
 
 
 class Flight(TypedDict, Generic[Value], total=False):
-    """Arguments of `make_design`, `Design.at` and `rotor.sweep` beside `mu`, as a type checker sees them.
-
-    `rotor.design.quantity.takes` gives these functions a keyword for each row.
-    """
+    """Arguments of `make_design`, `Design.at` and `rotor.sweep` beside `mu`: a test compares them with the rows."""
 
     speed_kt: Value
     mass_kg: Value
@@ -42,6 +39,7 @@ class Flight(TypedDict, Generic[Value], total=False):
     climb_m_s: Value
     rotor_speed_percent: Value
     load_factor: Value
+    drag_area_m2: Value
 
 
 HOVER_INFLOWS: tuple[HoverInflow, ...] = get_args(HoverInflow)
@@ -124,7 +122,7 @@ _CONDITION = (
     Quantity(
         "mu", "number", "advance ratio V/(ΩR) from the horizontal speed (default 0.2)",
         place="condition.advance_ratio", what="advance ratio", low=0.0, high=0.6, high_on_stand=0.75, default=0.2,
-        examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, told=True,
+        examples=(0.1, 0.2, 0.3), key="advance_ratio", word="mu", section="fixed", written=True, reported=True,
         input="advance_ratio", slider=Slider("Adv. ratio µ", 0.0, 0.45, 0.005, 0.01, "/0.01"),
         hint="Airspeed over tip speed, µ = V/ΩR; 0 is hover. | section 1",
     ),
@@ -136,7 +134,7 @@ _CONDITION = (
     Quantity(
         "mass_kg", "number", "gross mass (default: the rotor's reference mass)", unit="kg",
         place="condition.mass", what="mass", low=100.0, high=50_000.0, in_flight=True,
-        examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, told=True,
+        examples=(6000, 7000, 8000), key="mass_kg", word="mass", section="fixed", written=True, reported=True,
         input="mass_t", input_size=1e3, slider=Slider("Mass [t]", 5.0, 11.0, 0.05, 0.1, "/100 kg", "t", 1e3),
         aviation=Slider("Mass [lb]", 11_000.0, 24_300.0, 100.0, 0.2 * POUND, "/200 lb", "lb", POUND),
         hint="Gross mass; the rotor carries its weight W = mg. | section 2",
@@ -144,7 +142,7 @@ _CONDITION = (
     Quantity(
         "altitude_m", "number", "pressure altitude (default 0)", unit="m",
         place="condition.altitude", what="altitude", low=-500.0, high=8_000.0, default=0.0,
-        examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, told=True,
+        examples=(0, 1000, 1500), key="altitude_m", word="alt", section="fixed", written=True, reported=True,
         input="altitude_m", slider=Slider("Altitude [m]", 0.0, 4000.0, 50.0, 100.0, "/100 m"),
         aviation=Slider("Altitude [ft]", 0.0, 13_200.0, 100.0, 500.0 * FOOT, "/500 ft", "ft", FOOT),
         in_place="density_kg_m3",
@@ -166,7 +164,7 @@ _CONDITION = (
         unit="m/s",
         place="condition.climb_speed", what="rate of climb", short="climb", below="descent",
         plain="level flight", low=-100.0, high=100.0, default=0.0, axial=True, examples=(-5, 0, 5),
-        key="climb_m_s", word="climb", section="fixed", told=True, input="climb_m_s",
+        key="climb_m_s", word="climb", section="fixed", reported=True, input="climb_m_s",
         slider=Slider("Climb [m/s]", -20.0, 20.0, 0.1, 1.0, "/(m/s)"),
         aviation=Slider(
             "Climb [ft/min]", -3900.0, 3900.0, 50.0, 100.0 * FOOT / 60.0, "/(100 ft/min)", "ft/min", FOOT / 60.0
@@ -191,6 +189,15 @@ _CONDITION = (
         input="load_factor", slider=Slider("Load factor n", 0.5, 3.0, 0.01, 0.1, "/0.1"),
         hint="Lift over weight in a steady turn, n = 1/cos of the bank angle; propulsive force as in straight flight. "
         "The turn rate of the body and heavier blades are ignored. | section 2",
+    ),
+)  # fmt: skip
+
+_AIRFRAME = (
+    Quantity(
+        "drag_area_m2", "number", "equivalent flat-plate area of the airframe's drag (default: the rotor file's)",
+        unit="m²", place="fuselage.drag_area", what="drag area", short="drag area", plain="its own drag area", low=0.0,
+        high=50.0, in_flight=True, examples=(2.5, 3.0, 3.5), key="drag_area_m2", word="area", section="fixed",
+        input="drag_area_m2",
     ),
 )  # fmt: skip
 
@@ -360,14 +367,18 @@ _STUDIES = (
     Quantity("hover_share", "number", "share of the time in hover, of a search", section="fixed"),
 )
 
-ARGUMENTS = {row.name: row for row in (*_BLADE, *_CONDITION, *_MODELS)}
+ARGUMENTS = {row.name: row for row in (*_BLADE, *_CONDITION, *_AIRFRAME, *_MODELS)}
 """Arguments of `make_design`, in its order."""
-CONDITION = {row.name: row for row in _CONDITION if row.place}
-"""Numbers of the flight condition."""
-SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *CONDITION)}
+NUMBERS = {row.name: row for row in (*_CONDITION, *_AIRFRAME) if row.place}
+"""Numbers of a design, wherever their place is."""
+CONDITION = {name: row for name, row in NUMBERS.items() if row.place.startswith("condition.")}
+"""Those of its flight condition, which a mission sets for each leg."""
+AIRFRAME = {name: row for name, row in NUMBERS.items() if name not in CONDITION}
+"""Those outside it, which all legs of a mission share."""
+SWEPT = {name: row for name, row in ARGUMENTS.items() if name in ("speed_kt", *NUMBERS)}
 """What a sweep may go over, and what `Design.at` takes beside `hover`."""
-UNUSUAL = {name: row for name, row in CONDITION.items() if row.short}
-"""Quantities of the flight condition that reports have only where they are not the default."""
+UNUSUAL = {name: row for name, row in NUMBERS.items() if row.short}
+"""Numbers that reports have only where they are not the default."""
 SPEED = ("mu", "speed_kt", "hover")
 """Ways to give the speed, of which one is used."""
 SWITCHES = {row.name: row for row in _SWITCHES}

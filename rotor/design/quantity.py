@@ -4,10 +4,8 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import wraps
-from inspect import Parameter, signature
 from numbers import Real
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, Literal
 
 from rotor.support.user_input import did_you_mean
 
@@ -93,7 +91,7 @@ class Quantity:
     """Section of a study file; as an axis it is in [axes]. Empty: not for studies."""
     written: bool = False
     """Whether every design file has it; else only where it is not the default."""
-    told: bool = False
+    reported: bool = False
     """Whether every table and JSON has it; else only where it is not the default."""
     input: str = ""
     """Name of the page's input."""
@@ -161,9 +159,13 @@ class Quantity:
             design = None if design is None else getattr(design, name)
         return None if design is None else self.shown(design)
 
+    def usual(self, design: Any) -> Any:
+        """Its default; where there is none, what the aircraft of the design has in its place."""
+        return self.of(design.aircraft) if self.default is None else self.default
+
     def put(self, design: Any, value: Any) -> Any:
         """The design with this value, in the unit of the name; ValueError where it lies outside."""
-        return _replaced(design, self.place.split("."), self.si(value))
+        return replaced(design, self.place.split("."), self.si(value))
 
     def si(self, value: Any) -> Any:
         """The value as the design holds it: angles in radians."""
@@ -203,50 +205,22 @@ class Quantity:
         return not (tested and self.in_flight) and (axial or not self.axial)
 
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+def check_names(
+    function: Callable[..., Any], given: Iterable[str], known: Iterable[str], elsewhere: Callable[[str], str]
+) -> None:
+    """TypeError with one sentence for a name among the `**` arguments of a function that is none of those known.
 
-
-def takes(
-    names: Iterable[str], after: str, elsewhere: Callable[[str], str] = lambda name: ""
-) -> Callable[[Function], Function]:
-    """Give a function a keyword for each name, None by default, in place of its `**` parameter.
-
-    They follow `after` in its signature. Another keyword, or a value without one, is a TypeError with one sentence,
-    with the code that `elsewhere` names for what another function takes.
+    elsewhere: the code that does what a name asks for; empty where there is none.
     """
-
-    def with_keywords(function: Function) -> Function:
-        before = signature(function)
-        written = {
-            name: parameter
-            for name, parameter in before.parameters.items()
-            if parameter.kind is not Parameter.VAR_KEYWORD
-        }
-        added = [Parameter(name, Parameter.KEYWORD_ONLY, default=None) for name in names if name not in written]
-        place = 1 + list(written).index(after)
-        kept = list(written.values())
-        signed = before.replace(parameters=[*kept[:place], *added, *kept[place:]])
-        nameless = sum(parameter.kind is not Parameter.KEYWORD_ONLY for parameter in kept)
-
-        @wraps(function)
-        def called(*given: Any, **asked: Any) -> Any:
-            call = f"{function.__name__}()"
-            if (wrong := next((name for name in asked if name not in signed.parameters), None)) is not None:
-                keywords = [name for name in signed.parameters if name != "self"]
-                code = elsewhere(wrong)
-                remedy = f": write {code}" if code else did_you_mean(wrong, keywords)
-                remedy = remedy or f": it takes {', '.join(keywords)}"
-                raise TypeError(f"{call} has no argument {wrong!r}{remedy}")
-            if len(given) > nameless:
-                raise TypeError(f"{call} got {given[nameless]!r:.40} without a name: name it, as in mu=0.3")
-            return function(*given, **asked)
-
-        called.__dict__["__signature__"] = signed
-        return cast(Function, called)
-
-    return with_keywords
+    names = [*(function.__kwdefaults__ or {}), *known]
+    for name in given:
+        if name not in names:
+            code = elsewhere(name)
+            hint = f": write {code}" if code else did_you_mean(name, names) or f": it takes {', '.join(names)}"
+            raise TypeError(f"{function.__name__}() has no argument {name!r}{hint}")
 
 
-def _replaced(thing: Any, names: list[str], value: Any) -> Any:
+def replaced(thing: Any, names: list[str], value: Any) -> Any:
+    """A value made of dataclasses with another value in the field that `names` lead to."""
     first, *rest = names
-    return replace(thing, **{first: _replaced(getattr(thing, first), rest, value) if rest else value})
+    return replace(thing, **{first: replaced(getattr(thing, first), rest, value) if rest else value})

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from rotor.engine.memory import LagFactors
-from rotor.engine.terms import NOTHING, Shape, Structure, Terms, summed
+from rotor.engine.terms import NO_TERMS, Shape, Structure, Terms, summed
 from rotor.engine.waves import WaveGrid
 from rotor.support.arrays import Array, Integers
 from rotor.support.compiled import compiled
@@ -220,7 +220,7 @@ def begin(system: System, grid: Grid, x: Array) -> Point:
     """The equations at y = 0, but linearised where A y is the `expected` of the nodes.
 
     A guess of y would not do: between dense nodes A y of it is far off, and sections that stall there have slopes that
-    tell nothing. A step from here is to the solution of a linear section.
+    mean nothing. A step from here is to the solution of a linear section.
     """
     nodes = system.nodes
     assert nodes is not None
@@ -323,7 +323,7 @@ def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places
             out[places[0, e], places[1, e]] = value
 
 
-def jacobian(point: Point, further: Terms = NOTHING) -> tuple[Array, Array]:
+def jacobian(point: Point, further: Terms = NO_TERMS) -> tuple[Array, Array]:
     """∂R by the states solved for, (equations, equations), and that of further measures; `point` has slopes."""
     structure, nodes, size = point.system.structure, point.system.nodes, len(point.system.structure.equations)
     terms = structure.residual.stacked(further)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from rotor.engine.linearise import Point, System
-from rotor.engine.newton import MOST_SLOW_STEPS, NEARLY, Factors, NewtonLimits, Solved, steps_left
+from rotor.engine.newton import LAST_STEP_RATIO, MOST_SLOW_STEPS, Factors, NewtonLimits, Solved, steps_left
 from rotor.engine.terms import Structure, summed
 from rotor.support.arrays import Array, Booleans, Integers
 
@@ -178,7 +178,7 @@ def solve_together(
     while still.any() and passes < limits.most_passes:
         going.keep(still)
         over = going.step(one.limits)
-        moved, before, last = going.x.copy(), going.size, going.expected <= NEARLY
+        moved, before, last = going.x.copy(), going.size, going.expected <= LAST_STEP_RATIO
         moved[:, one.free] += going.taken
         going.residual, going.size, passes = np.empty_like(going.residual), np.empty_like(before), passes + 1
         for some in (np.flatnonzero(~last), np.flatnonzero(last)):

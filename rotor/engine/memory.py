@@ -23,7 +23,7 @@ from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy")
 
-_NOTHING = 1e-30
+_NEGLIGIBLE = 1e-30
 """Share of a start that is left, below which it is none: an early end of a sum."""
 INPUTS, OUTPUTS = 2, 3
 """Of the lags: the first variables are the inputs, those after them the outputs."""
@@ -87,7 +87,7 @@ def around(decay: Any, z: Any) -> None:
     """
     n = len(decay)
     value, rest, k = 0.0, 1.0, n
-    while k > 0 and rest > _NOTHING:  # First from zero: what is left of a start after one turn is known.
+    while k > 0 and rest > _NEGLIGIBLE:  # First from zero: what is left of a start after one turn is known.
         k -= 1
         value += rest * z[k]
         rest *= decay[k]
@@ -105,7 +105,7 @@ def _back_around(decay: Any, z: Any) -> None:
     n, rest, k = len(decay), 1.0, 0
     if z.ndim == 1:
         total = 0.0
-        while k < n and rest > _NOTHING:
+        while k < n and rest > _NEGLIGIBLE:
             total += rest * z[k]
             rest *= decay[k]
             k += 1
@@ -118,7 +118,7 @@ def _back_around(decay: Any, z: Any) -> None:
     else:
         columns = z.shape[1]
         value = np.zeros(columns)
-        while k < n and rest > _NOTHING:
+        while k < n and rest > _NEGLIGIBLE:
             for j in range(columns):
                 value[j] += rest * z[k, j]
             rest *= decay[k]

@@ -23,9 +23,9 @@ from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
 from rotor.engine.linearise import Grid, Point, System, begin, evaluate, jacobian, transposed
 from rotor.support.arrays import Array
 
-_NEAR = 1e6
+_COARSE_RATIO = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
-NEARLY = 3.0
+LAST_STEP_RATIO = 3.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
 MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
@@ -36,14 +36,14 @@ _MOST_RISES = 3
 _LEAST_PART = 1.0 / 64.0
 """Part of a step below which it is not divided further. Our choice."""
 
-_FORGETFUL = 2
+_MOST_FORGETFUL = 2
 """How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
 all the rest, and they spare steps near deep stall only. Our choice."""
 _MOST_PRODUCTS = 40
 """Products with a Jacobian after which factors nearby do not serve for its transposed."""
-_LEFT = 1e-10
+_KRYLOV_TOLERANCE = 1e-10
 """Residual over the right side at which such a solution ends. Our choice."""
-_MANY = 200
+_SINGLE_PRECISION_FROM = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
 
@@ -66,7 +66,7 @@ class Factors:
     @classmethod
     def of_matrix(cls, matrix: Array, weight: Array | None = None) -> "Factors":
         """Factors of a Jacobian, which is spent; without W where no steps are made with them."""
-        if len(matrix) < _MANY:
+        if len(matrix) < _SINGLE_PRECISION_FROM:
             lu, pivots, singular = dgetrf(matrix.T, overwrite_a=True)
         else:
             lu, pivots, singular = sgetrf(matrix.T.astype(np.float32, order="F"), overwrite_a=True)
@@ -137,7 +137,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         column[k + 1] = length = max(float(np.linalg.norm(new)), 1e-300)
         basis[k + 1] = new / length
         g[k + 1] = -(g[: k + 1] @ column[: k + 1]) / length
-        if float(np.linalg.norm(g[: k + 2])) * _LEFT >= 1.0:
+        if float(np.linalg.norm(g[: k + 2])) * _KRYLOV_TOLERANCE >= 1.0:
             q, r = np.linalg.qr(hessenberg[: k + 2, : k + 1])
             return np.asarray(np.linalg.solve(r, size * q[0]), dtype=np.float64) @ steps[: k + 1]
     return None
@@ -179,8 +179,8 @@ def solve(system: System, x: Array, factors: Factors | None = None, limits: Newt
     """From x = (1, numbers, states): with factors on all azimuths at once, else on few azimuths first."""
     run = _Steps(system, factors, limits)
     if factors is None and system.thin is not system.grid and limits.most_passes > 1:
-        near = run(system.thin, x, _NEAR, limits.most_steps_on_few)
-        if near.size <= _NEAR:
+        near = run(system.thin, x, _COARSE_RATIO, limits.most_steps_on_few)
+        if near.size <= _COARSE_RATIO:
             x = near.x
         else:  # Whether there is a solution is for all azimuths to say, from the same start.
             run = _Steps(system, None, limits, run.passes)
@@ -223,7 +223,7 @@ class _Steps:
                 break
             length = self._length(step)
             step /= max(1.0, length)
-            part, last, nearer = 1.0, expected <= NEARLY, False
+            part, last, nearer = 1.0, expected <= LAST_STEP_RATIO, False
             trial = self._moved(point, step, last)
             while fresh and trial.size >= point.size:
                 after = self._length(corrected.factors.solve(trial.residual))
@@ -270,7 +270,7 @@ class _Steps:
         if not near.slopes.shape[1]:
             near = evaluate(system, system.thin, point.x, slopes=True)
         self._made += 1
-        self.latest = Factors.of(near.forgetful if self._made <= _FORGETFUL else near)
+        self.latest = Factors.of(near.forgetful if self._made <= _MOST_FORGETFUL else near)
         self._corrected = _Corrected(self.latest)
         return self._corrected
 

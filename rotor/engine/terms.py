@@ -112,7 +112,7 @@ class Terms:
         return summed(self.measure, weights * first * second, len(q)), by_z
 
 
-NOTHING = Terms.of((), 0)
+NO_TERMS = Terms.of((), 0)
 """No rows."""
 
 

@@ -4,7 +4,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from inspect import cleandoc, signature
+from inspect import cleandoc
 from numbers import Integral
 from typing import Any, Unpack
 
@@ -14,9 +14,9 @@ from rotor.aero.switches import parse_switches
 from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
-from rotor.design.design import Design, Models, check_preset, preset_models, with_grid
+from rotor.design.design import Design, Models, check_preset, preset_models, with_grid, with_numbers
 from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS, PRESETS, STAND_TRIMS, SWEPT, Flight
-from rotor.design.quantity import takes
+from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
@@ -39,12 +39,11 @@ def uh60a_rotor(preset: str) -> Rotor:
 
 
 def _other_way(name: str) -> str:
-    """How to say what is asked for by a name that is not ours."""
-    named = {"isa", "temperature", "temp", "oat"} & set(name.lower().split("_"))
-    return "isa_offset_c=20, the difference from the standard atmosphere in °C" if named else ""
+    """How to ask for a temperature, by whatever name it was asked for; empty for other names."""
+    warmer = {"isa", "temperature", "temp", "oat"} & set(name.lower().split("_"))
+    return "isa_offset_c=20, the difference from the standard atmosphere in °C" if warmer else ""
 
 
-@takes(SWEPT, after="hover", elsewhere=_other_way)
 def make_design(
     *,
     case: Design | None = None,
@@ -90,6 +89,7 @@ def make_design(
         >>> high.condition.altitude, high.twist == design.twist
         (1500.0, True)
     """
+    check_names(make_design, flight, SWEPT, _other_way)
     asked = {"mu": mu, "hover": hover, "bending": bending, **flight}
     _check_type(str, "a text", preset=preset, inflow=inflow, low_speed=low_speed, loss_on=loss_on, trim=trim)
     _check_type(str, "a text", airfoils=airfoils, off=off)
@@ -109,7 +109,7 @@ def make_design(
         models = same.models if same else preset_models(name)
     models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
     models = replace(models, **{option: True for option in OPTIONS if asked[option]})
-    blades = aircraft.rotor_for(name)
+    blades, body = aircraft.rotor_for(name), case if case and rotor is None else aircraft
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
     chosen = {"low_speed": low_speed, "loss_on": loss_on}
@@ -122,12 +122,14 @@ def make_design(
         rotor=blades,
         twist=own or aircraft.twist_for(name),
         condition=changed_condition(before, blades.tip_speed, asked, **overrides),
-        fuselage=aircraft.fuselage,
-        tail_rotor=aircraft.tail_rotor,
+        fuselage=body.fuselage,
+        tail_rotor=body.tail_rotor,
         models=with_grid(_changed(models, inflow, off, chosen), elements, azimuths),
         active_twist=active,
+        gust=case.gust if case else None,
         pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
+    design = with_numbers(design, asked)
     if twist is not None:
         design = design.with_twist(twist)
     if blade:
@@ -137,9 +139,8 @@ def make_design(
 
 
 if make_design.__doc__:  # Python drops docstrings when it is asked to.
-    rows = ((name, ARGUMENTS[name]) for name in signature(make_design).parameters)
-    listed = ((name, row, row.choices if name != "inflow" else (*INFLOW_MODELS, *HOVER_INFLOWS)) for name, row in rows)
-    words = (f"{name}: {row.help_with(choices)}." for name, row, choices in listed)
+    choices = {"inflow": (*INFLOW_MODELS, *HOVER_INFLOWS)}
+    words = (f"{name}: {row.help_with(choices.get(name, row.choices))}." for name, row in ARGUMENTS.items())
     make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))
 
 

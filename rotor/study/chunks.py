@@ -29,7 +29,7 @@ from rotor.study.study_file import StudyFile
 from rotor.support.assets import package_version
 from rotor.support.blas_threads import one_blas_thread
 from rotor.support.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
-from rotor.trim.many import BESIDE
+from rotor.trim.many import BATCH
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
 """The description of the folder, a copy of the study file, and a lock, left behind by a run that found no room."""
@@ -74,7 +74,7 @@ def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
     """
     warm, rows, values = WarmStarts(study.points.ranges), list[Row](), study.values(first, last)
     while len(rows) < len(values):
-        left = values[len(rows) : len(rows) + BESIDE]
+        left = values[len(rows) : len(rows) + BATCH]
         trims = trims_in_step(left, study)
         rows += [evaluate(point, study, warm, trim) for point, trim in zip(left, trims, strict=False)]
     return [{"point": number, **row} for number, row in enumerate(rows, start=first)]
@@ -205,10 +205,10 @@ class StudyFolder:
             os.close(self._lock)
             self._lock = None
 
-    def missing(self, tell: Callable[[str], None] = _log.warning) -> list[int]:
+    def missing(self, warn: Callable[[str], None] = _log.warning) -> list[int]:
         """Missing chunks in random order, so that an interrupted run covers the whole study.
 
-        A file that is damaged, or of another study, version or commit, is set aside, and `tell` hears a sentence.
+        A file that is damaged, or of another study, version or commit, is set aside, and `warn` gets a sentence.
         """
         present: set[int] = set()
         for path in sorted(self.folder.glob("chunk-*.parquet")):
@@ -219,7 +219,7 @@ class StudyFolder:
             except Exception as error:
                 fault = error if isinstance(error, StudyFolderError) else "is damaged"
                 path.replace(aside := path.with_name(f"_{path.name}"))
-                tell(f"{path.name} {fault}: it is now {aside.name}, and its points are computed again")
+                warn(f"{path.name} {fault}: it is now {aside.name}, and its points are computed again")
         left = [chunk for chunk in range(self.study.chunks) if chunk not in present]
         random.Random(0).shuffle(left)
         return left

@@ -9,11 +9,11 @@ from typing import Any
 
 from rotor.support.user_input import extra_module
 
-_COUNT_WORKERS_S = 5.0
+_QUERY_INTERVAL = 5.0
 """[s] between the questions how many workers there are."""
-_ANSWER_S = 10.0
+_REPLY_TIMEOUT = 10.0
 """[s] until an answer counts as missing."""
-_PATIENCE = 300.0
+_WORKER_TIMEOUT = 300.0
 """[s] a run waits for workers that went, or for its scheduler's answer: both may come back."""
 
 
@@ -55,11 +55,11 @@ class ClusterWatch:
     Other executors say themselves what they lose.
     """
 
-    def __init__(self, executor: Executor, tell: Callable[[str], None]) -> None:
-        """`tell` hears a sentence when there are none."""
+    def __init__(self, executor: Executor, warn: Callable[[str], None]) -> None:
+        """`warn` gets a sentence when there are none."""
         dask = type(executor).__module__.partition(".")[0] == "distributed"
         self._client: Any = getattr(executor, "_client", None) if dask else None
-        self._tell = tell
+        self._warn = warn
         self._asked = time.monotonic()
         self._had = False
         """Whether there were workers; before, the run waits for the first."""
@@ -68,7 +68,7 @@ class ClusterWatch:
 
     def look(self) -> None:
         """Call often while nothing comes. ExecutorLost where nobody has been there for too long."""
-        if self._client is None or time.monotonic() - self._asked < _COUNT_WORKERS_S:
+        if self._client is None or time.monotonic() - self._asked < _QUERY_INTERVAL:
             return
         missing = self._missing()
         now = self._asked = time.monotonic()
@@ -77,8 +77,8 @@ class ClusterWatch:
         elif self._since is None:
             if self._had or missing != _NO_WORKERS:
                 self._since = now
-                self._tell(f"{missing}; waiting {_PATIENCE / 60.0:g} min for a change, Ctrl-C ends the run now")
-        elif now - self._since > _PATIENCE:
+                self._warn(f"{missing}; waiting {_WORKER_TIMEOUT / 60.0:g} min for a change, Ctrl-C ends the run now")
+        elif now - self._since > _WORKER_TIMEOUT:
             raise ExecutorLost(missing)
 
     def came(self) -> None:
@@ -87,7 +87,9 @@ class ClusterWatch:
 
     def _missing(self) -> str:
         try:
-            return "" if self._client.sync(self._client.scheduler.ncores, callback_timeout=_ANSWER_S) else _NO_WORKERS
+            return (
+                "" if self._client.sync(self._client.scheduler.ncores, callback_timeout=_REPLY_TIMEOUT) else _NO_WORKERS
+            )
         except (OSError, TimeoutError, RuntimeError, BrokenExecutor):
             return "the scheduler does not answer"
 

@@ -44,15 +44,15 @@ from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse, solve
 
-_KEPT = 500
+_KEPT_TRIMS = 500
 """Trims kept."""
 _KEPT_FACTORS = 64
 """How many of the last solutions are kept with their factors, which are large."""
-_AMPLE = 1.8
+_TRIMS_PER_TERM = 1.8
 """Trims that a quadratic is made of, over the number of its terms."""
-_FIRM = 1e-8
+_REGULARISATION = 1e-8
 """Directions in which the trims nearby spread by less than this part of the whole say nothing."""
-_FAR = 30.0
+_LARGEST_WEIGHTS = 30.0
 """Sum of the weights' sizes beyond which the model is not trusted, and the nearest trim serves."""
 
 
@@ -89,8 +89,8 @@ class WarmStarts:
         same = not self._trims or len(_vector(self._trims[0])) == len(_vector(left))
         if key != self._key or not same:
             self._key, self._places, self._trims = key, self._places[:0], []
-        self._places = np.vstack([self._places, self._place(values)])[-_KEPT:]
-        self._trims = [*self._trims, left][-_KEPT:]
+        self._places = np.vstack([self._places, self._place(values)])[-_KEPT_TRIMS:]
+        self._trims = [*self._trims, left][-_KEPT_TRIMS:]
         if len(self._trims) > _KEPT_FACTORS:
             late = self._trims[-_KEPT_FACTORS - 1]
             self._trims[-_KEPT_FACTORS - 1] = replace(late, factors=None)
@@ -123,7 +123,7 @@ def _guess(vector: Array, like: Guess) -> Guess:
 
 def _wanted(axes: int) -> int:
     """Trims that a quadratic over so many axes is made of."""
-    return math.ceil(_AMPLE * math.comb(axes + 2, 2))
+    return math.ceil(_TRIMS_PER_TERM * math.comb(axes + 2, 2))
 
 
 def _weights(steps: Array) -> Array:
@@ -142,12 +142,12 @@ def _weights(steps: Array) -> Array:
     basis = np.stack(columns, axis=1)
     trust = 1.0 / ((x**2).sum(axis=1) + 1e-3) ** 2
     normal: Array = (basis.T * trust) @ basis
-    firm = _FIRM * float(trust.sum()) * np.eye(len(normal))
+    firm = _REGULARISATION * float(trust.sum()) * np.eye(len(normal))
     firm[0, 0] = 0.0
     value = np.asarray(np.linalg.solve(normal + firm, np.eye(len(normal))[0]), dtype=np.float64)
     weights = trust * (basis @ value)
     weights[0] += 1.0 - weights.sum()
-    return weights if float(np.abs(weights).sum()) < _FAR else np.eye(len(x))[0]
+    return weights if float(np.abs(weights).sum()) < _LARGEST_WEIGHTS else np.eye(len(x))[0]
 
 
 _GRID = ("elements", "azimuths")
@@ -208,7 +208,7 @@ def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis |
     None where a point has to be trimmed by itself.
     """
     designs = list[Design]()
-    with suppress(Exception):  # The row of the point says why it has no design.
+    with suppress(Exception):  # The row of that point has the sentence.
         for values in points if study.optimum is None else ():
             design = trim_of(values, study)
             if design.hovering or (designs and as_built(design) != as_built(designs[0])):
@@ -218,7 +218,7 @@ def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis |
         return [None]
     try:
         return analyse_in_step(designs, [None] * len(designs))
-    except Exception:  # The row of the point reports the error.
+    except Exception:  # The row of the point that it comes from has the sentence.
         return [None] * len(designs)
 
 
@@ -257,8 +257,8 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
         raise_interrupt(error)
         if lacks_means(error):  # Another worker or the next run computes the row.
             raise MemoryError(str(error)) from error
-        bad, told = isinstance(error, ValueError), f"{type(error).__name__}: {error}"
-        row |= {"status": "bad-input", "message": str(error)} if bad else {"status": "error", "message": told}
+        bad, fault = isinstance(error, ValueError), f"{type(error).__name__}: {error}"
+        row |= {"status": "bad-input", "message": str(error)} if bad else {"status": "error", "message": fault}
     together = 0.0 if in_step is None else in_step.solution.elapsed
     row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin + together)
     return row
@@ -318,7 +318,7 @@ def _condition(design: Design) -> Row:
     return {
         "rotor": design.aircraft.key or design.aircraft.name,
         "speed_m_s": design.airspeed,
-        **{name: design.condition.numbers[name] for name in reported_names([design.condition])},
+        **{name: design.numbers[name] for name in reported_names([design.unusual])},
         "preset": design.preset,
         "inflow": design.models.inflow,
     }

@@ -20,7 +20,7 @@ from rotor.study.study import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.support.arrays import Array, Booleans, Integers
 from rotor.support.user_input import is_file, shorten
 
-_DIVIDED_FROM = 20
+_LEAST_DIVIDED = 20
 """Number of values from which an axis is divided into ten parts."""
 _LEAST_PER_PART = 10
 """Least mean number of values per part of a sampled axis: with fewer, noise looks like an effect."""
@@ -61,8 +61,8 @@ class Results:
     @property
     def sampled(self) -> tuple[str, ...]:
         """Axes that are sampled together, where the whole folder was read."""
-        said = self.about.get("axes")
-        ranges = cast(dict[str, Any], said) if isinstance(said, dict) else {}
+        axes = self.about.get("axes")
+        ranges = cast(dict[str, Any], axes) if isinstance(axes, dict) else {}
         return tuple(name for name in self.axes if isinstance(ranges.get(name), dict))
 
     def codes(self, names: tuple[str, ...]) -> Integers:
@@ -115,8 +115,8 @@ def read_file(path: str | Path) -> Results:
         of_study = Path(path).name.startswith("chunk-")  # Joined files have no digest.
         table = _read_chunk(Path(path)) if of_study else parquet.read_table(str(path))
         metadata: dict[bytes, bytes] = table.schema.metadata or {}
-        said: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items()}
-        about: dict[str, Any] = said | {key: json.loads(said[key]) for key in ("axes", "given", "units")}
+        stored: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items()}
+        about: dict[str, Any] = stored | {key: json.loads(stored[key]) for key in ("axes", "given", "units")}
         results = Results(about, tuple(about["axes"]), columns_from(table))
         if not {"point", "status", *results.axes} <= results.columns.keys():
             raise KeyError(path)
@@ -280,7 +280,7 @@ def _effect(axis: str, levels: list[Any], code: Integers, values: Array) -> Main
 def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Integers]:
     """The values of an axis, or the middles of parts of its range where it has many; and which one each row has."""
     levels, code = np.unique(at if at.dtype == np.float64 else at.astype(str), return_inverse=True)
-    if at.dtype == np.float64 and (sampled or len(levels) > _DIVIDED_FROM):
+    if at.dtype == np.float64 and (sampled or len(levels) > _LEAST_DIVIDED):
         parts = min(10, max(2, len(levels) // _LEAST_PER_PART)) if sampled else 10
         low, part = float(levels[0]), float(levels[-1] - levels[0]) / parts or 1.0
         middles = [low + (k + 0.5) * part for k in range(parts)]

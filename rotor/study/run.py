@@ -30,9 +30,9 @@ from rotor.study.study_file import StudyFile, read_study
 from rotor.support.assets import commit, package_version
 from rotor.support.processes import Processes
 
-_POLL_S = 0.1
+_POLL_INTERVAL = 0.1
 """[s] between the questions whether to stop."""
-_MOST_WORKERS_LOST = 3
+_MOST_TRIES = 3
 """Workers that a chunk may cost."""
 
 
@@ -145,15 +145,15 @@ def run_chunks(
     chunks: Sequence[int],
     notify: Callable[[FinishedChunk], None],
     stop: Callable[[], bool] = lambda: False,
-    tell: Callable[[str], None] = lambda sentence: None,
+    warn: Callable[[str], None] = lambda sentence: None,
 ) -> ChunkRun:
     """Compute chunks in any order and store them; `notify` is called with each, in this thread.
 
     A chunk whose worker was lost, or had too little memory, is computed again. `stop` is called several times a second;
-    True ends the run. `tell` hears a sentence where a cluster has no workers left. Raises ExecutorLost where the
+    True ends the run. `warn` gets a sentence where a cluster has no workers left. Raises ExecutorLost where the
     executor takes no more work, VersionMismatch where a worker has another version.
     """
-    ended, tries, watch = ChunkRun(), Counter[int](), ClusterWatch(executor, tell)
+    ended, tries, watch = ChunkRun(), Counter[int](), ClusterWatch(executor, warn)
     under_way: dict[Future[FinishedChunk], int] = {}
     finished: SimpleQueue[Future[FinishedChunk]] = SimpleQueue()
 
@@ -174,7 +174,7 @@ def run_chunks(
                 ended.stopped = True
                 break
             try:
-                future = finished.get(timeout=_POLL_S)
+                future = finished.get(timeout=_POLL_INTERVAL)
             except Empty:
                 watch.look()
                 continue
@@ -187,7 +187,7 @@ def run_chunks(
                     watch.came()
                     store.keep(done.chunk, done.content)
                     notify(done)
-                case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_WORKERS_LOST:
+                case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_TRIES:
                     submit(chunk)
                 case BrokenExecutor() | MemoryError():
                     ended.lost.append(chunk)

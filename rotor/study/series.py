@@ -14,8 +14,8 @@ from rotor.columns.bending import LOADS
 from rotor.design.active_twist import harmonics_text
 from rotor.design.aircraft import reported_names
 from rotor.design.design import Design, require_design
-from rotor.design.quantities import ARGUMENTS, CONDITION, SWEPT, Flight
-from rotor.design.quantity import Quantity, takes
+from rotor.design.quantities import ARGUMENTS, NUMBERS, SWEPT, Flight
+from rotor.design.quantity import Quantity, check_names
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity as Objective
@@ -145,10 +145,6 @@ class SweepTable:
         return frame
 
 
-_OF_DESIGNS = {"twist": "rotor.sweep([design.with_twist(…), …], mu=[…])"}
-
-
-@takes(SWEPT, after="start", elsewhere=lambda name: _OF_DESIGNS.get(name, ""))
 def sweep(
     design: Design | Iterable[Design],
     mu: Iterable[float] | None = None,
@@ -161,8 +157,8 @@ def sweep(
 
     Parameters:
         design: one design, or several.
-        mu: advance ratios. Give this or one of the quantities after `start`, in the unit of its name; everything else
-            stays as in the design.
+        mu: advance ratios. Give this or one other quantity that `make_design` takes as a number, such as `mass_kg`, in
+            the unit of its name; everything else stays as in the design.
         start: an earlier solution to begin from, for designs of the same rotor.
 
     Returns:
@@ -179,6 +175,8 @@ def sweep(
         >>> [solution.converged for solution in table]
         [True, True, True]
     """
+    over_twists = {"twist": "rotor.sweep([design.with_twist(…), …], mu=[…])"}
+    check_names(sweep, others, SWEPT, lambda name: over_twists.get(name, ""))
     asked = {"mu": mu, **others}
     axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked.get(name) is not None}
     if len(axes) != 1:
@@ -279,7 +277,7 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
     for solution in solutions:
         curves.setdefault(_label(solution.design), []).append(solution)
     if len(tables) == 1 and len(curves) == 1:
-        climbs = any(solution.design.vertical_speed for solution in solutions)
+        climbs = any(solution.last_power.climb for solution in solutions)
         shown = [(part, solutions, part) for part in POWERS if climbs or part != "climb"]
     else:
         shown = [(name, curve, "total") for name, curve in curves.items()]
@@ -314,8 +312,8 @@ def _swept(solutions: Sequence[Solution]) -> Quantity:
     rotors: dict[str, list[Solution]] = {}
     for solution in solutions:  # Another rotor has its own mass.
         rotors.setdefault(solution.design.rotor.name, []).append(solution)
-    varied = (row for row in CONDITION.values() if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values()))
-    return next(varied, CONDITION["mu"])
+    varied = (row for row in NUMBERS.values() if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values()))
+    return next(varied, NUMBERS["mu"])
 
 
 def _values(solutions: Sequence[Solution], row: Quantity) -> list[float]:
@@ -330,7 +328,7 @@ def _kilowatts(solutions: Sequence[Solution], part: str) -> list[float]:
 
 def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     """Columns of a sweep over these designs."""
-    names = ("speed_kt", *reported_names(design.condition for design in designs))
+    names = ("speed_kt", *reported_names(design.unusual for design in designs))
     condition = (name for name in SWEPT if name in names)
     powers = (f"{part}_kw" for part in POWERS)
     blade = ("rotor", "twist", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev")
@@ -349,7 +347,7 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "pitch_per_rev": harmonics_text(design.pitch_per_rev),
         "twist_per_rev": harmonics_text(design.linear_active_twist),
         "speed_kt": design.airspeed / KNOT,
-        **design.condition.numbers,
+        **design.numbers,
         "status": solution.status.value,
         **({f"{part}_kw": getattr(power, part) / 1e3 for part in POWERS} if solution.converged else {}),
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",

@@ -307,8 +307,8 @@ class StudyColumn:
     unit: str
 
 
-_BESIDE = tuple(name for name, row in UNUSUAL.items() if row.told)
-_FLIGHT = ("rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", *_BESIDE, "preset", "inflow", "twist")
+_REPORTED = tuple(name for name, row in UNUSUAL.items() if row.reported)
+_FLIGHT = ("rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", *_REPORTED, "preset", "inflow", "twist")
 _HEAD = ("point", "status", "message", *_FLIGHT)
 ANSWER = (
     *(f"power_{part}_w" for part in POWERS), "ct", "cp", "ct_over_sigma", "lambda0", "collective_deg", "cyclic_1c_deg",

@@ -24,7 +24,7 @@ from rotor.trim.power import control_loads, hub_moment, power_budget, wind_force
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import CaveatInputs, caveats, failure_sentence, implausible
 
-_ENERGY = 1e-6
+_ENERGY_TOLERANCE = 1e-6
 """Part of main-rotor power that may be missing where there are further freedoms. Our choice: trims close to 1e-7."""
 
 
@@ -40,7 +40,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     fields = _fields(*shown)
     power = power_budget(problem, elements, total)
     work, freed = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
-    if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY * abs(power.main_rotor):
+    if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY_TOLERANCE * abs(power.main_rotor):
         raise ValueError(
             f"The air does {work:.4g} kW of work on the moving blades, but the freedoms report {freed:.4g} kW: make "
             "their columns, equations and power agree."
@@ -51,7 +51,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     converged = result.converged
     message = "Trimmed."
     if not converged:
-        near = result.nearest  # Without one it is said of the last attempt.
+        near = result.nearest  # Without one, the sentence is about the last attempt.
         there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
         message = vortex_ring(design) or failure_sentence(design, result.reached, there)
     if not result.steady:
@@ -91,8 +91,8 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         deflections=_deflections(result),
         freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
     )
-    said = tuple(caveats(CaveatInputs(problem, solution))) if converged else ()
-    return Analysis(replace(solution, caveats=said), result.linear)
+    exceeded = tuple(caveats(CaveatInputs(problem, solution))) if converged else ()
+    return Analysis(replace(solution, caveats=exceeded), result.linear)
 
 
 def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:

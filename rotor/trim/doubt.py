@@ -106,15 +106,15 @@ class Doubt:
         """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
-        said = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
-        change, within, words = self.change, self.change_band_percent, self.change_words
+        words = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        change, within, sure = self.change, self.change_band_percent, self.change_words
         if change is None or within is None or not self.against:
-            return said
-        if not words:
-            return f"{said} {design} neither saves nor costs."
+            return words
+        if not sure:
+            return f"{words} {design} neither saves nor costs."
         verb = "saves" if change <= 0.0 else "costs"
         amount = abs(100.0 * change / self.against)
-        return f"{said} {design} {verb} {amount:.{min(decimals(within), 2)}f} {words}."
+        return f"{words} {design} {verb} {amount:.{min(decimals(within), 2)}f} {sure}."
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
@@ -182,10 +182,7 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
     known = {row.name: row for row in uncertain_inputs(solution.design)}
     rows = [
         DoubtRow(
-            name,
-            row.words,
-            row.size,
-            row.source,
+            **vars(row),
             power=here.get(name, 0.0),
             change=None if there is None else here.get(name, 0.0) - there.get(name, 0.0),
         )

@@ -88,7 +88,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "speed_m_s": design.airspeed,
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
-        **{name: design.condition.numbers[name] for name in reported_names([design.condition]) if name in UNUSUAL},
+        **{name: design.numbers[name] for name in reported_names([design.unusual]) if name in UNUSUAL},
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),

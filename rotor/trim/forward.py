@@ -173,7 +173,7 @@ def as_built(design: Design) -> Design:
 def start_as_built(problem: Problem) -> Guess | None:
     """The trim of the blade as built at the condition of a problem, where a lifting line starts; None elsewhere."""
     design, free = problem.design, problem.design.models.trim == "free-rotor"
-    if problem.inflow.wake_along is None or free or problem.freedoms or problem.joined:
+    if problem.inflow.wake_along is None or free or problem.freedoms or problem.air.joined:
         return None
     return _trim_as_built(as_built(design))
 
@@ -261,7 +261,7 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
 def _continue(
     problem: Problem, best: TrimResult, passes: int, options: SolverOptions, most_stalled: float
 ) -> TrimResult:
-    """Follow the trim from an easier condition in adaptive steps; where it ends on the way, tell how far it came."""
+    """Follow the trim from an easier condition in adaptive steps; where it ends on the way, return how far it came."""
     design = problem.design
     easy = _easier(design, 0.0)
     result = newton(easy, first_guess(easy), options)

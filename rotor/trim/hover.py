@@ -27,7 +27,7 @@ def hover(problem: Problem, start: Guess | None = None, options: SolverOptions =
     if stand is not None and stand.collective is not None:
         return _with_collective(problem, stand.collective, start, options)
     system = hover_system(problem)
-    climb = problem.design.vertical_ratio
+    climb = problem.air.climb
     if collective is None:
         collective = 6.0 * problem.weight / (problem.design.rotor.solidity * 5.9)
         collective += 1.5 * (axial_inflow(problem.weight, climb) + climb)
@@ -51,7 +51,7 @@ def _with_collective(problem: Problem, collective: float, start: Guess | None, o
     No two states hold at one collective: wind against the thrust lifts a windmill more than a rotor whose wake goes on
     below it, and only the latter may carry more.
     """
-    climb, scale = problem.design.vertical_ratio, problem.scale
+    climb, scale = problem.air.climb, problem.scale
 
     def state(ct: float) -> tuple[TrimResult, float]:
         system = hover_system(problem, ct)

@@ -31,6 +31,7 @@ from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, vortex_ring_
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
+from rotor.design.gust import Gust
 from rotor.support.arrays import Array, fix
 from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.forward import SLOWEST, found_course, with_course
@@ -90,11 +91,12 @@ def inflow_ratio(mu: float) -> float:
 
 def trim_problem(design: Design, freedoms: Sequence[Freedom] = ()) -> Problem:
     """The design on its grid with further freedoms, and the inflow that its models choose for low speed."""
-    problem, joined = replace(with_course(build_problem(design)), freedoms=tuple(freedoms)), joined_hover(design)
-    if joined is None:
+    problem, hovering = replace(with_course(build_problem(design)), freedoms=tuple(freedoms)), joined_hover(design)
+    if hovering is None:
         return problem
-    share, difference = joined
-    return replace(problem, joined=(share * difference.inflow, share * difference.swirl))
+    share, difference = hovering
+    joined = share * difference.inflow, share * difference.swirl
+    return replace(problem, air=replace(problem.air, joined=joined))
 
 
 def joined_hover(design: Design) -> tuple[float, HoverDifference] | None:
@@ -103,6 +105,8 @@ def joined_hover(design: Design) -> tuple[float, HoverDifference] | None:
     if not share:
         return None
     hovering = replace(in_hover(design), active_twist=None, pitch_per_rev=())
+    if design.gust is not None and not design.gust.axisymmetric:
+        hovering = replace(hovering, gust=Gust(design.gust.uniform))
     difference = hover_difference(hovering, found_course(hovering.at(mu=SLOWEST)))
     return None if difference is None else (share, difference)
 
@@ -113,7 +117,7 @@ def in_hover(design: Design) -> Design:
     Faster descents are flown at speed only, where little of hover is left.
     """
     slowest = vortex_ring_edge(0.0) * math.sqrt(0.5 * design.weight_coefficient) * design.rotor.tip_speed
-    climb = max(design.condition.climb_speed, slowest)
+    climb = max(design.condition.climb_speed, slowest + (design.condition.climb_speed - design.vertical_speed))
     return replace(design, condition=replace(design.condition, advance_ratio=0.0, climb_speed=climb))
 
 

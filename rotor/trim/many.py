@@ -18,7 +18,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions, newton_together
 from rotor.trim.solution import Solution
 from rotor.trim.solve import Start, analyse, guess_of, is_suspect_branch
 
-BESIDE = 32
+BATCH = 32
 """Designs in one step: their fields then stay in the processor's cache. Our choice."""
 
 
@@ -55,8 +55,8 @@ def analyse_many(
     for k, design in enumerate(designs):
         groups.setdefault(as_built(require_design(design)), []).append(k)
     for group in groups.values():
-        for first in range(0, len(group), BESIDE):
-            some = group[first : first + BESIDE]
+        for first in range(0, len(group), BATCH):
+            some = group[first : first + BATCH]
             if len(some) > 1 and not options.asked_to_stop:
                 found = analyse_in_step([designs[k] for k in some], [starts[k] for k in some], options)
                 trims |= {k: trim for k, trim in zip(some, found, strict=True) if trim is not None}

@@ -7,6 +7,8 @@ r = U_T + u − µ_x sin ψ,
 
     P_shaft = Σ (λ_i dF_z + u dF_x + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V + W V_c.
 
+A gust w(r, ψ), which is in U_P, adds Σ w dF_z.
+
 The parasite power D·V is that of all air loads on the airframe: in a climb the download is pushed up as well. It is the
 weight alone that gains height, W V_c.
 
@@ -49,7 +51,7 @@ class PowerBudget:
     shaft: float
     """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
     climb: float = 0.0
-    """W V_c, negative in descent."""
+    """W V_c, negative in descent; with a gust Σ w dF_z as well, w down."""
     damping: float = 0.0
     """What the dampers of `Solution.freedoms` dissipate."""
 
@@ -91,6 +93,8 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     if design.condition.stand is not None:
         lift, drag = wind_forces(elements, total)
         parasite, climb = -drag * design.condition.advance_ratio * watts, lift * design.vertical_ratio * watts
+    if problem.air.gust is not None:
+        climb += float(width @ _around(problem.air.gust, e.fz)) * watts
     damping = total.damping * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)

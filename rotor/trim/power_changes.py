@@ -10,6 +10,7 @@ one evaluation of its equations, no new trim. The course of the wake, and at low
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from rotor.aero.section import EARLIER_RISE, MORE_DRAG, MORE_LIFT, MORE_MOMENT, 
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
 from rotor.design.design import Design
+from rotor.design.quantity import replaced
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
 from rotor.support.arrays import Array
@@ -26,7 +28,7 @@ from rotor.trim.low_speed import hover_share
 from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
-_PART = 0.1
+_STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
 
 
@@ -44,8 +46,8 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
         if row.name in _POWERS:
             if power := _POWERS[row.name](solution):
                 changes[row.name] = 0.01 * row.size * power
-        elif (changed := _CHANGES[row.name](near.problem, _PART * row.size)) is not None:
-            changes[row.name] = near.change(changed) / _PART
+        elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
+            changes[row.name] = near.change(changed) / _STEP_SHARE
     return changes
 
 
@@ -111,33 +113,31 @@ def _section(row: int, unit: float = 1.0) -> Change:
 
 def _rebuilt(problem: Problem, design: Design) -> Problem:
     """The problem of a design nearby, on the same course of the wake."""
-    return replace(build_problem(design), course=problem.course, joined=problem.joined, freedoms=problem.freedoms)
+    built = build_problem(design)
+    air = replace(built.air, joined=problem.air.joined)
+    return replace(built, course=problem.course, air=air, freedoms=problem.freedoms)
 
 
-def _fuselage(name: str, counts: Callable[[Design], bool]) -> Change:
+def _larger(place: str, counts: Callable[[Problem], bool]) -> Change:
+    """place: fields that lead to the number, or the numbers, from a design."""
+
     def change(problem: Problem, amount: float) -> Problem | None:
-        design = problem.design
-        fuselage, value = design.fuselage, getattr(design.fuselage, name)
-        if not (value and counts(design)) or design.condition.stand is not None:
+        value: float | tuple[float, ...] | None = attrgetter(place)(problem.design) if counts(problem) else None
+        if not value:
             return None
-        larger = replace(fuselage, **{name: value * (1.0 + 0.01 * amount)})
-        return _rebuilt(problem, replace(design, fuselage=larger))
-
-    return change
-
-
-def _structure(name: str) -> Change:
-    def change(problem: Problem, amount: float) -> Problem | None:
-        design, structure = problem.design, problem.design.rotor.blade.structure
-        if problem.torsion is None or structure is None:
-            return None
-        value: float | tuple[float, ...] = getattr(structure, name)
         factor = 1.0 + 0.01 * amount
         larger = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
-        blade = replace(design.rotor.blade, structure=replace(structure, **{name: larger}))
-        return _rebuilt(problem, replace(design, rotor=replace(design.rotor, blade=blade)))
+        return _rebuilt(problem, replaced(problem.design, place.split("."), larger))
 
     return change
+
+
+def _twists(problem: Problem) -> bool:
+    return problem.torsion is not None
+
+
+def _flies(problem: Problem) -> bool:
+    return problem.design.condition.stand is None
 
 
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
@@ -159,11 +159,13 @@ _CHANGES: Mapping[str, Change] = {
     "section_lift_percent": _section(MORE_LIFT, 0.01),
     "section_moment": _section(MORE_MOMENT),
     "drag_rise_mach": _section(EARLIER_RISE),
-    "drag_area_percent": _fuselage("drag_area", lambda design: not design.hovering),
-    "download_percent": _fuselage("hover_download", lambda design: design.models.has("download")),
-    "torsional_stiffness_percent": _structure("torsional_stiffness"),
-    "control_stiffness_percent": _structure("control_stiffness"),
-    "torsional_inertia_percent": _structure("torsional_inertia"),
+    "drag_area_percent": _larger("fuselage.drag_area", lambda problem: _flies(problem) and not problem.design.hovering),
+    "download_percent": _larger(
+        "fuselage.hover_download", lambda problem: _flies(problem) and problem.design.models.has("download")
+    ),
+    "torsional_stiffness_percent": _larger("rotor.blade.structure.torsional_stiffness", _twists),
+    "control_stiffness_percent": _larger("rotor.blade.structure.control_stiffness", _twists),
+    "torsional_inertia_percent": _larger("rotor.blade.structure.torsional_inertia", _twists),
     "wake_transport_percent": _wake_transport,
     "tip_loss_percent": _tip_loss,
 }

@@ -14,11 +14,11 @@ from rotor.trim.newton import SolverOptions, TrimResult, newton
 from rotor.trim.solution import Solution
 from rotor.trim.validity import MOST_STALLED
 
-_WITHIN = 0.02
+_TOLERANCE = 0.02
 """How near the largest mass and speed are found, as a part of the way to them."""
-_NO_TRIM = 2.0 * MOST_STALLED
+_UNTRIMMED_SHARE = 2.0 * MOST_STALLED
 """Stalled part of the thrust that stands for no trim there."""
-_SLOW = 0.15
+_LEAST_POWER_SPEED = 0.15
 """Advance ratio from which the largest speed is looked for: the least power is near it."""
 
 
@@ -34,7 +34,7 @@ def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, f
     if condition.stand is not None:
         return None, None
     easy = easier_condition(solution.design, 0.0)
-    slow = min(easy.advance_ratio, _SLOW)
+    slow = min(easy.advance_ratio, _LEAST_POWER_SPEED)
     wanted = {"mass_kg": (easy.mass, condition.mass), "mu": (slow, condition.advance_ratio)}
     mass, mu = (_reach(solution, name, *ends, options) for name, ends in wanted.items())
     return mass, mu
@@ -42,7 +42,7 @@ def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, f
 
 def _stalled_thrust(result: TrimResult) -> float:
     """Stalled part of the thrust of a trim; of none, too much."""
-    return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _NO_TRIM
+    return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _UNTRIMMED_SHARE
 
 
 def _reach(solution: Solution, name: str, easy: float, wanted: float, options: SolverOptions) -> float | None:
@@ -65,12 +65,12 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
         if value == easy:
             return _stalled_thrust(near) - MOST_STALLED
         if value == wanted or options.asked_to_stop:
-            return _NO_TRIM - MOST_STALLED
+            return _UNTRIMMED_SHARE - MOST_STALLED
         ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
         share = _stalled_thrust(ahead)
         if share <= MOST_STALLED:
             trims[value] = ahead
         return share - MOST_STALLED
 
-    brentq(too_much, easy, wanted, xtol=_WITHIN * abs(wanted - easy), rtol=_WITHIN)
+    brentq(too_much, easy, wanted, xtol=_TOLERANCE * abs(wanted - easy), rtol=_TOLERANCE)
     return max(trims)

@@ -14,7 +14,7 @@ from rotor.aero.momentum import VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
-from rotor.design.aircraft import FIXED_SHARE, Stand
+from rotor.design.aircraft import FIXED_SHARE, Stand, in_words
 from rotor.design.design import Design
 from rotor.support.arrays import Array
 from rotor.support.units import power_text
@@ -80,105 +80,104 @@ def caveats(trim: CaveatInputs) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds, in the order in which they are listed."""
     for remark in trim.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    said = _of_the_rotor(trim) | _of_the_models(trim) | _of_the_flight(trim) | _of_the_sections(trim)
-    for name, sentence in said.items():
-        yield Caveat(name, sentence)
+    found = _of_the_rotor(trim) | _of_the_models(trim) | _of_the_flight(trim) | _of_the_sections(trim)
+    yield from (Caveat(name, sentence) for name, sentence in found.items())
 
 
 def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
     design, models = trim.design, trim.design.models
-    said = dict[str, str]()
+    found = dict[str, str]()
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        said["teetering"] = (
+        found["teetering"] = (
             "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft."
         )
     if design.twist != design.rotor.builtin_twist:
         root, tip = design.twist(np.array([design.rotor.blade.root_cutout, 1.0])).tolist()
         if abs(tip - root) > LARGEST_BUILT_TWIST:
-            said["twist-beyond-built"] = (
+            found["twist-beyond-built"] = (
                 f"The blade twists by {math.degrees(tip - root):.0f}° from root to tip; helicopter blades are built "
                 "with about 20° or less. Read the result as an extrapolation."
             )
         elif tip - root > NOSE_UP_TWIST:
-            said["nose-up-twist"] = (
+            found["nose-up-twist"] = (
                 f"The twist raises the pitch of the tip {math.degrees(tip - root):.1f}° above that of the root; built "
                 "blades lower it. For such a blade give the opposite sign, as in linear:-8."
             )
     if design.tail_rotor is None and models.tail_rotor_solved and not trim.on_stand:
-        said["no-tail-rotor"] = (
+        found["no-tail-rotor"] = (
             f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power stands in for it."
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
-        said["thesis-models"] = (
+        found["thesis-models"] = (
             f"The source document does not cover the {design.aircraft.name}; its models are used with this blade."
         )
     stand, ratio = design.condition.stand, design.rotor.radius / design.rotor.reference_chord
     if stand is not None and stand.collective is not None and ratio < LEAST_ASPECT_RATIO:
-        said["small-aspect-ratio"] = (
+        found["small-aspect-ratio"] = (
             f"At a given collective, blades of aspect ratio {ratio:.1f} get too much thrust here: that of the "
             "Caradonna and Tung blades (6) is a quarter to two thirds above the one measured in hover. Give the thrust "
             "instead."
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
-        said["no-blade-structure"] = (
+        found["no-blade-structure"] = (
             "The rotor file has no blade structure, so the blade is rigid in torsion here; real blades twist by "
             "degrees in flight."
         )
-    return said
+    return found
 
 
 def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
     design, models, power = trim.design, trim.design.models, trim.solution.last_power
-    said = dict[str, str]()
+    found = dict[str, str]()
     if off := switched_off(models):
         names = ", ".join(switch.title.lower() for switch in off)
-        said["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
+        found["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
     if not design.flaps and trim.mu > 0.0:
-        said["rigid-blades"] = _rigid(trim.solution.hub_moment)
+        found["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
-            said["rigid-blades-linear-inflow"] = (
+            found["rigid-blades-linear-inflow"] = (
                 "Linear inflow does not respond to unequal lift, so the induced power of rigid blades is too low."
             )
     if models.bending and (reason := why_no_hub_loads(design)) is not None:
-        said[reason.name] = reason.sentence
+        found[reason.name] = reason.sentence
     if design.active_twist and design.hovering:
-        said["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
+        found["active-twist-rests"] = "Active twist is off in hover, where only the twist law acts."
     if design.pitch_per_rev and design.hovering:
-        said["root-pitch-rests"] = (
+        found["root-pitch-rests"] = (
             "Root pitch at harmonics of rotor speed is off in hover, where nothing depends on azimuth."
         )
     highest = max((harmonic.per_rev for wave in design.pitch_waves for harmonic in wave.harmonics), default=0)
     frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)  # ωc/2V at 0.75 R.
     if frequency > FAST_PITCH and not trim.problem.unsteady:
-        said["fast-pitch"] = (
+        found["fast-pitch"] = (
             f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}, but section data are steady: only "
             "the shed wake of a lifting line and pitch-rate damping respond to it."
         )
     control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
-        said["control-power"] = (
+        found["control-power"] = (
             f"Pitch links and actuators feed {power_text(control_power, 1)} into the pitching blades; the power here "
             "does not include it."
         )
     if models.trim == "thrust" and not trim.on_stand and trim.mu > 0.0:
-        said["torque-without-drag"] = (
+        found["torque-without-drag"] = (
             f"Only thrust is trimmed, so the shaft delivers {power_text(power.shaft)}; with the drag of the airframe "
             f"the rotor needs {power_text(power.main_rotor)}, the sum of its parts."
         )
-    return said
+    return found
 
 
 def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     design, mu, power = trim.design, trim.mu, trim.solution.last_power
-    said = dict[str, str]()
+    found = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
-        said["low-speed-inflow"] = f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+        found["low-speed-inflow"] = f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
     if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
-        said["low-speed-inflow"] = (
+        found["low-speed-inflow"] = (
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
         )
-    if hover_share(design) and trim.problem.joined is None:
-        said["low-speed-not-matched"] = (
+    if hover_share(design) and trim.problem.air.joined is None:
+        found["low-speed-not-matched"] = (
             "The hover model has no solution at this weight, so the inflow is not blended into hover at low speed."
         )
     thrust = trim.solution.ct if design.hovering else design.weight_coefficient
@@ -186,88 +185,88 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     if inflow and math.copysign(1.0, thrust) * design.vertical_speed < 0.0:
         descent, edge = abs(design.vertical_ratio) / inflow, -vortex_ring_edge(mu / inflow)
         if -VORTEX_RING_ONSET < descent < edge < math.inf:
-            said["vortex-ring"] = (
+            found["vortex-ring"] = (
                 f"The rate of descent is {descent:.2f} of the induced velocity in hover. At this low speed, measured "
                 f"inflow exceeds momentum theory above {-VORTEX_RING_ONSET:g}, and the vortex ring state begins at "
                 f"{edge:.2f}."
             )
     if power.main_rotor < 0.0:
-        said["beyond-autorotation"] = (
+        found["beyond-autorotation"] = (
             "The air drives the rotor: above the rate of descent of autorotation, power is negative, and with the "
             "engine off the rotor speeds up."
         )
     installed = design.aircraft.installed_power
     if installed and power.total > installed and not trim.on_stand:
-        said["installed-power"] = (
+        found["installed-power"] = (
             f"The rotors need {power_text(power.total)}; the engines give {power_text(installed)} at sea level on "
             "a standard day, and less at altitude or in warmer air."
         )
     elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
-        said["engines-of-a-standard-day"] = (
+        found["engines-of-a-standard-day"] = (
             f"The engines give {power_text(installed)} at sea level on a standard day. In warmer air they give less, "
             "which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
-        said["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
+        found["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
     if mu > HIGH_SPEED:
-        said["high-speed"] = (
+        found["high-speed"] = (
             f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; the section data describe them "
             "only roughly."
         )
     loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
-        said["blade-loading"] = (
+        found["blade-loading"] = (
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift limits the rotor, and computed "
             f"power is too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
         )
-    return said
+    return found
 
 
 def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
     design, fields, disk = trim.design, trim.solution.disk, trim.problem.disk
-    said = dict[str, str]()
+    found = dict[str, str]()
     if trim.solution.stalled_area > STALL_SHARE:
         what = "section data are steady, without dynamic stall"
         if fields.unsteady is not None:
             what = "the lags of dynamic stall are those of a NACA 0012"
-        said["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
+        found["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
     if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
-        said["no-dynamic-stall"] = (
+        found["no-dynamic-stall"] = (
             f"The inflow {design.models.inflow} balances the load at each point separately, which excludes dynamic "
             "stall: sections are steady here."
         )
     if held := _held_reynolds(trim):
-        said["reynolds-outside-data"] = held
+        found["reynolds-outside-data"] = held
     top_mach = float(fields.mach.max())
     if disk.fit_range is None:  # Tables, not polynomials of one Mach number.
         if top_mach > disk.mach_limit:
-            said["mach-outside-data"] = (
+            found["mach-outside-data"] = (
                 f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant "
                 "above."
             )
-        return said
+        return found
     if top_mach > 0.5:
-        said["no-compressibility"] = (
+        found["no-compressibility"] = (
             f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}."
         )
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
-        said["mixed-section-data"] = (
+        found["mixed-section-data"] = (
             f"Part of the blade uses the polynomials {THESIS_NAME} for one Mach number and transition, the rest tables "
             "over Mach number, so the sections differ by their data, not by their airfoils."
         )
     low, high = disk.fit_range
     outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
     if (clamped := float(fields.cells @ outside.sum(axis=1))) > 0.0:
-        said["polynomial-clamped"] = (
+        found["polynomial-clamped"] = (
             f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped."
         )
-    return said
+    return found
 
 
 def _held_reynolds(trim: CaveatInputs) -> str:
     """Where the blade has Reynolds numbers beyond those of its section data; empty where it has none."""
     design, r = trim.design, trim.problem.disk.r
-    blade, said = design.rotor.blade, list[str]()
+    blade, words = design.rotor.blade, list[str]()
     for name in dict.fromkeys(span.section for span in blade.spans):
         section = blade.installed(name)
         if not section.of_reynolds:
@@ -280,11 +279,11 @@ def _held_reynolds(trim: CaveatInputs) -> str:
                 first, last = (f"{r[beyond][k]:.2f}" for k in (0, -1))
                 least, most = (f"{value:,.0f}" for value in (number[beyond].min(), number[beyond].max()))
                 where = f"From {first} to {last} R" if first != last else f"At {first} R"
-                said.append(
+                words.append(
                     f"{where} the Reynolds number is {least if least == most else f'{least} to {most}'}; the data of "
                     f"{name} at {end:,.0f} are used there."
                 )
-    return " ".join(said)
+    return " ".join(words)
 
 
 def _beyond_stops(trim: CaveatInputs) -> list[str]:
@@ -399,7 +398,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
     share, advice = _share(stalled, reached), _advice(design)
-    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *condition.unusual))
+    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual)))
     if design.hovering:
         return (
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "

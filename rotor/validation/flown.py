@@ -73,7 +73,7 @@ class MeasuredPower:
         here = design.condition
         pairs = ((here.mass, self.mass), (here.altitude, self.altitude))
         same = all(math.isclose(value, other, abs_tol=1e-6) for value, other in pairs)
-        return here.stand is None and same and not here.unusual
+        return here.stand is None and same and not design.unusual
 
     def same_flight(self, design: Design) -> bool:
         """Whether a design also flies at this advance ratio."""

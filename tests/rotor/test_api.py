@@ -297,7 +297,6 @@ WRONG = {
     "rotor.make_design(case='x.json')": (TypeError, "case is 'x.json', not a design: give what rotor.load_design"),
     "rotor.make_design(models='best')": (TypeError, "models is 'best', not rotor.Models"),
     "rotor.make_design(stand='wind')": (TypeError, "stand is 'wind', not a dictionary"),
-    "rotor.make_design('uh60a')": (TypeError, "got 'uh60a' without a name: name it"),
     "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
     "rotor.make_design(delta_isa=20)": (TypeError, "no argument 'delta_isa': write isa_offset_c=20"),
     "rotor.sweep(design, mass_kg=['heavy'])": (TypeError, "heavy"),

@@ -123,7 +123,7 @@ def csv_of(progress: ScheduleProgress) -> bytes:
     """The schedule as a CSV file; what is not known is blank."""
     text = io.StringIO()
     writer = csv.writer(text)
-    names = reported_names(leg.flight for leg in progress.plan.conditions)
+    names = reported_names(leg.flight.unusual for leg in progress.plan.conditions)
     writer.writerow((*names, *_COLUMNS))
     for k, leg in enumerate(progress.plan.conditions):
         optimum = progress.at(k)

@@ -159,9 +159,9 @@ class InflowModel(ABC):
     keeps_tips = False
     """Whether tip loss is part of its answer to the load, and cannot be left out."""
     usual = False
-    """Whether most rotor codes have such a model: a power is told with it as well, see `rotor.trim.doubt`."""
+    """Whether most rotor codes have such a model: `rotor.trim.doubt` gives the power with it as well."""
     in_index_band = False
-    """Whether the vibration index is told with it as well, see `rotor.trim.hub_loads`."""
+    """Whether `rotor.trim.hub_loads` gives the vibration index with it as well."""
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """Elements and azimuths on which it is solved: those asked for. ValueError for more than it can have."""

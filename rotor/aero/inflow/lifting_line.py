@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, at_points, influence, mean_influence, shed_correction
-from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, NOTHING_ADDED, PAIRS, UP, UT, section
+from rotor.aero.section import CHANNELS, FORCES, FZ, NO_INCREMENTS, NO_MOMENT, PAIRS, UP, UT, section
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
@@ -57,7 +57,7 @@ def circulation_gain(u_t: Array) -> tuple[Array, Array]:
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
-    still = data._replace(tables=data.held, friction=0.0, added=NOTHING_ADDED, **NO_MOMENT)
+    still = data._replace(tables=data.held, friction=0.0, added=NO_INCREMENTS, **NO_MOMENT)
     held, by_held, _ = section(c, still, slopes, False)
     gain, by_speed = circulation_gain(c[UT])
     f = np.concatenate([f, (gain * held[FZ])[None]])

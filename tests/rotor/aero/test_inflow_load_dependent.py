@@ -58,8 +58,8 @@ def test_the_converged_inflow_is_the_response_of_the_model(inflow: str, mu: floa
     solution = solve(design).require()
     problem = trim_problem(solution.design)
     expected = answer(problem, Analysis(solution).linear.point, Analysis(solution).linear.elements)
-    if problem.joined is not None:
-        expected = expected + problem.joined[0][:, None]
+    if problem.air.joined is not None:
+        expected = expected + problem.air.joined[0][:, None]
     assert_allclose(Analysis(solution).linear.elements.induced, expected, atol=1.1e-8 * solution.controls.lambda0)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 

@@ -11,7 +11,7 @@ from rotor import make_design
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.lifting_line import theodorsen
 from rotor.aero.problem import build_problem
-from rotor.aero.section import CHANNELS, FX, FZ, LOSS, NO_SCATTER, NOTHING_ADDED, RATE, TH, UP, UT, M, SectionData
+from rotor.aero.section import CHANNELS, FX, FZ, LOSS, NO_INCREMENTS, NO_SCATTER, RATE, TH, UP, UT, M, SectionData
 from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady_interface
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, bicubic_coefficients, mach_nodes
@@ -44,7 +44,7 @@ def flat(half_chord: Array) -> UnsteadyData:
     own = SectionData(
         half_solidity=half_solidity, section=np.zeros((len(none), 2), np.int64), weight=none,
         offset=np.zeros((len(none), 2)), tables=tables, held=tables[:0], cos_sweep=none + 1.0, sin_sweep=none,
-        tip_mach=1e-9, friction=0.0, lossy=False, unloaded=np.zeros((0, 0), np.bool_), added=NOTHING_ADDED,
+        tip_mach=1e-9, friction=0.0, lossy=False, unloaded=np.zeros((0, 0), np.bool_), added=NO_INCREMENTS,
         scatter=NO_SCATTER, moment_gain=half_solidity * chord, damping=damping, lag=none,
         moment_tables=np.zeros_like(tables[:, :, :, :1]), inertia=none,
     )  # fmt: skip

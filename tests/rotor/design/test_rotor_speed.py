@@ -1,6 +1,7 @@
 """Rotor speed as a quantity: what scales with Ω and what does not, and that it reaches everything from its row."""
 
 import argparse
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -8,14 +9,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor
-from explorer.model.inputs import inputs_of
+from explorer.model.inputs import inputs_of, with_rotor
 from explorer.model.sliders import SLIDERS
 from explorer.sharing.share import code_of, design_from
 from explorer.text.glossary import CONTROLS
 from rotor.command.common import add_design_arguments
 from rotor.command.common import design_from as design_from_flags
 from rotor.design.design import Design
-from rotor.design.quantities import CONDITION, SWEPT, Flight
+from rotor.design.quantities import CONDITION, NUMBERS, SWEPT, Flight
 from rotor.dynamics.torsion import blade_modes
 from rotor.files.design_file import design_from_record
 from rotor.optimisation.objective import read_mission
@@ -23,6 +24,7 @@ from rotor.study.series import sweep_columns
 from rotor.study.study import columns_of
 from rotor.study.study_file import parse_study
 from rotor.support.units import KNOT
+from rotor.trim.analysis import power_gradient
 
 SMALL: dict[str, Any] = {"elements": 12, "azimuths": 24}
 
@@ -107,32 +109,58 @@ def test_a_given_tip_mach_number_excludes_it():
 
 
 def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
-    """Flag, file, link, study, sweep, mission, JSON, report, slider and tooltip: of every row of the condition."""
+    """Flag, file, link, study, sweep, mission, JSON, report, slider and tooltip, wherever its place in a design is."""
     parser = argparse.ArgumentParser()
     add_design_arguments(parser)
     assert Flight.__annotations__.keys() == SWEPT.keys() - {"mu"}  # What a type checker sees of it.
-    for name, row in CONDITION.items():
+    for name, row in NUMBERS.items():
         if name == "mu":
             continue
         value = float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
-        design = rotor.make_design(**{name: value}, **SMALL)
+        changed: dict[str, Any] = {name: value}
+        design = rotor.make_design(**changed, **SMALL)
         assert row.of(design) == value
-        assert row.put(rotor.make_design(**SMALL), value).condition == design.condition
-        assert design_from_flags(parser.parse_args([f"--{row.flag}={value}"]), mu=0.2).condition == design.condition
+        assert row.put(rotor.make_design(**SMALL), value) == design
+        again = rotor.make_design(**SMALL).at(**changed)
+        assert again == design == rotor.make_design(case=again)
+        grid = [f"--{key}={size}" for key, size in SMALL.items()]
+        assert design_from_flags(parser.parse_args([f"--{row.flag}={value}", *grid]), mu=0.2) == design
         assert design_from_record(design.to_dict()) == design
         assert f"{row.word}={value:g}" in code_of(design)
         assert design_from(code_of(design)) == design
-        assert inputs_of(design).design().condition == design.condition
-        assert row.input in SLIDERS
+        shown = inputs_of(design)
+        assert shown.design() == design
+        assert (other := with_rotor(shown, "bo105").design()).fuselage == other.aircraft.fuselage
+        assert (row.input in SLIDERS) == (name in CONDITION)
         assert row.input in CONTROLS
         assert name in sweep_columns([design])
         study = parse_study(f"[axes]\nmu = [0.2]\n{name} = [{value}]")
         assert next(column.unit for column in columns_of(study) if column.name == name) == row.unit
+        assert name in rotor.solution_record(rotor.solve(design))
         mission = tmp_path / "mission.csv"
         mission.write_text(f"mu,{name}\n0.2,{value}\n", encoding="utf-8")
-        assert read_mission(mission, rotor.make_design(**SMALL))[0].flight == design.condition
+        if name in CONDITION:
+            assert read_mission(mission, rotor.make_design(**SMALL))[0].flight == design.condition
         if row.short:
             assert row.in_words(value) in repr(design)
+
+
+def test_drag_area_is_that_of_the_airframe():
+    """Parasite power ½ρV³f; its gradient is that of a trim with this area, and without one it is the rotor file's."""
+    design = rotor.make_design(mu=0.2, twist="linear:-12", drag_area_m2=2.0, off="download", **DREES)
+    power = rotor.solve(design).require().power
+    assert_allclose(power.parasite, 0.5 * design.condition.density * design.airspeed**3 * 2.0, rtol=1e-8)
+    table = rotor.sweep(design, drag_area_m2=[2.0, 3.0])
+    assert [one.design.fuselage.drag_area for one in table.solutions] == [2.0, 3.0]
+    slope, step = power_gradient(rotor.solve(design).require()), 0.02
+    ahead, behind = (rotor.solve(design.with_twist(f"linear:{-12.0 + s!r}")).power.total for s in (step, -step))
+    change = (ahead - behind) / math.radians(2.0 * step)
+    assert float(slope.by_element @ (slope.r - 0.75)) == pytest.approx(change, rel=2e-4)
+    assert "drag_area_m2" not in design.at(drag_area_m2=design.aircraft.fuselage.drag_area).to_dict()
+    with pytest.raises(ValueError, match=r"drag area 51 m² is outside 0…50 m²: choose a value inside"):
+        design.at(drag_area_m2=51.0)
+    with pytest.raises(TypeError, match="drag_area_m2 is 'small', not a number"):
+        rotor.make_design(drag_area_m2="small")  # pyright: ignore[reportArgumentType]
 
 
 # Load factor: a heavier aircraft with the same drag; in a climb power lifts the weight alone

@@ -290,8 +290,8 @@ def test_a_cluster_without_workers_ends_the_study_and_what_is_done_is_kept(
     cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """Dask itself waits for new workers without end."""
-    monkeypatch.setattr("rotor.study.cluster._COUNT_WORKERS_S", 1.0)
-    monkeypatch.setattr("rotor.study.cluster._PATIENCE", 2.0)
+    monkeypatch.setattr("rotor.study.cluster._QUERY_INTERVAL", 1.0)
+    monkeypatch.setattr("rotor.study.cluster._WORKER_TIMEOUT", 2.0)
     file, out = study_file(tmp_path), tmp_path / "out"
     distributed: Any = importlib.import_module("distributed")
     with distributed.Client(cluster.address) as client, pytest.raises(RuntimeError, match="no worker is left"):

@@ -26,7 +26,6 @@ from rotor.trim.export import solution_record
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from tests.solved import SAME, assert_same_trim
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 
@@ -327,14 +326,3 @@ def test_what_cannot_climb_says_so():
         make_design(climb_m_s=101.0)
     with pytest.raises(TypeError, match="climb_m_s is 'fast'"):
         make_design(climb_m_s="fast")  # pyright: ignore[reportArgumentType]
-
-
-@pytest.mark.parametrize("mu", [0.0, 0.2])
-def test_all_that_moves_the_rotor_up_through_the_air_is_read_in_one_place(mu: float, monkeypatch: pytest.MonkeyPatch):
-    """Level flight in air that sinks at 3 m/s is a climb at 3 m/s in still air: same power, same figure of merit."""
-    climbing = solve(make_design(mu=mu, mass_kg=7777.0, climb_m_s=3.0)).require()
-    merit = climbing.figure_of_merit
-    monkeypatch.setattr(Design, "vertical_speed", property(lambda self: self.condition.climb_speed + 3.0))
-    level = solve(make_design(mu=mu, mass_kg=7777.0)).require()
-    assert_same_trim(level, climbing)
-    assert level.figure_of_merit == (None if mu else pytest.approx(merit, rel=SAME))

@@ -47,7 +47,7 @@ def test_the_gradient_is_that_of_trims():
 def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch: pytest.MonkeyPatch):
     problem = trim_problem(make_design(**HEAVY))
     found = newton(problem, first_guess(problem))
-    monkeypatch.setattr("rotor.engine.newton._FORGETFUL", 0)
+    monkeypatch.setattr("rotor.engine.newton._MOST_FORGETFUL", 0)
     exact = newton(problem, first_guess(problem))
     assert found.converged
     assert exact.point.q == pytest.approx(found.point.q, rel=1e-7, abs=1e-12)

@@ -17,7 +17,7 @@ TWISTED = [make_design(mu=0.25, twist=f"linear:{rate}") for rate in RATES]
 ACTIVE = [make_design(mu=0.25, twist_per_rev=f"2:1:{phase}") for phase in (0, 90, 180)]
 BENT = [make_design(mu=0.3, bending=True, twist=f"linear:{rate}") for rate in (-10, -14)]
 STALLED = [make_design(mu=0.42, mass_kg=11_500, twist=twist) for twist in ("linear:0", "linear:-2")]
-BESIDE = [
+BATCH = [
     make_design(mu=0.0),
     make_design(mu=0.05, twist="linear:-8"),
     make_design(mu=0.05, twist="linear:-9"),
@@ -44,7 +44,7 @@ def test_designs_of_one_condition_have_their_own_answers(designs: list[Design]):
 
 
 def test_the_answer_depends_on_no_other_design():
-    mixed = [*TWISTED, *ACTIVE, *BESIDE]
+    mixed = [*TWISTED, *ACTIVE, *BATCH]
     alone = [solve(design) for design in mixed]
     order = np.random.default_rng(3).permutation(len(mixed)).tolist()
     same(solve_many(mixed[k] for k in order), [alone[k] for k in order])
