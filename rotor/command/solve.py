@@ -126,7 +126,8 @@ def _decimals(value: float) -> int:
 
 
 def report(solution: Solution) -> str:
-    design, controls = solution.design, solution.controls
+    """What `solve` prints: flight, power, controls, coefficients, and caveats."""
+    design = solution.design
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [
         f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, inflow {inflow}",
@@ -138,58 +139,7 @@ def report(solution: Solution) -> str:
     if design.active_twist is not None:
         lines.insert(1, f"active twist {waves_text(design.active_twist.harmonics)}")
     if solution.converged:
-        power = solution.power
-        degrees = {
-            "collective": controls.collective,
-            "cyclic 1c": controls.cyclic_1c,
-            "cyclic 1s": controls.cyclic_1s,
-            "shaft tilt": controls.shaft_tilt,
-            "coning": controls.coning,
-            "flap 1c": controls.flap_1c,
-            "flap 1s": controls.flap_1s,
-        }
-        powers = {
-            "total": power.total,
-            "main rotor": power.main_rotor,
-            "induced": power.induced,
-            "profile": power.profile,
-            "parasite": power.parasite,
-            **({"climb": power.climb} if design.vertical_speed else {}),
-            "tail rotor": power.tail,
-        }
-        if design.condition.stand is not None:
-            powers = {
-                "shaft": power.shaft,
-                "induced": power.induced,
-                "profile": power.profile,
-                "propulsive": power.parasite,
-                **({"climb": power.climb} if design.vertical_speed else {}),
-            }
-        symbol, size = power_unit(*powers.values())
-        digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
-        lines += ["", *(f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items())]
-        lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
-        if (band := between_drag_areas(solution)) is not None:
-            low, high = (end.design.fuselage.drag_area for end in band)
-            less, more = (end.power.total / size for end in band)
-            between = f"{less:.1f} … {more:.1f} {symbol} for drag areas {low:g} … {high:g} m²"
-            lines += [f"{'total':<12}{between}, the range of the sources"]
-        merit, factor = solution.figure_of_merit, solution.induced_power_factor
-        lines += ["", f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
-        lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
-        if design.condition.stand is not None:
-            lift, drag = solution.lift_and_drag
-            twisting = f"{solution.torque:z.{_decimals(solution.torque)}f} N m"
-            fine = _decimals(math.hypot(lift, drag))
-            lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {twisting}"]
-            lines += [f"lift {lift:z.{fine}f} N, drag {drag:z.{fine}f} N (wind axes)"]
-        lines += (
-            [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
-        )
-        lines += [
-            f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
-            f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust"
-        ]
+        lines += ["", *_powers(solution), "", *_coefficients(solution)]
     if design.models.bending and solution.converged and (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         lines += [
@@ -202,3 +152,49 @@ def report(solution: Solution) -> str:
         ]
     lines += [wrapped(f"caveat: {caveat.sentence}", "  ") for caveat in solution.caveats]
     return "\n".join(lines)
+
+
+def _powers(solution: Solution) -> list[str]:
+    power, controls, stand = solution.power, solution.controls, solution.design.condition.stand
+    powers = {"shaft": power.shaft} if stand else {"total": power.total, "main rotor": power.main_rotor}
+    powers |= {"induced": power.induced, "profile": power.profile}
+    powers |= {"propulsive" if stand else "parasite": power.parasite}
+    powers |= {"climb": power.climb} if solution.design.vertical_speed else {}
+    powers |= {} if stand else {"tail rotor": power.tail}
+    degrees = {
+        "collective": controls.collective,
+        "cyclic 1c": controls.cyclic_1c,
+        "cyclic 1s": controls.cyclic_1s,
+        "shaft tilt": controls.shaft_tilt,
+        "coning": controls.coning,
+        "flap 1c": controls.flap_1c,
+        "flap 1s": controls.flap_1s,
+    }
+    symbol, size = power_unit(*powers.values())
+    digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
+    lines = [f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items()]
+    lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
+    if (band := between_drag_areas(solution)) is not None:
+        low, high = (end.design.fuselage.drag_area for end in band)
+        less, more = (end.power.total / size for end in band)
+        between = f"{less:.1f} … {more:.1f} {symbol} for drag areas {low:g} … {high:g} m²"
+        lines += [f"{'total':<12}{between}, the range of the sources"]
+    return lines
+
+
+def _coefficients(solution: Solution) -> list[str]:
+    design, merit, factor = solution.design, solution.figure_of_merit, solution.induced_power_factor
+    lines = [f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
+    lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
+    if design.condition.stand is not None:
+        lift, drag = solution.lift_and_drag
+        twisting = f"{solution.torque:z.{_decimals(solution.torque)}f} N m"
+        fine = _decimals(math.hypot(lift, drag))
+        lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {twisting}"]
+        lines += [f"lift {lift:z.{fine}f} N, drag {drag:z.{fine}f} N (wind axes)"]
+    lines += [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
+    return [
+        *lines,
+        f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
+        f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust",
+    ]

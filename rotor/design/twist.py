@@ -359,6 +359,10 @@ def parse_twist(
         for other in others:
             law = SumTwist(law, parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch))
         return law
+    return _single_twist(spec, builtin, ideal_tip_pitch)
+
+
+def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable[[], float] | None) -> TwistLaw:
     kind, _, rest = spec.strip().partition(":")
     if not rest and builtin is not None and kind in ("builtin", builtin.spec()):
         return builtin

@@ -14,13 +14,14 @@ from rotor.aero.section import stall_margins
 from rotor.aero.unsteady_section import apparent
 from rotor.columns.bending import coordinates_of
 from rotor.columns.flight import disk_sums
+from rotor.design.design import Design
 from rotor.engine.waves import wave_grid
 from rotor.support.units import power_text
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import axial_ring, vortex_ring
 from rotor.trim.newton import TrimResult
-from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
+from rotor.trim.power import PowerBudget, control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import CaveatInputs, caveats, failure_sentence, implausible
 
@@ -48,28 +49,11 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
     reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
-    converged = result.converged
-    message = "Trimmed."
-    if not converged:
-        near = result.nearest  # Without one, the sentence is about the last attempt.
-        there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
-        message = vortex_ring(design) or failure_sentence(design, result.reached, there)
-    if not result.steady:
-        converged, message = False, axial_ring(design)
-    if converged and (refused := implausible(problem, elements, total)):
-        converged, message = False, refused
-    climb = design.vertical_speed
-    least = 0.0 if climb >= 0.0 else -math.inf
-    if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
-        converged = False
-        message = (
-            f"Not trimmed: the trim found needs {power_text(power.main_rotor)}, impossible in "
-            f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
-        )
+    refused = _refused(result, stalled) or implausible(problem, elements, total) or _impossible(design, power)
     solution = Solution(
         design=design,
-        status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
-        message=message,
+        status=Status.NOT_CONVERGED if refused else Status.CONVERGED,
+        message=refused or "Trimmed.",
         caveats=(),
         controls=elements.state,
         disk=fields,
@@ -91,8 +75,30 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         deflections=_deflections(result),
         freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
     )
-    exceeded = tuple(caveats(CaveatInputs(problem, solution))) if converged else ()
+    exceeded = () if refused else tuple(caveats(CaveatInputs(problem, solution)))
     return Analysis(replace(solution, caveats=exceeded), result.linear)
+
+
+def _refused(result: TrimResult, stalled: float) -> str:
+    """Why there is no trim, as a sentence; `stalled`: part of the disk at the last attempt."""
+    if not result.steady:
+        return axial_ring(result.problem.design)
+    if result.converged:
+        return ""
+    near, design = result.nearest, result.problem.design  # Without one, the sentence is about the last attempt.
+    there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
+    return vortex_ring(design) or failure_sentence(design, result.reached, there)
+
+
+def _impossible(design: Design, power: PowerBudget) -> str:
+    """Why no flight needs this power, as a sentence."""
+    climb = design.vertical_speed
+    if design.condition.stand is not None or (0.0 if climb >= 0.0 else -math.inf) < power.main_rotor < math.inf:
+        return ""
+    return (
+        f"Not trimmed: the trim found needs {power_text(power.main_rotor)}, impossible in "
+        f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
+    )
 
 
 def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
