@@ -1,6 +1,6 @@
 """The page of one client: where its parts stand, and what each of them does when the session calls.
 
-The parts themselves are in `explorer/tabs`, the scene in `explorer/scene`.
+The parts themselves are in `explorer/widgets`, the scene in `explorer/scene`.
 """
 
 import math
@@ -27,25 +27,6 @@ from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
-from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.context import SharedServices, Tab, TabContext
-from explorer.tabs.controls import DesignControls, SessionCallbacks
-from explorer.tabs.design_files import FilePanel, add_rotor_upload
-from explorer.tabs.display import Display
-from explorer.tabs.export_panel import ExportPanel
-from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Keyboard, Layout, Sections
-from explorer.tabs.lecture.lecture_panel import LecturePanel
-from explorer.tabs.lecture.presentation_banner import PresentationBanner
-from explorer.tabs.optimise.map_panel import MapPanel
-from explorer.tabs.optimise.optimise_panel import OptimisedDesign, OptimisePanel
-from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.panel_updater import PanelUpdater
-from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import drawer_texts
-from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.tabs.vibration_panel import VibrationPanel
-from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ASSESSED
 from explorer.views.dial import DIAL
@@ -54,11 +35,30 @@ from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, SetGrabbed
+from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
+from explorer.widgets.context import SharedServices, Tab, TabContext
+from explorer.widgets.controls import DesignControls, SessionCallbacks
+from explorer.widgets.design_files import FilePanel, add_rotor_upload
+from explorer.widgets.display import Display
+from explorer.widgets.export_panel import ExportPanel
+from explorer.widgets.history_panel import HistoryPanel
+from explorer.widgets.layout import Keyboard, Layout, Sections
+from explorer.widgets.lecture.lecture_panel import LecturePanel
+from explorer.widgets.lecture.presentation_banner import PresentationBanner
+from explorer.widgets.optimise.map_panel import MapPanel
+from explorer.widgets.optimise.optimise_panel import OptimisedDesign, OptimisePanel
+from explorer.widgets.optimise.schedule_panel import SchedulePanel
+from explorer.widgets.probe_panel import ProbePanel
+from explorer.widgets.results import drawer_texts
+from explorer.widgets.twist_curve import TwistCurveEditor
+from explorer.widgets.vibration_panel import VibrationPanel
+from explorer.widgets.views import SceneViews, SettingsPanel, TopBar
 from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 

@@ -35,8 +35,8 @@ from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page
-from explorer.tabs.context import SharedServices
-from explorer.tabs.controls import SessionCallbacks
+from explorer.widgets.context import SharedServices
+from explorer.widgets.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Solution

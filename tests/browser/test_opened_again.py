@@ -15,8 +15,8 @@ from watched import COARSE, LARGE, Watched, opened
 from explorer.app import App
 from explorer.model import actuator_inputs
 from explorer.model.inputs import Inputs
-from explorer.tabs.background import PoolAnswers
-from explorer.tabs.layout import DRAWERS
+from explorer.widgets.layout import DRAWERS
+from explorer.workers.background import PoolAnswers
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 START = Inputs(law="two", preset="thesis")

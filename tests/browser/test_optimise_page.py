@@ -9,9 +9,9 @@ from playwright.sync_api import Browser
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.charts.power_map import place_on
 from explorer.model.inputs import Inputs, with_optimum
 from explorer.session import Session
-from explorer.tabs.optimise.power_map import place_on
 from rotor.trim.solve import solve
 
 pytestmark = pytest.mark.browser

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from explorer.tabs.background import BackgroundWork
+from explorer.workers.background import BackgroundWork
 from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobStarted
 
 

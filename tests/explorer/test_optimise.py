@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from explorer.charts.concept import concept_picture
+from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
+from explorer.model import search_run as mission
 from explorer.model.inputs import baseline_of
+from explorer.model.search_run import SearchFrame, SearchRequest, SearchRun
 from explorer.model.units import AVIATION, SI
 from explorer.sharing.share import code_of, design_from
-from explorer.tabs.optimise import search_run as mission
-from explorer.tabs.optimise import search_words as search_text
-from explorer.tabs.optimise.optimise_panel import same_but_twist
-from explorer.tabs.optimise.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
-from explorer.tabs.optimise.search_run import SearchFrame, SearchRequest, SearchRun
-from explorer.tabs.optimise.search_words import concept_picture
+from explorer.text import search_words as search_text
 from explorer.views.notice import comparison
+from explorer.widgets.optimise.optimise_panel import same_but_twist
 from explorer.workers.solver import MapLevel, MapTask, SearchTask
 from rotor import doubt
 from rotor.files.make_design import make_design
@@ -72,7 +72,7 @@ class TestSearchRun:
 
     def test_playing_goes_on_in_order_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.model.search_run.time.monotonic", lambda: now)
         seen = []
         for _ in range(10 * len(run.frames)):
             frame = run.shown()
@@ -89,7 +89,7 @@ class TestSearchRun:
 
     def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.model.search_run.time.monotonic", lambda: now)
         run = SearchRun(SearchRequest().search(quick(), mission.legs))
         for k in range(100):
             run.frames.append(SearchFrame(k, 1000.0 - k, quick()))

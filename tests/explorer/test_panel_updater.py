@@ -9,8 +9,6 @@ from typing import Any
 import pytest
 
 from explorer.model.inputs import OPENING
-from explorer.tabs.background import PoolAnswers
-from explorer.tabs.panel_updater import PanelUpdater
 from explorer.views.page_state import (
     Effect,
     MoveSliders,
@@ -22,6 +20,8 @@ from explorer.views.page_state import (
     SetGrabbed,
     Tell,
 )
+from explorer.views.panel_updater import PanelUpdater
+from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 
 NOW = PageState(OPENING, None, None)
@@ -63,7 +63,7 @@ class Page:
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, tuple[Call, ...], float]]:
     """What is asked of worker processes; the clock stands still."""
     all_asked: list[tuple[int, tuple[Call, ...], float]] = []
-    monkeypatch.setattr("explorer.tabs.panel_updater.time", SimpleNamespace(monotonic=lambda: 7.0))
+    monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: 7.0))
     monkeypatch.setattr(PoolAnswers, "ask", lambda self, *how: all_asked.append((self._urgency, *how)))
     return all_asked
 
@@ -100,7 +100,7 @@ def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[
     """Opened on a page at rest, it is worked on at once; what lifts the blade out is no hand."""
     clock = iter((7.0, 7.05, 9.0, 9.1, 9.2))
     page = Page(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 0.2),)))
-    monkeypatch.setattr("explorer.tabs.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
     page.follower.follow(NOW)
     page.follower.follow(replace(NOW, ui=OpenPanels(lifted=True)))
     page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
@@ -127,7 +127,7 @@ def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypa
     assert LENGTH not in page.follower.answers()
     monkeypatch.setattr(PoolAnswers, "failures", {LENGTH: "It cannot be told."})
     assert page.follower.answers()[LENGTH] == "It cannot be told."
-    monkeypatch.setattr("explorer.tabs.panel_updater.all_known", lambda: {LENGTH: 4})
+    monkeypatch.setattr("explorer.views.panel_updater.all_known", lambda: {LENGTH: 4})
     assert page.follower.answers()[LENGTH] == 4
     page.follower.stop()
 

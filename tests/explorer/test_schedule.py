@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise.schedule_view import ScheduleProgress
+from explorer.charts import schedule_view
+from explorer.charts.schedule_view import ScheduleProgress
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS

@@ -26,8 +26,8 @@ from explorer.picture.picture import (
     turned_blades,
 )
 from explorer.sharing.share import inputs_from
-from explorer.tabs import vibration_panel
-from explorer.tabs.vibration_panel import VibrationPanel
+from explorer.widgets import vibration_panel
+from explorer.widgets.vibration_panel import VibrationPanel
 from rotor.columns.bending import coordinates_of
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis

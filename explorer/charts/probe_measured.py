@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from explorer.charts.svg import chart_box
 from explorer.colours import LIMIT, NOW, THIS
 from explorer.model.stand import airload_curves, as_measured, condition_of, is_at, nearest_case
 from explorer.model.units import number
-from explorer.tabs.element import Probe
-from explorer.tabs.live_charts import chart_box
+from explorer.picture.element import Probe
 from explorer.text.glossary import MEASURED, tip
 from explorer.text.readout import dash
 from rotor import Solution

@@ -13,12 +13,12 @@ from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
-from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.layout import by_hand
-from explorer.tabs.probe_panel import ProbePanel
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
+from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.layout import by_hand
+from explorer.widgets.probe_panel import ProbePanel
 from rotor import Solution
 from rotor.support.markup import tag
 

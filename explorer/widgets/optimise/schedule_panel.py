@@ -6,15 +6,15 @@ from typing import Any
 
 import viser
 
+from explorer.charts import schedule_view
+from explorer.charts.schedule_view import ScheduleProgress
+from explorer.model import search_run as mission
 from explorer.model.inputs import with_optimum
-from explorer.tabs.background import BackgroundWork
-from explorer.tabs.context import TabContext
-from explorer.tabs.live_charts import PanelChart
-from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise import search_run as mission
-from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.schedule_view import ScheduleProgress
 from explorer.text.glossary import hint
+from explorer.widgets.context import TabContext
+from explorer.widgets.elements import PanelChart, WorkButtons
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
+from explorer.workers.background import BackgroundWork
 from explorer.workers.solver import FixedPowers, ScheduleTask
 from rotor import Design
 from rotor.optimisation import ScheduleOptimum, SchedulePlan, WeightedCondition
@@ -42,7 +42,7 @@ class SchedulePanel(BackgroundWork):
         self._mission = gui.add_text("Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission"))
         self._mission.on_update(lambda _: context.wake())
         self._read = gui.add_html("")
-        self.add_buttons(gui, "Compute schedule", "Stop schedule", ("schedule", "schedule_stop"))
+        self._buttons = WorkButtons(gui, self, "Compute schedule", "Stop schedule", ("schedule", "schedule_stop"))
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         self._results = gui.add_button_group(
@@ -83,7 +83,7 @@ class SchedulePanel(BackgroundWork):
         kind = "running" if self.running else "idle" if self._progress is None else "done"
         self._state.content = tag("div.rx.rx-dim", self.line, data_explorer="schedule-state", data_kind=kind)
         progress = self._progress
-        self.show_progress(progress and (progress.part_done if self.running else 1.0), self.running)
+        self._buttons.show(progress and (progress.part_done if self.running else 1.0), self.running)
         if progress is None:
             return
         self._results.visible = not self.running and progress.at(None) is not None

@@ -25,8 +25,8 @@ from explorer.model.units import SI
 from explorer.parts.presses import KnotMove, KnotPress
 from explorer.parts.results import LeastPower
 from explorer.parts.stage import Knot, RoleLines, TwistingPart, TwistPart
-from explorer.tabs.context import TabContext
 from explorer.views.page_state import HeldStation
+from explorer.widgets.context import TabContext
 from rotor import Design, Solution
 from rotor.design import REFERENCE_RADIUS as DATUM
 from rotor.support.arrays import Array

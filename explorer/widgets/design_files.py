@@ -14,8 +14,8 @@ from explorer.model.inputs import OWN, inputs_of, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.sharing import share
 from explorer.sharing.share import VIEW, Address, view_code
-from explorer.tabs.context import Tab, TabContext
 from explorer.text.glossary import hint
+from explorer.widgets.context import Tab, TabContext
 from rotor import Aircraft, Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables

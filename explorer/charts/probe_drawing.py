@@ -6,13 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from explorer.charts import svg
-from explorer.charts.svg import Point
+from explorer.charts.probe_measured import HEIGHT as CHART_HEIGHT
+from explorer.charts.probe_measured import lift_chart, with_indices
+from explorer.charts.svg import Point, chart_box
 from explorer.colours import NOW, THIS
 from explorer.model.units import degrees, number
-from explorer.tabs.element import FlowRegion, Probe, outline, sections_of, where
-from explorer.tabs.live_charts import chart_box
-from explorer.tabs.probe_measured import HEIGHT as CHART_HEIGHT
-from explorer.tabs.probe_measured import lift_chart, with_indices
+from explorer.picture.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.text.glossary import tip
 from explorer.text.readout import dash
 from rotor import Solution

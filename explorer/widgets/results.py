@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from explorer.tabs.context import TabContext
 from explorer.text.status import status_panel, trust_page
 from explorer.views.waterfall import WATERFALL_WORDS, waterfall_chart
+from explorer.widgets.context import TabContext
 from rotor.support.markup import Markup, tag
 
 

@@ -6,13 +6,13 @@ from functools import partial
 import numpy as np
 import viser
 
+from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words
 from explorer.model.inputs import with_optimum
 from explorer.parts.presses import MapPress
-from explorer.tabs.background import BackgroundWork
-from explorer.tabs.context import TabContext
-from explorer.tabs.optimise.optimise_panel import OptimisePanel
-from explorer.tabs.optimise.power_map import PowerMap, default_axes, drawing, least_words
 from explorer.text.glossary import hint
+from explorer.widgets.context import TabContext
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
+from explorer.workers.background import BackgroundWork
 from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.optimisation import nearest

@@ -11,9 +11,6 @@ from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any
 
-import viser
-
-from explorer.text.glossary import hint
 from explorer.workers.call import Call
 from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, Processes
 from rotor.support.worker_process import Task
@@ -66,22 +63,6 @@ class BackgroundWork:
         self._job = self._pool.begin(
             task, lambda news: self._heard(hear, news), limit=self._limit, urgency=self._urgency
         )
-
-    def add_buttons(self, gui: viser.GuiApi, begin: str, stop: str, entries: tuple[str, str]) -> None:
-        """Buttons that begin and stop it, and the bar of its progress. `entries`: of the glossary, for the buttons."""
-        first, second = map(hint, entries)
-        self._begin = gui.add_button(begin, icon=viser.Icon.PLAYER_PLAY, hint=first)
-        self._halt = gui.add_button(stop, icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=second)
-        self._bar = gui.add_progress_bar(0.0)
-        self._begin.on_click(lambda _: self.begin())
-        self._halt.on_click(lambda _: self.halt())
-
-    def show_progress(self, part_done: float | None, under_way: bool) -> None:
-        """`part_done`: 0…1; None where nothing was begun yet."""
-        self._begin.visible, self._halt.visible = not under_way, under_way
-        self._bar.visible = part_done is not None
-        if part_done is not None:
-            self._bar.value, self._bar.animated = round(100.0 * part_done, 1), under_way
 
     def halt(self) -> None:
         """Stop what is under way, and keep what it found."""

@@ -18,12 +18,12 @@ from explorer.model.session_state import SessionState
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
-from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.history_panel import HistoryPanel
 from explorer.text.glossary import hint
 from explorer.views.assessed import Assessed, assessed, effect_asked
 from explorer.views.page_state import PageState
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
+from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.history_panel import HistoryPanel
 from rotor.support.markup import tag
 
 _log = logging.getLogger(__name__)

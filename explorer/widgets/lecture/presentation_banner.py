@@ -14,10 +14,10 @@ from explorer.hosting import browser
 from explorer.model.session_state import SessionState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
 from explorer.sharing.share import Address
-from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.lecture.lecture_panel import LecturePanel
-from explorer.tabs.views import SceneViews
 from explorer.text.glossary import hint
+from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.lecture.lecture_panel import LecturePanel
+from explorer.widgets.views import SceneViews
 from rotor.support.markup import Content, tag
 
 _CAMERA_EVERY = 0.1

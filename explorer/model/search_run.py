@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from explorer.tabs.background import FRAME
+from explorer.workers.background import FRAME
 from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (

@@ -12,8 +12,8 @@ from explorer.model.units import UNITS, number
 from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.scene.scene import ROTOR
-from explorer.tabs.context import TabContext
 from explorer.text.readout import index_unit
+from explorer.widgets.context import TabContext
 from rotor import Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS

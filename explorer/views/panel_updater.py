@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 from explorer.hosting.browser import Bridge
-from explorer.tabs.background import PoolAnswers, all_known
 from explorer.views.page_state import (
     Effect,
     OpenPanels,
@@ -19,6 +18,7 @@ from explorer.views.page_state import (
     Questions,
     SetGrabbed,
 )
+from explorer.workers.background import PoolAnswers, all_known
 from rotor.support.processes import Processes
 
 _NOTHING = object()

@@ -14,14 +14,14 @@ from explorer.model.actuator_inputs import (
 )
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
-from explorer.tabs.actuator.actuator_controls import ActuatorControls
-from explorer.tabs.actuator.lifted_scene import LiftedScene
-from explorer.tabs.background import all_known
-from explorer.tabs.context import TabContext
 from explorer.views.flight import BY_HAND, after_flight
 from explorer.views.page_state import SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, read_place
+from explorer.widgets.actuator.actuator_controls import ActuatorControls
+from explorer.widgets.actuator.lifted_scene import LiftedScene
+from explorer.widgets.context import TabContext
 from explorer.workers import solver
+from explorer.workers.background import all_known
 from rotor import Design, Solution
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 

@@ -4,7 +4,6 @@ Of the turn this has what the page needs to go with the section, over the azimut
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -16,8 +15,6 @@ from explorer.model.units import number
 from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.picture.polar import DRAG_DIVERGENCE
-from explorer.scene.controller import SceneController
-from explorer.tabs.context import TabContext
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.aero.display import STALLED
@@ -277,40 +274,6 @@ _ANGLES = 91
 """Angles of each lift curve."""
 _LEAST_REACH = 14.0
 """The lift curve is drawn at least to this angle of attack either way [°]."""
-
-
-class RideAlong:
-    """The page moves camera, rotor and arrows by itself; a new answer during the turn changes what it reads."""
-
-    def __init__(self, context: TabContext, scene: SceneController, playing: Callable[[], bool]) -> None:
-        """`playing`: whether the rotor turns by itself."""
-        self._context, self._scene, self._playing = context, scene, playing
-        self._at: tuple[float, float] | None = None
-        """r/R and the azimuth where the turn began [°]."""
-        self._shown: Solution | None = None
-
-    def begin(self, solution: Solution, r: float, psi_deg: float) -> None:
-        if self._scene.camera is not None:
-            self._scene.camera.hold(True)
-        self._context.layout.show_drawer("")
-        self._scene.play(True)
-        self._at, self._shown = (r, psi_deg), None
-        self.show(solution)
-
-    def show(self, solution: Solution) -> None:
-        if self._at is not None and solution is not self._shown:
-            self._shown = solution
-            self._context.bridge.set(ride=turn_of(solution, *self._at))
-
-    def end(self) -> None:
-        if self._at is None:
-            return
-        self._at = self._shown = None
-        self._context.bridge.set(ride=None)
-        if not self._playing():
-            self._scene.play(False)
-        if self._scene.camera is not None:
-            self._scene.camera.hold(False)
 
 
 def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:

@@ -5,19 +5,21 @@ import threading
 from collections.abc import Callable
 from dataclasses import replace
 
+from explorer.charts.concept import concept_picture
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
+from explorer.model.search_run import OBJECTIVES, SearchRequest, SearchRun
+from explorer.model.search_run import legs as mission_legs
 from explorer.model.session_state import SessionState
 from explorer.parts.frame import NoticePart
 from explorer.sharing.share import Address, code_of, design_from
-from explorer.tabs.background import FRAME, BackgroundWork, PoolAnswers
-from explorer.tabs.context import TabContext
-from explorer.tabs.form import WidgetForm
-from explorer.tabs.layout import by_hand
-from explorer.tabs.optimise import search_words as text
-from explorer.tabs.optimise.search_run import OBJECTIVES, SearchRequest, SearchRun
-from explorer.tabs.optimise.search_run import legs as mission_legs
+from explorer.text import search_words as text
 from explorer.text.glossary import hint
+from explorer.widgets.context import TabContext
+from explorer.widgets.elements import WorkButtons
+from explorer.widgets.form import WidgetForm
+from explorer.widgets.layout import by_hand
+from explorer.workers.background import FRAME, BackgroundWork, PoolAnswers
 from explorer.workers.call import Call
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
@@ -80,7 +82,7 @@ class OptimisePanel(BackgroundWork):
             form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
             form.box("limit_index", "Limit vibration", False)
             form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
-        self.add_buttons(gui, "Optimise", "Stop", ("optimise", "stop"))
+        self._buttons = WorkButtons(gui, self, "Optimise", "Stop", ("optimise", "stop"))
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
         self._result = gui.add_html("")
@@ -141,7 +143,7 @@ class OptimisePanel(BackgroundWork):
 
     def hold(self, held: bool) -> None:
         """Leave the page to a presenter, whose design is shown in place of a search, or give it back."""
-        self._begin.disabled = held
+        self._buttons.begin.disabled = held
         if held:
             self.withdraw()
 
@@ -177,9 +179,9 @@ class OptimisePanel(BackgroundWork):
         self.form.show({name: request.asks_for(name) for name in _NUMBERS})
         concept = request.known_concept()
         words = tag("div.rx-dim.rx-small", concept.explanation)
-        self._picture.content = tag("div.rx.rx-concept", text.concept_picture(concept), words)
+        self._picture.content = tag("div.rx.rx-concept", concept_picture(concept), words)
         under_way = run is not None and run.under_way
-        self.show_progress(None if run is None else run.part_done, under_way)
+        self._buttons.show(None if run is None else run.part_done, under_way)
         self._standing.content = text.standing(run, self.line)
         self._show_ranges(design)
         if run is None:

@@ -14,9 +14,9 @@ from explorer.model.session_state import Analyses, Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import Units, units_of
 from explorer.sharing.presentation import Presentations
-from explorer.tabs.controls import DesignControls
-from explorer.tabs.display import Display
-from explorer.tabs.layout import Keyboard, Layout
+from explorer.widgets.controls import DesignControls
+from explorer.widgets.display import Display
+from explorer.widgets.layout import Keyboard, Layout
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 

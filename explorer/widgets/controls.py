@@ -27,9 +27,9 @@ from explorer.model.sliders import limits, slider
 from explorer.model.stand import condition_of
 from explorer.model.undo import LongestPause, PowerTracker
 from explorer.model.units import SI, Units
-from explorer.tabs.form import StandControls, WidgetForm
 from explorer.text import readout
 from explorer.text.glossary import hint
+from explorer.widgets.form import StandControls, WidgetForm
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.design.aircraft import Aircraft

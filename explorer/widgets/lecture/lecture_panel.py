@@ -19,11 +19,11 @@ from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import StepFacts, facts_at
 from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
-from explorer.tabs.background import PoolAnswers
-from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.layout import by_hand
-from explorer.tabs.views import SceneViews
 from explorer.text.glossary import hint
+from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.layout import by_hand
+from explorer.widgets.views import SceneViews
+from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 from rotor.support.markup import tag
 

@@ -2,6 +2,7 @@
 
 import math
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
@@ -10,6 +11,8 @@ import numpy as np
 import viser
 
 from explorer import colours
+from explorer.charts.probe_drawing import outline, probe_panel
+from explorer.charts.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
@@ -17,15 +20,13 @@ from explorer.parts.presses import SectionPress
 from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
+from explorer.picture.element import Probe, probe, turn_of
 from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, flown_twist, rotate
 from explorer.scene.controller import TURN_RATE, SceneController
-from explorer.tabs.context import Player, Tab, TabContext
-from explorer.tabs.element import Probe, RideAlong, probe
-from explorer.tabs.layout import COARSE, by_hand
-from explorer.tabs.probe_drawing import outline, probe_panel
-from explorer.tabs.probe_measured import BesideMeasured, beside_measured, measured_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
+from explorer.widgets.context import Player, Tab, TabContext
+from explorer.widgets.layout import COARSE, by_hand
 from rotor import Rotor, Solution
 from rotor.support.arrays import Array
 from rotor.support.markup import Markup
@@ -120,6 +121,40 @@ def _on_upper_side(rotor: Rotor, probe: Probe, pitch: float) -> Array:
     chord, top = float(rotor.blade.chord(probe.r)), float(outline(probe.section)[:, 1].max())
     aft = 0.25 * chord + float(swept_back(rotor, probe.r))
     return rotate(axis_rotation(0, pitch), np.array([0.0, -aft, top * chord]))
+
+
+class RideAlong:
+    """The page moves camera, rotor and arrows by itself; a new answer during the turn changes what it reads."""
+
+    def __init__(self, context: TabContext, scene: SceneController, playing: Callable[[], bool]) -> None:
+        """`playing`: whether the rotor turns by itself."""
+        self._context, self._scene, self._playing = context, scene, playing
+        self._at: tuple[float, float] | None = None
+        """r/R and the azimuth where the turn began [°]."""
+        self._shown: Solution | None = None
+
+    def begin(self, solution: Solution, r: float, psi_deg: float) -> None:
+        if self._scene.camera is not None:
+            self._scene.camera.hold(True)
+        self._context.layout.show_drawer("")
+        self._scene.play(True)
+        self._at, self._shown = (r, psi_deg), None
+        self.show(solution)
+
+    def show(self, solution: Solution) -> None:
+        if self._at is not None and solution is not self._shown:
+            self._shown = solution
+            self._context.bridge.set(ride=turn_of(solution, *self._at))
+
+    def end(self) -> None:
+        if self._at is None:
+            return
+        self._at = self._shown = None
+        self._context.bridge.set(ride=None)
+        if not self._playing():
+            self._scene.play(False)
+        if self._scene.camera is not None:
+            self._scene.camera.hold(False)
 
 
 LONGEST = 600.0

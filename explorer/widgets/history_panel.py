@@ -14,10 +14,10 @@ from explorer.model.undo import History, KeptDesign
 from explorer.model.units import SI, Units
 from explorer.sharing import share
 from explorer.sharing.share import StoredHistory
-from explorer.tabs.context import Tab, TabContext
-from explorer.tabs.layout import by_hand
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
+from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.layout import by_hand
 from rotor import Solution, solve
 from rotor.support.markup import Markup, tag
 

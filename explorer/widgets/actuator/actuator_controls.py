@@ -7,9 +7,9 @@ from typing import Any
 import viser
 
 from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
-from explorer.tabs.form import WidgetForm
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import validation_words
+from explorer.widgets.form import WidgetForm
 from rotor.actuator.verdict import Against
 from rotor.design.quantity import Slider
 from rotor.optimisation import find_concept
