@@ -16,7 +16,7 @@ from explorer.hosting.browser import Bridge, set_query
 from explorer.hosting.messages import PageFacts
 from explorer.model.actuator_inputs import AT_REST, ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, Reading, SessionState
+from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, PinResult, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
 from explorer.parts.presses import IdlePress
@@ -29,16 +29,18 @@ from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ASSESSED
+from explorer.views.bar import BAR
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE
-from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, SetGrabbed
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
+from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
@@ -57,14 +59,13 @@ from explorer.widgets.optimise.schedule_panel import SchedulePanel
 from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
-from explorer.widgets.vibration_panel import VibrationPanel
-from explorer.widgets.views import SceneViews, SettingsPanel, TopBar
+from explorer.widgets.views import SceneViews, SettingsPanel
 from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
 _BRAND = (37, 99, 235)
 _ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
-PANELS = POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+PANELS = BAR, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
 
 
@@ -117,7 +118,6 @@ class Page:
         with banner:
             secret = facts.kept.get(PRESENT, "")
             self._presentation = PresentationBanner(context, shared.presentations, address, secret, facts.page)
-        self.top = TopBar(context)
         rotor = start.aircraft.rotor_for(start.preset)
         self.camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
@@ -139,7 +139,6 @@ class Page:
         texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
             self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context)
         with layout.in_drawer("open"):
             opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
             with opened["Files"]:
@@ -152,12 +151,14 @@ class Page:
             export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
             self.lecture = LecturePanel(context, self.camera, self._views)
-            self._presentation.begin(self.lecture, self._views, self._hold)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
-            PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform
+            PANELS, bridge, keyboard.bind, texts, pool, callbacks.wake, self.now, self._pressed, self._perform
         )
+        layout.watchers.append(partial(self.follower.follow, (BAR,).__contains__))
+        with layout.in_drawer("lecture"):
+            self._presentation.begin(self.lecture, self._views, self._hold)
         following = self.probe, settings, self.history, self.file, export, self.lecture, self._presentation
         self.tabs: tuple[Tab, ...] = following
         self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
@@ -171,13 +172,13 @@ class Page:
         if self.actuator.hand().on_stage and not context.held:
             layout.show_mode("actuate")
         self.file.begin(problems)
-        self.top.refresh()
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
         self._refresh(Reading(self.controls.inputs(), self.display.view()))
+        self.follower.follow((BAR,).__contains__)
 
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
@@ -217,9 +218,14 @@ class Page:
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
-        moved = self.top.pin_or_swap(inputs, solution)
+        able = solution if solution is not None and solution.converged else None
+        outcome = self.context.pinboard.act(inputs, able) or PinResult(None)
+        if outcome.sentence:
+            self.context.notify("A and B", outcome.sentence)
+        if outcome.inputs is not None:
+            self.context.set_inputs(outcome.inputs)
         self.display.allow_difference(self.pin is not None)
-        return moved
+        return outcome.inputs is not None
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
         """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
@@ -248,6 +254,8 @@ class Page:
         return replace(
             self._now,
             ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held, self.actuator.lifted),
+            pins=self.context.pinboard.now,
+            steps=self.history.steps,
             station=self._curve.held,
             change=self.context.tracker.change,
             optimised=self.optimised.solution,
@@ -282,12 +290,12 @@ class Page:
     def show_power_number(self) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
         self._learn()
-        self.follower.follow(self.now(), lambda panel: panel in (POWER, HAND))
+        self.follower.follow((POWER, HAND).__contains__)
 
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self._now = replace(self._now, state=state)
-        self.follower.follow(self.now(), lambda panel: panel.turns)
+        self.follower.follow(lambda panel: panel.turns)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
@@ -296,16 +304,15 @@ class Page:
         with self._client.atomic():  # Each message by itself would wake the thread that sends.
             self.optimised.show(state)
             self._refresh(reading)
-            self.vibration.show(state)
             self._curve.show(state)
             self._learn()
-            self.follower.follow(self.now())
+            self.follower.follow()
             self.display.show(state)
 
     def show_power(self, curve: PowerCurve) -> None:
         """Draw power over advance ratio anew."""
         self._now = replace(self._now, curve=curve)
-        self.follower.follow(self.now(), lambda panel: panel is STRIP)
+        self.follower.follow((STRIP,).__contains__)
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""
@@ -325,7 +332,7 @@ class Page:
         self.follower.work(stop, soon=True)
         if self._curve.held is not None:
             self._learn()
-            self.follower.follow(self.now(), lambda panel: panel is HAND)
+            self.follower.follow((HAND,).__contains__)
 
     def keep(self, state: SessionState) -> None:
         """Keep what must survive a reload; before the power curve, since an early reload must find it."""
@@ -338,7 +345,6 @@ class Page:
         self.rest(state, stop)
         self.keep(state)
         self.history.solve_waiting(stop)
-        self.vibration.solve_deferred(stop)
         self.follower.work(stop, soon=False)
 
     def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
@@ -346,8 +352,7 @@ class Page:
         reading = failure.reading
         self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
-        self.follower.follow(self.now())
-        self.vibration.problem()
+        self.follower.follow()
         for tab in self.tabs:
             tab.show_failure()
         pinned = self.context.pinboard.answer if reading.view.difference else None
@@ -369,7 +374,7 @@ class Page:
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
         self._now = replace(self._now, problem=brief(sentence))
-        self.follower.follow(self.now())
+        self.follower.follow()
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
@@ -381,7 +386,6 @@ class Page:
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
-        self.top.show_design(inputs, self.history.steps)
         self._touched = self._touched or inputs != self._start
         # What to do first, until something was done.
         wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
@@ -398,7 +402,7 @@ class Page:
         keyboard = self.context.keyboard
         for part in (self.controls, self.optimise, self.actuator, self.display, self.lecture, keyboard):
             part.hold(held)
-        self.top.refresh()
+        self.follower.follow((BAR,).__contains__)
 
     def _blade_grabbed(self, held: bool) -> None:
         """The blade or a handle of its twist curve was taken by the hand, or let go."""
@@ -423,6 +427,9 @@ class Page:
                 (self.context.drag_to if by_hand else self.context.set_inputs)(inputs)
             case SetGrabbed(held):
                 self._grabbed(held)
+            case PinOrder(order):
+                self.context.pinboard.ask(order)
+                self._wake()
             case _:
                 self.actuator.perform(effect)
 

@@ -1,5 +1,6 @@
 """Brings panels to the page: asks their questions, views what is seen, sends what changed, does what a press says."""
 
+import threading
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
@@ -21,16 +22,17 @@ from explorer.views.page_state import (
 from explorer.workers.background import PoolAnswers, all_known
 from rotor.support.processes import Processes
 
-_NOTHING = object()
+_UNSENT = object()
 
 
 class PanelUpdater:
-    """One page's. `follow` is called on the session's thread, presses run on that of the bridge."""
+    """One page's; safe from any thread. Presses run on that of the bridge or of the keyboard."""
 
     def __init__(
         self,
         panels: Sequence[Panel],
         bridge: Bridge,
+        bind: Callable[[str, Callable[[], None]], None],
         texts: Mapping[str, Callable[[Any], None]],
         pool: Processes,
         wake: Callable[[], None],
@@ -38,7 +40,8 @@ class PanelUpdater:
         pressed: Callable[[], PageState],
         perform: Callable[[Effect], None],
     ) -> None:
-        """`texts`: what shows a value that is no part of the frame, by its name. `wake`: called when an answer came.
+        """`bind`: gives a command of the keyboard its action. `wake`: called when an answer came.
+        `texts`: what shows a value that is no part of the frame, by its name.
 
         `now`: what is known as of the last update; `pressed`: at a press. `perform`: does one effect of a press.
         """
@@ -46,6 +49,7 @@ class PanelUpdater:
         self._pool, self._wake, self._now, self._pressed, self._perform = pool, wake, now, pressed, perform
         self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
         """Of each panel, by urgency."""
+        self._following = threading.RLock()
         self.memory = PanelMemory()
         self._done: dict[Hashable, Any] = {}
         self._begun: dict[Hashable, PanelWork] = {}
@@ -54,11 +58,14 @@ class PanelUpdater:
         self._stand: list[set[str]] = [set() for _ in self._panels]
         """Of each panel, the parts of the frame that it has shown. No two panels have one in common."""
         self._place: tuple[Hashable, ...] = ()
+        """What hands move, as of the last `follow`."""
         self._moved = time.monotonic()
-        """What hands move, when it was followed last, and when it moved."""
+        """When that moved last."""
         for panel in self._panels:
             for name, press in panel.presses.items():
-                bridge.on(name, partial(self.press, press, panel.seen))
+                bridge.on(name, act := partial(self.press, press, panel.seen))
+                if name in panel.keys:
+                    bind(name, partial(act, None))
 
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not; and the page's own results."""
@@ -80,22 +87,26 @@ class PanelUpdater:
         for key, (work, panels) in wanted.items():
             if work.soon != soon or key in self._done:
                 continue
-            show = partial(self._show, panels.__contains__)
-            result = work.run(superseded, show)
+            show = partial(self.follow, panels.__contains__)
+            result = None if superseded() else work.run(superseded, show)
             if result is None:
                 return
             self._done = {**self._done, key: result}
             self.memory = replace(self.memory, latest={**self.memory.latest, work.name: result})
             show()
 
-    def _show(self, only: Callable[[Panel], bool]) -> None:
-        self.follow(self._now(), only)
-
-    def follow(self, now: PageState, only: Callable[[Panel], bool] = lambda panel: True) -> None:
+    def follow(self, only: Callable[[Panel], bool] = lambda panel: True) -> None:
         """Ask and view what is seen, and send what is other than before; `only`: of these panels.
 
         The parts of a panel that is no longer seen are sent as absent. Its texts are hidden with their widgets.
         """
+        with self._following:
+            effects = self._send(self._now(), only)
+        for effect in effects:
+            self._perform(effect)
+
+    def _send(self, now: PageState, only: Callable[[Panel], bool]) -> tuple[Effect, ...]:
+        """Bring these panels to the page; returns what they move there."""
         place = now.inputs, now.hand.actuator, now.hand.place
         if place != self._place:
             self._place, self._moved = place, time.monotonic()
@@ -110,14 +121,13 @@ class PanelUpdater:
             stand |= shown.keys() - self._texts.keys()
             effects += panel.reacts(now) if seen else ()
             self.memory = panel.remember(replace(now, memory=self.memory), shown)
-            changed |= {name: value for name, value in shown.items() if self._sent.get(name, _NOTHING) != value}
+            changed |= {name: value for name, value in shown.items() if self._sent.get(name, _UNSENT) != value}
         self._sent |= changed
         for name in changed.keys() & self._texts.keys():
             self._texts[name](changed.pop(name))
         if changed:
             self._bridge.set(**changed)
-        for effect in effects:
-            self._perform(effect)
+        return effects
 
     def stop(self) -> None:
         """The browser has left."""

@@ -190,8 +190,7 @@ class DesignControls:
 
     def show_bending(self, words: str) -> None:
         """What bending costs, or why there is none, beside its switch."""
-        if self._costs["bending"].content != (content := _beside("bending", words)):
-            self._costs["bending"].content = content
+        self._costs["bending"].content = _beside("bending", words)
 
     def _sliders(self, names: Iterable[str], seen: Iterable[str]) -> None:
         """With a row below each for the arrow of its power sensitivity."""

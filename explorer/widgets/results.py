@@ -31,4 +31,5 @@ def drawer_texts(context: TabContext) -> Mapping[str, Callable[[Any], None]]:
         "trust.status": status,
         "trust.doubts": doubts,
         "switch.costs": context.controls.show_costs,
+        "switch.bending": context.controls.show_bending,
     }

@@ -1,19 +1,18 @@
-"""What is shown: the top bar, views and colour range by the buttons over the scene, units, theme and size of type."""
+"""What is shown: views and colour range by the buttons over the scene, units, theme and size of type."""
 
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from explorer.model.inputs import Inputs, ViewState, menu_titles
-from explorer.model.session_state import Look, Order, ScreenState, SessionState
+from explorer.model.inputs import ViewState
+from explorer.model.session_state import Look, ScreenState, SessionState
 from explorer.model.units import UNITS
-from explorer.parts.frame import BarPart, PinnedRow, ViewsPart
+from explorer.parts.frame import ViewsPart
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
-from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import Tab, TabContext
@@ -21,80 +20,6 @@ from explorer.widgets.layout import by_hand
 from explorer.widgets.probe_panel import ProbePanel
 from rotor import Solution
 from rotor.support.markup import tag
-
-
-class TopBar:
-    def __init__(self, context: TabContext) -> None:
-        self._context, self._board = context, context.pinboard
-        self._inputs = Inputs()
-        self._steps = (False, False)
-        bridge, bind = context.bridge, context.keyboard.bind
-        bridge.on("pin", lambda _: self._pin_or_release())
-        bridge.on("swap", lambda _: self._ask("swap"))
-        bridge.on("back", lambda _: self._ask("back"))
-        bridge.on("along", self._set_along)
-        bind("pin", self._pin_or_release)
-        bind("swap", lambda: self._ask("swap"))
-        bind("back", lambda: self._ask("back"))
-        context.layout.watchers.append(self.refresh)
-
-    def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
-        """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""
-        able = solution if solution is not None and solution.converged else None
-        outcome = self._board.act(inputs, able)
-        if outcome is None:
-            return False
-        if outcome.sentence:
-            self._context.notify("A and B", outcome.sentence)
-        if outcome.inputs is not None:
-            self._context.set_inputs(outcome.inputs)
-        return outcome.inputs is not None
-
-    def show_design(self, inputs: Inputs, steps: tuple[bool, bool]) -> None:
-        """What is on the sliders, and whether there is a step to undo and one to redo."""
-        self._inputs, self._steps = inputs, steps
-        self.refresh()
-
-    def refresh(self) -> None:
-        undo, redo = self._steps
-        layout = self._context.layout
-        self._context.bridge.set(
-            bar=BarPart(
-                rotors=list(menu_titles(self._inputs.own_rotor).items()),
-                rotor=self._inputs.rotor,
-                mode=layout.mode,
-                drawer=layout.drawer,
-                undo=undo,
-                redo=redo,
-                pinned=self._pinned(),
-                held=self._context.held,
-            )
-        )
-
-    def _pinned(self) -> PinnedRow | None:
-        pinned, answer = self._board.pinned, self._board.answer
-        if pinned is None:
-            return None
-        power = (
-            "no trim at this condition"
-            if answer is None or not answer.converged
-            else self._context.units.watts(answer.power.total)
-        )
-        where = "" if self._board.along else f" at {flight_name(pinned.inputs)}"
-        return PinnedRow(title_words(pinned.solution.design), power + where, self._board.along)
-
-    def _pin_or_release(self) -> None:
-        self._ask("pin" if self._board.pinned is None else "unpin")
-
-    def _set_along(self, along: bool) -> None:
-        self._board.along = bool(along)
-        self._context.wake()
-
-    def _ask(self, order: Order) -> None:
-        if not self._context.held:
-            self._board.ask(order)
-            self._context.wake()
-
 
 _TIMES = {f"×{times:g}": times for times in (1.0, 2.0, 4.0)}
 """How many times its twist a blade may be drawn with."""
