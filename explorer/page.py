@@ -60,6 +60,7 @@ from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel
+from explorer.workers.background import LongWork
 from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
@@ -122,14 +123,15 @@ class Page:
         self.camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
         self.optimised = OptimisedDesign(context, address, problems)
+        work = self._work = LongWork(pool, callbacks.wake)
         with layout.in_mode("optimise"):
             tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context, self.optimised.begin)
+                self.optimise = OptimisePanel(context, work, self.optimised.begin)
             with tasks["Map"]:
-                self.map = MapPanel(context, self.optimise)
+                self.map = MapPanel(context, work, self.optimise)
             with tasks["Schedule"]:
-                self.schedule = SchedulePanel(context, self.optimise)
+                self.schedule = SchedulePanel(context, work, self.optimise)
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self._acting()
@@ -191,7 +193,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
+        for part in (self.follower, self._work, self.optimise, self.actuator, *self.tabs):
             part.stop()
         self.context.bridge.stop()
 

@@ -3,13 +3,15 @@
 import csv
 import io
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
+from explorer.workers.background import WorkRecord
+from explorer.workers.solver import FixedPowers
 from rotor import Optimum
 from rotor.design.aircraft import reported_names
 from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
@@ -19,17 +21,24 @@ from rotor.support.markup import Markup, tag
 _COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
 
-@dataclass
+@dataclass(frozen=True)
 class ScheduleProgress:
     """What is known of a plan with one concept."""
 
     plan: SchedulePlan
-    cells: list[ScheduleOptimum] = field(default_factory=list)
+    cells: tuple[ScheduleOptimum, ...] = ()
     fixed_powers: tuple[float | None, ...] = ()
+
+    @staticmethod
+    def of(record: WorkRecord) -> "ScheduleProgress":
+        reports = record.reports
+        cells = tuple(one for one in reports if isinstance(one, ScheduleOptimum))
+        fixed = next((one.powers for one in reports if isinstance(one, FixedPowers)), ())
+        return ScheduleProgress(record.task.plan, cells, fixed)
 
     @property
     def schedule(self) -> Schedule:
-        return Schedule(self.plan, tuple(self.cells))
+        return Schedule(self.plan, self.cells)
 
     def at(self, leg: int | None) -> Optimum | None:
         """The optimum at a leg; None: the fixed blade."""

@@ -1,13 +1,11 @@
-"""What a user asks of the optimiser, and the search as the page follows it: the designs to play."""
+"""What a user asks of the optimiser, and the search as it stands: the designs that it found."""
 
 import math
-import threading
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from functools import cached_property
 
-from explorer.workers.background import FRAME
+from explorer.workers.background import WorkRecord
 from explorer.workers.solver import ReferencePower, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
@@ -23,7 +21,6 @@ from rotor.optimisation import (
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
-from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from rotor.support.user_input import shorten
 
 MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
@@ -139,11 +136,6 @@ class SearchRequest:
         return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change, index=self.index)
 
 
-State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
-_CATCH_UP = 8
-"""Never further behind the search than about so many frames."""
-
-
 @dataclass(frozen=True)
 class SearchFrame:
     """A design that was the best so far."""
@@ -154,26 +146,15 @@ class SearchFrame:
     design: Design
 
 
+@dataclass(frozen=True, eq=False)
 class SearchRun:
-    """Written by the pool's threads (`on_event`), read by the session's."""
+    """A search as it stands."""
 
-    def __init__(self, search: Search, reference_title: str = "") -> None:
-        """`reference_title`: what the saving is also measured against."""
-        self.search, self.reference_title = search, reference_title
-        self.state: State = "starting"
-        self.ahead = 0
-        self.sentence = ""
-        self.start_power: float | None = None
-        """Power of the design that the search began from [W]."""
-        self.reference_power: float | None = None
-        self.frames: list[SearchFrame] = []
-        self._tried = 0
-        """Designs of the start under way."""
-        self.progress: Progress | None = None
-        self.optimum: Optimum | None = None
-        self._lock = threading.Lock()
-        self._cursor, self._plays, self._since = 0, True, 0.0
-        """Which frame is shown, whether it moves on by itself, and since when it is shown."""
+    record: WorkRecord
+
+    @property
+    def search(self) -> Search:
+        return self.record.task.search
 
     @property
     def concept(self) -> Concept:
@@ -181,7 +162,44 @@ class SearchRun:
 
     @property
     def under_way(self) -> bool:
-        return self.state in ("starting", "waiting", "running", "stopping")
+        return self.record.under_way
+
+    @property
+    def start_power(self) -> float | None:
+        """Power of the design that the search began from [W]."""
+        return next((report.power for report in self.record.reports if isinstance(report, StartPower)), None)
+
+    @property
+    def reference_power(self) -> float | None:
+        return next((report.power for report in self.record.reports if isinstance(report, ReferencePower)), None)
+
+    @property
+    def optimum(self) -> Optimum | None:
+        return self.record.result
+
+    @property
+    def progress(self) -> Progress | None:
+        """The last report."""
+        return next((report for report in reversed(self.record.reports) if isinstance(report, Progress)), None)
+
+    @cached_property
+    def frames(self) -> tuple[SearchFrame, ...]:
+        """The designs to show: the first, and each that was better; the last is the optimum."""
+        frames, optimum = list[SearchFrame](), self.optimum
+        for report in self.record.reports:
+            if isinstance(report, StartPower):
+                power = math.inf if report.power is None else report.power
+                frames.append(SearchFrame(0, power, self.search.design))
+                continue
+            if not isinstance(report, Progress) or report.best_power is None or report.best_parameters is None:
+                continue
+            # The concept's first may be no better than the blade it began from; it is shown all the same.
+            if len(frames) == 1 or report.best_power < frames[-1].power:
+                design = self.concept.apply(self.search.design, report.best_parameters)
+                frames.append(SearchFrame(report.evaluation, report.best_power, design))
+        if optimum is not None and optimum.best is not None and frames and optimum.design != frames[-1].design:
+            frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
+        return tuple(frames)
 
     @property
     def best(self) -> SearchFrame | None:
@@ -189,95 +207,22 @@ class SearchRun:
         return self.frames[-1] if len(self.frames) > 1 else None
 
     @property
+    def sentence(self) -> str:
+        return self.record.sentence if self.optimum is None else self.optimum.message
+
+    @property
     def part_done(self) -> float:
         """0…1: starts first, then the band."""
-        if self.state in ("done", "stopped", "late", "broken"):
-            return 1.0
         progress = self.progress
+        if not self.under_way:
+            return 1.0
         if progress is None:
             return 0.0
         if progress.phase == "band":
             return 0.9
-        return 0.85 * (progress.start + self._tried / (self._tried + 15.0)) / progress.starts
-
-    def stopping(self) -> None:
-        with self._lock:
-            if self.under_way:
-                self.state = "stopping"
-
-    def on_event(self, news: JobEvent) -> None:
-        with self._lock:
-            match news:
-                case JobQueued(ahead):
-                    self.state, self.ahead = "waiting", ahead
-                case JobStarted():
-                    if self.state != "stopping":
-                        self.state = "running"
-                case JobProgress(StartPower(power)):
-                    self.start_power = power
-                    self.frames.append(SearchFrame(0, float("inf") if power is None else power, self.search.design))
-                case JobProgress(ReferencePower(power)):
-                    self.reference_power = power
-                case JobProgress(Progress() as progress):
-                    self._step(progress)
-                case JobEnded(result, stopped, late):
-                    self.state = "late" if late else "stopped" if stopped else "done"
-                    self._finish(result)
-                case JobFailed(message):
-                    self.state, self.sentence = "broken", message
-                case _:
-                    pass
-
-    def _step(self, progress: Progress) -> None:
-        before, self.progress = self.progress, progress
-        if progress.phase == "search":
-            self._tried = self._tried + 1 if before is not None and before.start == progress.start else 1
-        best, values = progress.best_power, progress.best_parameters
-        if best is None or values is None:
-            return
-        # The concept's first may be no better than the blade it began from; it is shown all the same.
-        if len(self.frames) == 1 or best < self.frames[-1].power:
-            design = self.concept.apply(self.search.design, values)
-            self.frames.append(SearchFrame(progress.evaluation, best, design))
-
-    def _finish(self, optimum: Optimum | None) -> None:
-        self.optimum = optimum
-        if optimum is None:
-            return
-        self.sentence = optimum.message
-        if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
-            self.frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
+        tried = sum(isinstance(one, Progress) and one.start == progress.start for one in self.record.reports)
+        return 0.85 * (progress.start + tried / (tried + 15.0)) / progress.starts
 
     def matches(self, design: Design) -> bool:
         """Whether this is the design that the search began from."""
         return design == self.search.design
-
-    def shown(self) -> SearchFrame | None:
-        """The frame whose turn it is: each for `FRAME`, never far behind."""
-        if not self.frames:
-            return None
-        last, now = len(self.frames) - 1, time.monotonic()
-        if self._since == 0.0:
-            self._since = now  # The first has its time as well.
-        if self._plays and self._cursor < last and now - self._since >= FRAME:
-            self._cursor += max(1, last - self._cursor - _CATCH_UP)
-            self._since = now
-        return self.frames[min(self._cursor, last)]
-
-    @property
-    def cursor(self) -> int:
-        return min(self._cursor, max(len(self.frames) - 1, 0))
-
-    @property
-    def chosen(self) -> SearchFrame:
-        """What Apply takes: the frame that somebody scrubbed to, or else the best, even while the picture plays."""
-        return self.frames[-1 if self._plays else self.cursor]
-
-    @property
-    def playing(self) -> bool:
-        """Whether more frames wait to be shown."""
-        return self._plays and self._cursor < len(self.frames) - 1
-
-    def scrub(self, cursor: int) -> None:
-        """Show one frame and stay there."""
-        self._cursor, self._plays = cursor, False

@@ -40,32 +40,15 @@ def standing(run: SearchRun | None, problem: str = "") -> Markup:
     if run.optimum is not None:
         count = f"{number(run.optimum.evaluations)} designs · {number(run.optimum.elapsed, 1)} s"
     where = tag("span", _where(run)), tag("span.rx-dim.rx-num", count)
-    return tag("div.rx.rx-line", where, data_explorer="search", data_kind=run.state)
+    return tag("div.rx.rx-line", where, data_explorer="search", data_kind=run.record.state)
 
 
 def _where(run: SearchRun) -> str:
-    progress, kept = run.progress, "best so far is kept" if run.best else "nothing found yet"
-    match run.state:
-        case "starting":
-            return "Starting a worker …"
-        case "waiting":
-            return "Waiting: next in line" if run.ahead == 0 else f"Waiting: {run.ahead} ahead"
-        case "stopping":
-            return "Stopping …"
-        case "running":
-            if progress is None:
-                return "Trimming the starting design …"
-            if progress.phase == "band":
-                return "Computing the 0.1 % band"
-            return f"Starting point {progress.start + 1} of {progress.starts}"
-        case "done":
-            return "Done"
-        case "stopped":
-            return f"Stopped, {kept}"
-        case "late":
-            return f"Time is up, {kept}"
-        case "broken":
-            return f"Ended early, {kept}"
+    progress, running = run.progress, "Trimming the starting design …"
+    if progress is not None:
+        at = f"Starting point {progress.start + 1} of {progress.starts}"
+        running = "Computing the 0.1 % band" if progress.phase == "band" else at
+    return run.record.words(running, "best so far is kept" if run.best else "nothing found yet")
 
 
 def _against_start(power: float, start: float | None) -> str:
@@ -78,16 +61,16 @@ def result(run: SearchRun, units: Units = SI) -> Markup:
     """What the best so far saves against what is not the starting design; or why there is none."""
     best = run.best
     parts: list[Markup] = []
-    if run.state == "broken":
+    if run.record.state == "broken":
         parts.append(tag("div.rx-broken", run.sentence))
     if best is None:
-        if run.state == "done":
+        if run.record.state == "done":
             parts.append(tag("div", run.sentence))
         return _block(parts)
     if run.optimum is not None and run.optimum.doubt is not None:
         parts.append(tag("div", run.optimum.doubt.sentence, data_explorer="sure"))
     if run.reference_power != run.start_power:
-        parts.append(tag("table", _saving(run.reference_title, best.power, run.reference_power, units)))
+        parts.append(tag("table", _saving(run.record.task.reference_title, best.power, run.reference_power, units)))
     return _block(parts)
 
 
@@ -145,12 +128,10 @@ def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
     return [tag("table", rows), tag("div.rx-dim.rx-small", " ".join(notes))]
 
 
-def frame_line(run: SearchRun, units: Units = SI) -> Markup:
+def frame_line(run: SearchRun, cursor: int, units: Units = SI) -> Markup:
     """What the scrubber points at."""
-    if not run.frames:
-        return Markup()
-    frame = run.frames[run.cursor]
+    frame = run.frames[cursor]
     power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
-    what = "starting design" if run.cursor == 0 else f"design {frame.evaluation}"
+    what = "starting design" if cursor == 0 else f"design {frame.evaluation}"
     line = tag("span", what), tag("span", units.watts(power, 1))
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")

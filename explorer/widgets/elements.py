@@ -1,11 +1,12 @@
 """Widgets that several panels have: a chart, and the buttons of long work with its progress."""
 
+from collections.abc import Callable
+
 import viser
 
 from explorer.charts.plots import Range
 from explorer.charts.svg import chart_box
 from explorer.text.glossary import hint
-from explorer.workers.background import BackgroundWork
 from rotor.support.chart import Chart, drawn_chart
 from rotor.support.markup import tag
 
@@ -32,15 +33,16 @@ class WorkButtons:
     """Buttons that begin and stop long work, and the bar of its progress."""
 
     def __init__(
-        self, gui: viser.GuiApi, work: BackgroundWork, begin: str, stop: str, entries: tuple[str, str]
+        self, gui: viser.GuiApi, begin: str, stop: str, entries: tuple[str, str], *actions: Callable[[], None]
     ) -> None:
-        """`entries`: of the glossary, for the buttons."""
-        first, second = map(hint, entries)
-        self.begin = gui.add_button(begin, icon=viser.Icon.PLAYER_PLAY, hint=first)
-        self._halt = gui.add_button(stop, icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=second)
+        """`entries`: of the glossary, and `actions`, of the two buttons."""
+        self.begin = gui.add_button(begin, icon=viser.Icon.PLAYER_PLAY, hint=hint(entries[0]))
+        self._halt = gui.add_button(
+            stop, icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint(entries[1])
+        )
         self._bar = gui.add_progress_bar(0.0)
-        self.begin.on_click(lambda _: work.begin())
-        self._halt.on_click(lambda _: work.halt())
+        for button, action in zip((self.begin, self._halt), actions, strict=True):
+            button.on_click(lambda _, action=action: action())
 
     def show(self, part_done: float | None, under_way: bool) -> None:
         """`part_done`: 0…1; None where nothing was begun yet."""

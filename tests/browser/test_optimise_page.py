@@ -167,4 +167,4 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     box = watched.box("[data-map]")
     assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
-    watched.until(lambda: session.page.map.map is not first and not session.page.map.running)
+    watched.until(lambda: session.page.map.map is not first and not session.page._work["map"].under_way)

@@ -1,8 +1,5 @@
 """The Map section: power over two parameters of the concept; a click on it takes a point."""
 
-from collections.abc import Callable
-from functools import partial
-
 import numpy as np
 import viser
 
@@ -12,29 +9,30 @@ from explorer.parts.presses import MapPress
 from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
-from explorer.workers.background import BackgroundWork
-from explorer.workers.solver import MapLevel, MapTask
+from explorer.workers.background import LongWork
+from explorer.workers.solver import MapTask
 from rotor import Design
 from rotor.optimisation import nearest
 from rotor.optimisation.descent import BAND
 from rotor.support.markup import tag
-from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobProgress
 
 TIME_LIMIT = 120.0
 """[s] a map may take."""
 _URGENCY = 2
 """After searches and schedules."""
+NAME = "map"
+_BEFORE = "Power over two parameters, the others fixed. Click the map to set a point."
 _KEY = f"★ least · ● your design, ○ nearest point to it · white outline: within {100 * BAND:g} % of the least"
 
 
-class MapPanel(BackgroundWork):
-    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
+class MapPanel:
+    def __init__(self, context: TabContext, work: LongWork, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
-        super().__init__(context.pool, context.wake, TIME_LIMIT, _URGENCY, restarts=True)
-        self._context = context
-        self._search, gui = search, context.gui
+        self._context, self._work, self._search, gui = context, work, search, context.gui
         self.map: PowerMap | None = None
-        self.line = "Power over two parameters, the others fixed. Click the map to set a point."
+        """The last with a design that trims."""
+        self._refused = ""
+        """Why what was asked for last is no map."""
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._title = gui.add_html("")
@@ -47,8 +45,18 @@ class MapPanel(BackgroundWork):
         self._draw.on_click(lambda _: self.begin())
         context.bridge.on("map_at", self._take)
 
-    def prepare(self) -> tuple[MapTask, Callable[[JobEvent], None], str]:
+    def begin(self) -> None:
         """The map of the concept chosen for the search, about the design on the sliders."""
+        try:
+            task, self._refused = self._task(), ""
+        except ValueError as error:
+            self._refused = str(error)
+            self._context.wake()
+        else:
+            self._work.begin(NAME, task, TIME_LIMIT, _URGENCY, restarts=True)
+
+    def _task(self) -> MapTask:
+        """ValueError with one sentence where there is no map."""
         design, request = self._context.inputs().design(), self._search.request()
         concept = request.known_concept()
         titles = [parameter.title for parameter in concept.parameters]
@@ -57,8 +65,7 @@ class MapPanel(BackgroundWork):
         axes = self._axes(titles)
         objective = request.wanted(design, self._search.legs)
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
-        task = MapTask(design, concept, objective, axes, values)
-        return task, partial(self._hear, task), "Computing …"
+        return MapTask(design, concept, objective, axes, values)
 
     def refresh(self, design: Design | None) -> None:
         """Bring the tab into line with the concept. `design`: on the sliders; None when they mean none."""
@@ -71,7 +78,7 @@ class MapPanel(BackgroundWork):
                 menu.options = titles
                 menu.value = titles[axis]
         self._title.content = tag("div.rx.rx-dim.rx-small", f"Concept: {concept.title}")
-        self._state.content = tag("div.rx.rx-dim.rx-small", self.line, data_explorer="map-state")
+        self._state.content = tag("div.rx.rx-dim.rx-small", self._line(), data_explorer="map-state")
         drawn = self.map
         if drawn is None:
             return
@@ -102,20 +109,20 @@ class MapPanel(BackgroundWork):
             raise ValueError("Both axes are the same parameter: choose two.")
         return x, y
 
-    def _hear(self, task: MapTask, news: JobEvent) -> None:
-        match news:
-            case JobProgress(MapLevel(powers)):
-                grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
-                if np.isfinite(grid).any():
-                    self.map = PowerMap(task, grid)
-                    mu = task.objective.conditions[0].flight.advance_ratio
-                    where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
-                    self.line = f"{len(powers)} × {len(powers)} points, {where}"
-                else:
-                    self.line = "No design on this map has a trim."
-            case JobFailed(message):
-                self.line = message
-            case JobEnded(late=True):
-                self.line += "; time is up."
-            case _:
-                pass
+    def _line(self) -> str:
+        """Takes the last powers, and says how the map stands."""
+        record = self._work[NAME]
+        if self._refused or record is None:
+            return self._refused or _BEFORE
+        line, level = "Computing …", record.reports[-1] if record.reports else None
+        if level is not None:
+            grid = np.array(level.powers, dtype=float)
+            conditions, line = record.task.objective.conditions, "No design on this map has a trim."
+            if np.isfinite(grid).any():
+                if self.map is None or self.map.task is not record.task or len(self.map.powers) != len(grid):
+                    self.map = PowerMap(record.task, grid)
+                mu = conditions[0].flight.advance_ratio
+                where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"
+                line = f"{len(grid)} × {len(grid)} points, {where}"
+        late = "; time is up." if record.state == "late" else ""
+        return record.sentence or line + late

@@ -1,7 +1,6 @@
 """The Optimise tab: what to search for, its buttons, its course, and what becomes of the optimum."""
 
 import math
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -19,7 +18,7 @@ from explorer.widgets.context import TabContext
 from explorer.widgets.elements import WorkButtons
 from explorer.widgets.form import WidgetForm
 from explorer.widgets.layout import by_hand
-from explorer.workers.background import FRAME, BackgroundWork, PoolAnswers
+from explorer.workers.background import LongWork, PoolAnswers
 from explorer.workers.call import Call
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
@@ -29,7 +28,6 @@ from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
 from rotor.optimisation.results import BestTwist
 from rotor.optimisation.search import best_linear_twist
 from rotor.support.markup import tag
-from rotor.support.processes import JobEvent
 
 _STILL = 0.6
 """[s] without a change before the best linear twist is looked for."""
@@ -42,6 +40,8 @@ _LIMITS = {"limit_stall": "stalled", "limit_change": "change", "limit_index": "i
 _NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
 """Sliders that only some searches have."""
 
+NAME = "search"
+"""Of the work."""
 OPTIMISED = "o"
 """Name in the address of the optimum to be beaten by hand."""
 
@@ -51,20 +51,22 @@ def same_but_twist(optimised: Design, present: Design) -> bool:
     return replace(present, twist=optimised.twist) == optimised
 
 
-class OptimisePanel(BackgroundWork):
+class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, context: TabContext, challenge: Callable[[Design], None]) -> None:
+    def __init__(self, context: TabContext, work: LongWork, challenge: Callable[[Design], None]) -> None:
         """`challenge` hears of an optimum that is to be beaten by hand."""
-        super().__init__(context.pool, context.wake, TIME_LIMIT)
-        self._context, self._challenge = context, challenge
+        self._context, self._work, self._challenge = context, work, challenge
         gui, bridge = context.gui, context.bridge
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
-        self.run: SearchRun | None = None
-        """The last search; None before the first."""
+        self._run: SearchRun | None = None
+        self._refused = ""
+        """Why what was asked for last is no search."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
+        self._replay: int | None = None
+        """Which of them is shown; None: the best."""
         form = self.form = WidgetForm(gui, lambda name, by_hand: context.wake() if by_hand else None)
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
@@ -82,7 +84,7 @@ class OptimisePanel(BackgroundWork):
             form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
             form.box("limit_index", "Limit vibration", False)
             form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
-        self._buttons = WorkButtons(gui, self, "Optimise", "Stop", ("optimise", "stop"))
+        self._buttons = WorkButtons(gui, "Optimise", "Stop", ("optimise", "stop"), self.begin, self.halt)
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
         self._result = gui.add_html("")
@@ -110,15 +112,26 @@ class OptimisePanel(BackgroundWork):
         self._context.layout.show_mode("optimise")
         self.begin()
 
-    def prepare(self) -> tuple[SearchTask, Callable[[JobEvent], None], str]:
+    @property
+    def run(self) -> SearchRun | None:
+        """The last search; None before the first."""
+        record = self._work[NAME]
+        if record is not None and (self._run is None or self._run.record is not record):
+            self._run = SearchRun(record)
+        return self._run
+
+    def begin(self) -> None:
         """A search for the design on the sliders."""
-        design = self._context.inputs().design()
-        search = self.request().search(design, self.legs)
-        self._offered = True
+        try:
+            design = self._context.inputs().design()
+            task = SearchTask(self.request().search(design, self.legs), *self._reference(design))
+        except ValueError as error:
+            self._refused = str(error)
+            self._context.wake()
+            return
+        self._refused, self._offered, self._replay = "", True, None
         self._context.tracker.reset()
-        reference, title = self._reference(design)
-        run = self.run = SearchRun(search, title)
-        return SearchTask(search, reference), run.on_event, ""
+        self._work.begin(NAME, task, TIME_LIMIT)
 
     def _reference(self, design: Design) -> tuple[Design, str]:
         """What a saving is also measured against: A's blade in the same flight and models, else the baseline."""
@@ -129,9 +142,8 @@ class OptimisePanel(BackgroundWork):
         return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
 
     def halt(self) -> None:
-        if self.running and self.run is not None:
-            self.run.stopping()
-        super().halt()
+        """Stop the search under way, and keep what it found."""
+        self._work.halt(NAME)
 
     def withdraw(self) -> None:
         """Show the sliders again: stop the search under way, and discard what was previewed."""
@@ -149,22 +161,22 @@ class OptimisePanel(BackgroundWork):
 
     def toggle(self) -> None:
         """Start a search, or stop the one under way."""
-        if self.running:
+        run = self.run
+        if run is not None and run.under_way:
             self.halt()
         else:
             self.begin()
 
     def preview(self, design: Design) -> Design | None:
-        """The design to show instead of the sliders': that of the frame whose turn it is."""
+        """The design to show instead of the sliders': the best so far, or that of the scrubber."""
         run = self.run
-        if run is None or not self._offered or not run.matches(design):
+        if run is None or not self._offered or not run.matches(design) or not run.frames:
             return None
-        frame = run.shown()
-        if run.playing:
-            timer = threading.Timer(FRAME, self._context.wake)
-            timer.daemon = True
-            timer.start()
-        return None if frame is None else frame.design
+        return run.frames[self._cursor(run)].design
+
+    def _cursor(self, run: SearchRun) -> int:
+        last = len(run.frames) - 1
+        return last if self._replay is None else min(self._replay, last)
 
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""
@@ -182,7 +194,7 @@ class OptimisePanel(BackgroundWork):
         self._picture.content = tag("div.rx.rx-concept", concept_picture(concept), words)
         under_way = run is not None and run.under_way
         self._buttons.show(None if run is None else run.part_done, under_way)
-        self._standing.content = text.standing(run, self.line)
+        self._standing.content = text.standing(run, self._refused)
         self._show_ranges(design)
         if run is None:
             return
@@ -193,8 +205,8 @@ class OptimisePanel(BackgroundWork):
         self._scrubber.visible = on_offer and here
         self._frame.content = ""
         if on_offer and here:
-            self._scrubber.max, self._scrubber.value = len(run.frames) - 1, run.cursor
-            self._frame.content = text.frame_line(run, units)
+            self._scrubber.max, self._scrubber.value = len(run.frames) - 1, self._cursor(run)
+            self._frame.content = text.frame_line(run, self._cursor(run), units)
         elif on_offer:
             words = "The sliders have changed. Apply sets the optimum."
             self._frame.content = tag("div.rx.rx-dim.rx-small", words, data_explorer="frame")
@@ -211,7 +223,6 @@ class OptimisePanel(BackgroundWork):
 
     def stop(self) -> None:
         self._best.stop()
-        super().stop()
 
     def notice(self, design: Design | None) -> NoticePart | None:
         """The bar over the scene while it shows a search instead of the sliders."""
@@ -251,14 +262,13 @@ class OptimisePanel(BackgroundWork):
         self._context.tracker.reset()
         if apply:
             here = run.matches(self._context.inputs().design())
-            frame = run.chosen if here else run.frames[-1]
+            frame = run.frames[self._cursor(run) if here else -1]
             self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))
         self._context.wake()
 
     def _scrubbed(self, cursor: float) -> None:
-        if self.run is not None:
-            self.run.scrub(round(cursor))
-            self._context.wake()
+        self._replay = round(cursor)
+        self._context.wake()
 
 
 class OptimisedDesign:
