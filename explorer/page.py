@@ -20,7 +20,6 @@ from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned,
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
 from explorer.parts.presses import IdlePress
-from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
@@ -34,7 +33,7 @@ from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
-from explorer.views.notice import NOTICE
+from explorer.views.notice import NOTICE, PROMPT
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
@@ -44,7 +43,7 @@ from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
-from explorer.widgets.context import SharedServices, Tab, TabContext
+from explorer.widgets.context import SharedServices, TabContext
 from explorer.widgets.controls import DesignControls, SessionCallbacks
 from explorer.widgets.design_files import FilePanel, add_rotor_upload
 from explorer.widgets.display import Display
@@ -59,15 +58,43 @@ from explorer.widgets.optimise.schedule_panel import SchedulePanel
 from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
-from explorer.widgets.views import SceneViews, SettingsPanel
+from explorer.widgets.views import SceneViews, SettingsPanel, theme
 from explorer.workers.background import LongWork
 from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
-_BRAND = (37, 99, 235)
 _ACTUATE = ACTUATOR, ASSESSED, FLIGHT, PAY, DIAL
-PANELS = BAR, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+AT_ONCE = BAR, PROMPT
+"""Panels that follow a press before the update that it wakes."""
+PANELS = *AT_ONCE, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
+
+
+def _context(
+    client: viser.ClientHandle, start: Inputs, view: ViewState, shared: SharedServices, callbacks: SessionCallbacks
+) -> TabContext:
+    """The frame of the page, the sliders of Explore, and what its parts share."""
+    bridge, tracker, analyses = Bridge(client), PowerTracker(), Analyses()
+    keyboard, layout = Keyboard(client, bridge), Layout(client.gui, bridge)
+    layout.watchers.append(callbacks.wake)
+    display = Display(bridge, view, callbacks.wake, callbacks.azimuth_changed)
+    with layout.in_mode("explore"):
+        controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
+    return TabContext(
+        client,
+        bridge,
+        keyboard,
+        layout,
+        display,
+        controls,
+        tracker,
+        analyses,
+        Pinboard(analyses.solve),
+        shared.pool,
+        LongWork(shared.pool, callbacks.wake),
+        callbacks.wake,
+        callbacks.state,
+    )
 
 
 class Page:
@@ -88,99 +115,99 @@ class Page:
         self._opening = start
         start = address.read(share.DESIGN, inputs_from, start, "Link: design not used", problems)
         view = address.read(VIEW, view_from, ViewState(), "Link: view not used", problems)
-        self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
-        self._pause, self._touched = 0.0, False
-        self._theme()
+        theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
-        bridge, tracker = Bridge(client), PowerTracker()
-        keyboard = Keyboard(client, bridge)
         banner = client.gui.add_folder(None)
-        layout = self.layout = Layout(client.gui, bridge)
-        layout.watchers.append(callbacks.wake)
-        self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
-        with layout.in_mode("explore"):
-            self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
-        analyses = Analyses()
-        pinboard, controls, pool = Pinboard(analyses.solve), self.controls, shared.pool
-        context = self.context = TabContext(
-            client,
-            bridge,
-            keyboard,
-            layout,
-            self.display,
-            controls,
-            tracker,
-            analyses,
-            pinboard,
-            pool,
-            callbacks.wake,
-            callbacks.state,
-        )
+        self.context = _context(client, start, replace(view, dark=facts.dark), shared, callbacks)
         with banner:
             secret = facts.kept.get(PRESENT, "")
-            self._presentation = PresentationBanner(context, shared.presentations, address, secret, facts.page)
+            presentation = PresentationBanner(self.context, shared.presentations, address, secret, facts.page)
         rotor = start.aircraft.rotor_for(start.preset)
-        self.camera = FittedCamera(client, rotor.radius)
-        self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
-        self.optimised = OptimisedDesign(context, address, problems)
-        work = self._work = LongWork(pool, callbacks.wake)
-        with layout.in_mode("optimise"):
-            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
+        camera = FittedCamera(client, rotor.radius)
+        self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
+        self._now = PageState(start, None, None, analyses=self.context.analyses)
+        """As of the last update; `now` has the rest."""
+        self._add_rail(address, problems)
+        self._add_drawers(address, facts, presentation)
+        self._listen()
+        self.file.begin(problems)
+        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
+            client.add_notification(title, brief(sentence), color="red")
+
+    def _add_rail(self, address: Address, problems: list[tuple[str, str]]) -> None:
+        """What stands on the right beside the sliders of Explore."""
+        context = self.context
+        self.optimised, work = OptimisedDesign(context, address, problems), context.work
+        with context.layout.in_mode("optimise"):
+            tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(context, work, self.optimised.begin)
             with tasks["Map"]:
                 self.map = MapPanel(context, work, self.optimise)
             with tasks["Schedule"]:
                 self.schedule = SchedulePanel(context, work, self.optimise)
-        with layout.in_mode("actuate"):
+        with context.layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self._acting()
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
-        self._now = PageState(start, None, None, analyses=context.analyses)
-        """As of the last update; `now` has the rest."""
+
+    def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
+        """What stands on the left, and the panels."""
+        context, start = self.context, self._now.inputs
+        layout, gui = context.layout, context.gui
         texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
-            self.probe = ProbePanel(context, self.scene)
+            probe = ProbePanel(context, self.scene)
         with layout.in_drawer("open"):
-            opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
+            opened = Sections(gui, context.bridge, "opened", ("Files", "History"))
             with opened["Files"]:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self._views = SceneViews(context, self.scene, self.probe, self.actuator)
+        self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
+            ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(context, self.camera, self._views)
+            self.lecture = LecturePanel(context, self.scene.camera, self._views)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
-            PANELS, bridge, keyboard.bind, texts, pool, callbacks.wake, self.now, self._pressed, self._perform
+            PANELS,
+            context.bridge,
+            context.keyboard.bind,
+            texts,
+            context.pool,
+            context.wake,
+            self.now,
+            self._pressed,
+            self._perform,
         )
-        layout.watchers.append(partial(self.follower.follow, (BAR,).__contains__))
+        self._tabs = probe.show, settings.show, self.history.show, self.lecture.show, presentation.show
+        """What follows the panels; that of the probe first, which follows the azimuth too."""
         with layout.in_drawer("lecture"):
-            self._presentation.begin(self.lecture, self._views, self._hold)
-        following = self.probe, settings, self.history, self.file, export, self.lecture, self._presentation
-        self.tabs: tuple[Tab, ...] = following
-        self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
+            presentation.begin(self.lecture, self._views, self._hold)
+
+    def _listen(self) -> None:
+        """Presses that no part of the page has for itself."""
+        context, bridge, camera = self.context, self.context.bridge, self.scene.camera
+        context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
+        context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
+        self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
-        bridge.on("aim", lambda _: self.camera.come_back())
-        bridge.on("taken", lambda _: self.camera.let_go())
-        bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
+        bridge.on("aim", lambda _: camera.come_back())
+        bridge.on("taken", lambda _: camera.let_go())
+        bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.hand().on_stage and not context.held:
-            layout.show_mode("actuate")
-        self.file.begin(problems)
-        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
-            client.add_notification(title, brief(sentence), color="red")
+            context.layout.show_mode("actuate")
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
-        self._refresh(Reading(self.controls.inputs(), self.display.view()))
-        self.follower.follow((BAR,).__contains__)
+        self._refresh(Reading(self.context.inputs(), self.context.view()))
+        self.follower.follow(AT_ONCE.__contains__)
 
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
@@ -193,21 +220,20 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.follower, self._work, self.optimise, self.actuator, *self.tabs):
-            part.stop()
-        self.context.bridge.stop()
+        for leave in self.context.leaving:
+            leave()
 
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
-        self._pause = self.controls.pauses.longest()
+        self._pause = self.context.controls.pauses.longest()
         with self.context.whole:
             self._actuator_inputs = self._acting()
-            return self.history.read(self._pause), self.display.view()
+            return self.history.read(self._pause), self.context.display.view()
 
     def _acting(self) -> ActuatorInputs:
         """The actuator as set; at rest outside Actuate, where the design is that of sliders, link and search."""
         inputs = self.actuator.inputs()
-        return inputs if self.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
+        return inputs if self.context.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
@@ -226,7 +252,7 @@ class Page:
             self.context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
             self.context.set_inputs(outcome.inputs)
-        self.display.allow_difference(self.pin is not None)
+        self.context.display.allow_difference(self.pin is not None)
         return outcome.inputs is not None
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
@@ -239,13 +265,13 @@ class Page:
         `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
         """
         overlay = overlay_of(reading.sliders if reading.previewed else None, self.pin)
-        self.camera.resize(solution.design.rotor.radius)
+        self.scene.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
         if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
             self.scene.draw(solution, reading.view, overlay, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
-        self.camera.ride(math.radians(reading.view.azimuth_deg))
+        self.scene.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
         if not only_azimuth or solution.design.active_twist is not None:
             design = reading.sliders or solution.design
@@ -253,13 +279,14 @@ class Page:
 
     def now(self) -> PageState:
         """All that is known, for the panels that are functions of it; safe from any thread."""
+        context = self.context
         return replace(
             self._now,
-            ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held, self.actuator.lifted),
-            pins=self.context.pinboard.now,
+            ui=OpenPanels(context.layout.mode, context.layout.drawer, context.held, self.actuator.lifted),
+            pins=context.pinboard.now,
             steps=self.history.steps,
             station=self._curve.held,
-            change=self.context.tracker.change,
+            change=context.tracker.change,
             optimised=self.optimised.solution,
             searching=self.optimise.notice(self._now.sliders),
             memory=self.follower.memory,
@@ -298,18 +325,18 @@ class Page:
         """Only the azimuth of the reference blade changed."""
         self._now = replace(self._now, state=state)
         self.follower.follow(lambda panel: panel.turns)
-        self.probe.show(state)
+        self._tabs[0](state)
 
     def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._now = replace(self._now, state=state, curve=curve)
-        with self._client.atomic():  # Each message by itself would wake the thread that sends.
+        with self.context.client.atomic():  # Each message by itself would wake the thread that sends.
             self.optimised.show(state)
             self._refresh(reading)
             self._curve.show(state)
             self._learn()
             self.follower.follow()
-            self.display.show(state)
+            self.context.display.show(state)
 
     def show_power(self, curve: PowerCurve) -> None:
         """Draw power over advance ratio anew."""
@@ -323,9 +350,9 @@ class Page:
             self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
 
     def follow(self, state: SessionState) -> None:
-        """Update all other tabs."""
-        for tab in self.tabs:
-            tab.show(state)
+        """Update what follows the panels."""
+        for show in self._tabs:
+            show(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing moves: vortices, slopes of power and how sure it is."""
@@ -355,8 +382,8 @@ class Page:
         self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
         self.follower.follow()
-        for tab in self.tabs:
-            tab.show_failure()
+        for show in self._tabs:
+            show(None)
         pinned = self.context.pinboard.answer if reading.view.difference else None
         self.scene.fade(failure.good, reading.view, pinned)
 
@@ -371,7 +398,7 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(nearest_trim(state.inputs, self.controls.inputs(), trims))
+            self.context.set_inputs(nearest_trim(state.inputs, self.context.controls.inputs(), trims))
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
@@ -383,44 +410,35 @@ class Page:
         inputs, shown = reading.inputs, None
         if reading.previewed and reading.design is not None:
             shown = replace(with_optimum(inputs, reading.design), advance_ratio=reading.design.condition.advance_ratio)
-        self.controls.follow(shown)
-        self.controls.refresh(inputs, self.context.units)
-        if reading.view.dark != self._dark:
-            self._dark = reading.view.dark
-            self._theme()
-        self._touched = self._touched or inputs != self._start
-        # What to do first, until something was done.
-        wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
-        tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        prompt = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
-        self.context.bridge.set(prompt=prompt)
+        self.context.controls.follow(shown)
+        self.context.controls.refresh(inputs, self.context.units)
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
 
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
-        self.context.held = held
-        keyboard = self.context.keyboard
-        for part in (self.controls, self.optimise, self.actuator, self.display, self.lecture, keyboard):
+        context = self.context
+        context.held = held
+        for part in (context.controls, self.optimise, self.actuator, context.display, self.lecture, context.keyboard):
             part.hold(held)
-        self.follower.follow((BAR,).__contains__)
+        self.follower.follow(AT_ONCE.__contains__)
 
     def _blade_grabbed(self, held: bool) -> None:
         """The blade or a handle of its twist curve was taken by the hand, or let go."""
-        self.camera.hold(held)
+        self.scene.camera.hold(held)
         self._grabbed(held)
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.begin(time.monotonic())
+        self.context.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
             self._learn()
         else:
             self.context.tracker.release()
         self.history.grab(held)
-        self._wake()
+        self.context.wake()
 
     def _perform(self, effect: Effect) -> None:
         """Do what a press says."""
@@ -431,21 +449,17 @@ class Page:
                 self._grabbed(held)
             case PinOrder(order):
                 self.context.pinboard.ask(order)
-                self._wake()
+                self.context.wake()
             case _:
                 self.actuator.perform(effect)
 
-    def _theme(self) -> None:
-        self._client.gui.configure_theme(
-            dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
-        )
-
     def _default(self, label: str) -> None:
         """A slider was double-clicked."""
-        if not self.context.held and self.layout.mode == "explore":
-            self.controls.default(label, self._opening)
+        mode = self.context.layout.mode
+        if not self.context.held and mode == "explore":
+            self.context.controls.default(label, self._opening)
         elif not self.context.held:
-            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
+            (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""
@@ -453,4 +467,4 @@ class Page:
         self.optimise.withdraw()
         self.actuator.reset()
         self.optimised.begin(None)
-        self.controls.set_inputs(self._opening)
+        self.context.controls.set_inputs(self._opening)

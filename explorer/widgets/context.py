@@ -1,4 +1,4 @@
-"""What the parts of one page share, what each does when the session calls it, and a clock for those that play."""
+"""What the parts of one page share, and a clock for those that play."""
 
 import logging
 import threading
@@ -17,6 +17,7 @@ from explorer.sharing.presentation import Presentations
 from explorer.widgets.controls import DesignControls
 from explorer.widgets.display import Display
 from explorer.widgets.layout import Keyboard, Layout
+from explorer.workers.background import LongWork
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
@@ -34,19 +35,6 @@ class SharedServices:
     presentations: Presentations
 
 
-class Tab:
-    """A part of the page that follows the session; called on the worker's thread."""
-
-    def show(self, state: SessionState) -> None:
-        """Show a converged state."""
-
-    def show_failure(self) -> None:
-        """The inputs have no solution: mark what is shown as out of date."""
-
-    def stop(self) -> None:
-        """The browser has left: end threads and jobs."""
-
-
 @dataclass
 class TabContext:
     """One page's. What a part may call is safe from any thread."""
@@ -61,10 +49,13 @@ class TabContext:
     analyses: Analyses
     pinboard: Pinboard
     pool: Processes
+    work: LongWork
     wake: Callable[[], None]
     """Have the page follow."""
     state: Callable[[], SessionState | None]
     """The last converged state; None before the first."""
+    leaving: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]])
+    """Called once the browser has left: end threads and jobs."""
     held: bool = False
     """Whether a presenter moves the page."""
     whole: threading.RLock = field(default_factory=threading.RLock)
@@ -78,7 +69,7 @@ class TabContext:
         return self.controls.inputs()
 
     def set_inputs(self, inputs: Inputs) -> None:
-        """Move the sliders to a design that comes by no hand: no change of power since an earlier grab counts."""
+        """Move the sliders, not by hand: no change of power since an earlier grab counts."""
         self.tracker.reset()
         self.controls.set_inputs(inputs)
 

@@ -15,7 +15,7 @@ from explorer.model.session_state import SessionState
 from explorer.sharing import share
 from explorer.sharing.share import VIEW, Address, view_code
 from explorer.text.glossary import hint
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from rotor import Aircraft, Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
@@ -110,7 +110,7 @@ MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
 
 
-class FilePanel(Tab):
+class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
     def __init__(
@@ -131,6 +131,7 @@ class FilePanel(Tab):
             self._load = gui.add_upload_button(
                 "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
             )
+        context.leaving.append(address.stop)
         context.keyboard.bind("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())
         self._load.on_upload(self._loaded)
@@ -181,9 +182,6 @@ class FilePanel(Tab):
             self.follow(state)
         browser.copy_link(self._context.client, self._address.query)
         self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
-
-    def stop(self) -> None:
-        self._address.stop()
 
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value

@@ -22,7 +22,7 @@ from explorer.text.glossary import hint
 from explorer.views.assessed import Assessed, assessed, effect_asked
 from explorer.views.page_state import PageState
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.history_panel import HistoryPanel
 from rotor.support.markup import tag
 
@@ -33,7 +33,7 @@ _WIDTH = 1920
 """[px] of a picture of the view."""
 
 
-class ExportPanel(Tab):
+class ExportPanel:
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
     def __init__(
@@ -49,8 +49,6 @@ class ExportPanel(Tab):
         self._now = now
         self._busy = threading.Lock()
         self._curves = PowerCurves()
-        self._stale = False
-        """Whether the sliders mean a design without an answer, so that the last good one is exported."""
         with context.gui.add_folder("Export"):
             for name, ending, make in (
                 ("Picture", ".png", self._picture),
@@ -64,14 +62,6 @@ class ExportPanel(Tab):
             self._state = context.gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
-
-    def show(self, state: SessionState) -> None:
-        """Files are made from the state of the session when they are asked for."""
-        self._stale = False
-
-    def show_failure(self) -> None:
-        """The last good answer is still exported, and the line says so."""
-        self._stale = True
 
     def _driven(self) -> Assessed | None:
         """The actuator, where it twists the blade, and what it does here, worked out where that is not known."""
@@ -147,9 +137,8 @@ class ExportPanel(Tab):
         try:
             name, content = file_name(state.solution.design, ending), make(state)
             self._context.download(name, content)
-            stale = (
-                " It holds the last converged solution: the design on the sliders has no trim." if self._stale else ""
-            )
+            old = " It holds the last converged solution: the design on the sliders has no trim."
+            stale = old if self._now().problem else ""
             size = f"{max(len(content) / 1e3, 1.0):,.0f} kB".replace(",", "\u2009")
             self._say("done", f"{name}, {size} ({time.perf_counter() - begin:.1f} s).{stale}")
         except (ValueError, TimeoutError) as error:
@@ -162,8 +151,8 @@ class ExportPanel(Tab):
             self._busy.release()
 
     def _say(self, kind: str, sentence: str) -> None:
-        told = {"data_explorer": "export", "data_kind": kind}
-        self._state.content = tag("div.rx.rx-small.rx-export", sentence, **told)
+        marks = {"data_explorer": "export", "data_kind": kind}
+        self._state.content = tag("div.rx.rx-small.rx-export", sentence, **marks)
 
 
 def _design_file(state: SessionState) -> bytes:

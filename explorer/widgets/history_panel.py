@@ -16,7 +16,7 @@ from explorer.sharing import share
 from explorer.sharing.share import StoredHistory
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from rotor import Solution, solve
 from rotor.support.markup import Markup, tag
@@ -65,7 +65,7 @@ def _spark(solution: Solution) -> Markup:
     return tag("svg", zero, twist, width=width, height=height)
 
 
-class HistoryPanel(Tab):
+class HistoryPanel:
     """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
     def __init__(self, context: TabContext, start: Inputs, stored: str | None) -> None:
@@ -151,8 +151,7 @@ class HistoryPanel(Tab):
                 self._waiting.pop()
                 if solution.converged and all(item.inputs != inputs for item in self._kept):
                     self._kept = [KeptDesign(inputs, solution.without_factors()), *self._kept][-MOST_KEPT:]
-            if (state := self._context.state()) is not None:
-                self.show(state)
+            self.show(self._context.state())
 
     @property
     def kept(self) -> tuple[KeptDesign, ...]:
@@ -160,25 +159,21 @@ class HistoryPanel(Tab):
         with self._lock:
             return tuple(self._kept)
 
-    def show(self, state: SessionState) -> None:
-        self._draw(state.solution)
-
-    def show_failure(self) -> None:
-        self._draw(None)
-
-    @property
-    def steps(self) -> tuple[bool, bool]:
-        """Whether there is a step to undo, and one to redo."""
-        with self._lock:
-            return bool(self._history.past), bool(self._history.future)
-
-    def _draw(self, solution: Solution | None) -> None:
+    def show(self, state: SessionState | None) -> None:
+        """None: the inputs have no solution to compare with."""
+        solution = None if state is None else state.solution
         with self._lock:
             kept, units = tuple(self._kept), self._context.units
             if self._drawn == (drawn := (kept, solution if kept else None, units)):
                 return
             self._drawn = drawn
         self._rows.content = tag("div.rx", kept_rows(kept, solution, units))
+
+    @property
+    def steps(self) -> tuple[bool, bool]:
+        """Whether there is a step to undo, and one to redo."""
+        with self._lock:
+            return bool(self._history.past), bool(self._history.future)
 
     def _move(self, inputs: Inputs | None) -> None:
         """Move the widgets, under the lock."""

@@ -25,7 +25,7 @@ from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, fl
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
-from explorer.widgets.context import Player, Tab, TabContext
+from explorer.widgets.context import Player, TabContext
 from explorer.widgets.layout import COARSE, by_hand
 from rotor import Rotor, Solution
 from rotor.support.arrays import Array
@@ -171,7 +171,7 @@ class _ProbePoint:
     opened: bool
 
 
-class ProbePanel(Tab):
+class ProbePanel:
     """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
 
     def __init__(self, context: TabContext, scene: SceneController) -> None:
@@ -181,6 +181,7 @@ class ProbePanel(Tab):
         self._html = Markup()
         self._cursor = ProbeCursor(client.scene, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
+        context.leaving.append(self._player.pause)
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
         self._walked: float | None = None
@@ -212,8 +213,11 @@ class ProbePanel(Tab):
             bind(f"probe_{name}", partial(self._step, r, psi))
             bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
 
-    def show(self, state: SessionState) -> None:
-        """Follow a converged answer, or the reference blade."""
+    def show(self, state: SessionState | None) -> None:
+        """Follow a converged answer, or the reference blade; None: the inputs have no answer."""
+        if state is None:
+            self._fade()
+            return
         if self._follow.value:
             # Where the blade is by now: an older place would pull a slider that is dragged back.
             self._psi.value = self._context.view().azimuth_deg
@@ -252,16 +256,13 @@ class ProbePanel(Tab):
         beside = self._beside[2]
         return Markup() if beside is None else measured_panel(beside, here.psi)
 
-    def show_failure(self) -> None:
-        """The inputs have no answer: what stands here is of the last one."""
+    def _fade(self) -> None:
+        """What stands here is of the last answer."""
         self._ride.end()
         self._pause()
         self._drawn = None
         self._panel.content = faded(self._html)
         self._cursor.hide()
-
-    def stop(self) -> None:
-        self._player.pause()
 
     def set_seen(self, seen: bool) -> None:
         """Whether the disk is in the scene, to be clicked."""

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
+import viser
+
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Look, ScreenState, SessionState
 from explorer.model.units import UNITS
@@ -15,20 +17,29 @@ from explorer.picture.plan import plan
 from explorer.scene.controller import SceneController
 from explorer.text.glossary import hint
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from explorer.widgets.probe_panel import ProbePanel
 from rotor import Solution
 from rotor.support.markup import tag
 
+_BRAND = (37, 99, 235)
+
+
+def theme(client: viser.ClientHandle, dark: bool) -> None:
+    """A dark page or a light one."""
+    client.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False, brand_color=_BRAND)
+
+
 _TIMES = {f"×{times:g}": times for times in (1.0, 2.0, 4.0)}
 """How many times its twist a blade may be drawn with."""
 
 
-class SettingsPanel(Tab):
+class SettingsPanel:
     def __init__(self, context: TabContext) -> None:
         self._context, gui, bind = context, context.gui, context.keyboard.bind
         view = context.view()
+        self._themed = view.dark
         self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
@@ -44,10 +55,15 @@ class SettingsPanel(Tab):
         bind("field_next", lambda: self._step_field(1))
         bind("field_previous", lambda: self._step_field(-1))
 
-    def show(self, state: SessionState) -> None:
+    def show(self, state: SessionState | None) -> None:
         """Follow the view, which keys change too."""
-        self._units.value, self._dark.value = state.view.units, state.view.dark
-        self._times.value = f"×{state.view.exaggeration:g}"
+        del state
+        view = self._context.view()
+        if view.dark != self._themed:
+            self._themed = view.dark
+            theme(self._context.client, view.dark)
+        self._units.value, self._dark.value = view.units, view.dark
+        self._times.value = f"×{view.exaggeration:g}"
 
     def _change(self, **values: object) -> None:
         display = self._context.display

@@ -65,7 +65,7 @@ class Rest:
 
 
 def works(answers: PoolAnswers) -> bool:
-    return answers.running or answers._timer is not None
+    return answers._job is not None or answers._timer is not None
 
 
 def show(watched: Watched, panel: tuple[str, str]) -> None:

@@ -33,6 +33,7 @@ class ActuatorPanel:
         """`address` may hold a supposed actuator; `problems` get a title and a sentence where it cannot be read."""
         self._context, self._address = context, address
         self._blade = LiftedScene(context.client, context.bridge)
+        context.leaving.append(self._blade.stop)
         place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used", problems)
         self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
         self.lifted = False
@@ -52,10 +53,6 @@ class ActuatorPanel:
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
         self.controls.form.hold(held)
-
-    def stop(self) -> None:
-        """The browser has left."""
-        self._blade.stop()
 
     def hand(self) -> HandSettings:
         """What the hand has set by now."""

@@ -20,7 +20,7 @@ from explorer.story.facts import StepFacts, facts_at
 from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
 from explorer.text.glossary import hint
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from explorer.widgets.views import SceneViews
 from explorer.workers.background import PoolAnswers
@@ -53,7 +53,7 @@ _NO_CASE = "–"
 _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
 
 
-class LecturePanel(Tab):
+class LecturePanel:
     """One session's. Buttons act at once; the numbers follow the session."""
 
     def __init__(self, context: TabContext, camera: FittedCamera, screen: SceneViews) -> None:
@@ -69,7 +69,8 @@ class LecturePanel(Tab):
         self._state: SessionState | None = None
         self._showing = threading.Lock()
         """Held from reading the place to sending it: an answer that comes as the lecture ends shows nothing."""
-        self._told = PoolAnswers(context.pool, 4, self._facts_came)
+        self._answers = PoolAnswers(context.pool, 4, self._facts_came)
+        context.leaving.append(self._answers.stop)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
@@ -143,27 +144,22 @@ class LecturePanel(Tab):
             self._camera.aim("3d")
             self._screen.put(replace(before, inputs=inputs))
 
-    def show(self, state: SessionState) -> None:
-        """Say what is seen now."""
+    def show(self, state: SessionState | None) -> None:
+        """Say what is seen now; None: the inputs have no solution, so there is nothing to say in numbers."""
         self._state = state
+        if state is None or self.place is not None:
+            self._show()
+        if state is None:
+            return
         self._name_case(state.inputs)
         if self.place is None:
             return
-        self._show()
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
             return  # The user has made another design A.
         against = self._beside(state.inputs)
         if against is not None and not same_but_flight(against, self._against):
             self._against = against
             self._context.pin(against)
-
-    def show_failure(self) -> None:
-        """There is nothing to say in numbers."""
-        self._state = None
-        self._show()
-
-    def stop(self) -> None:
-        self._told.stop()
 
     def _fly_on(self) -> None:
         """The lecture ends in Actuate, on the blade of its last step."""
@@ -187,7 +183,7 @@ class LecturePanel(Tab):
 
     def _stand_at(self, place: StoryPlace | None) -> None:
         if place is not None and self.place is None:
-            self._told.ask(tuple(map(_task, range(len(STEPS)))), 0.0)
+            self._answers.ask(tuple(map(_task, range(len(STEPS)))), 0.0)
         self.place, self._state = place, None
         self._begin.label = "Start the lecture" if place is None else "End the lecture"
         self._show()
@@ -195,7 +191,7 @@ class LecturePanel(Tab):
 
     def _facts(self, step: int) -> StepFacts | None:
         """What is computed of a step; None until then."""
-        facts = self._told.answer(_task(step))
+        facts = self._answers.answer(_task(step))
         return facts if isinstance(facts, StepFacts) else None
 
     def _facts_came(self) -> None:
@@ -240,7 +236,7 @@ class LecturePanel(Tab):
         if place is None:
             bridge.set(lecture=None)
             return
-        step, state, answer = STEPS[place.step], self._state, self._told.answer(_task(place.step))
+        step, state, answer = STEPS[place.step], self._state, self._answers.answer(_task(place.step))
         facts = answer if isinstance(answer, StepFacts) else None
         guessed = place.guess is not None
         values = dict[str, str]()

@@ -15,7 +15,7 @@ from explorer.model.session_state import SessionState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
 from explorer.sharing.share import Address
 from explorer.text.glossary import hint
-from explorer.widgets.context import Tab, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.lecture.lecture_panel import LecturePanel
 from explorer.widgets.views import SceneViews
 from rotor.support.markup import Content, tag
@@ -33,7 +33,7 @@ _DUPLICATE = (
 )
 
 
-class PresentationBanner(Tab):
+class PresentationBanner:
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
     _lecture: LecturePanel
@@ -62,6 +62,7 @@ class PresentationBanner(Tab):
         self._looked = 0.0
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
+        context.leaving.append(self._end)
         self._banner = context.gui.add_html("", visible=False)
         self._leave = context.gui.add_button(
             "Leave and continue alone", color="gray", visible=False, hint=hint("leave")
@@ -124,17 +125,13 @@ class PresentationBanner(Tab):
         self._address[FOLLOW] = None
         self._say("")
 
-    def show(self, state: SessionState) -> None:
-        """Publish what the page shows, if it presents."""
+    def show(self, state: SessionState | None) -> None:
+        """Publish what the page shows, if it presents; where it follows, show what is presented."""
         del state
         self._publish()
         self._hold_still()
 
-    def show_failure(self) -> None:
-        self._publish()
-        self._hold_still()
-
-    def stop(self) -> None:
+    def _end(self) -> None:
         """The browser has left. A presenter who loads the page again presents on."""
         with self._publishing:  # Nothing is shown after that the presenter has left.
             self._secret = ""

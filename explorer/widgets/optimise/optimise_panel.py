@@ -92,6 +92,7 @@ class OptimisePanel:
         self._frame = gui.add_html("")
         self._details = gui.add_html("")
         self._best = PoolAnswers(context.pool, 3, context.wake)
+        context.leaving.append(self._best.stop)
         self._ranges = gui.add_html("")
         bridge.on("apply", lambda _: self._close(True))
         bridge.on("discard", lambda _: self._close(False))
@@ -220,9 +221,6 @@ class OptimisePanel:
         self._best.ask(() if task is None else (task,), _STILL)
         answer = self._best.answer(task)
         self._ranges.content = twist_ranges(answer, self._context.units) if isinstance(answer, BestTwist) else ""
-
-    def stop(self) -> None:
-        self._best.stop()
 
     def notice(self, design: Design | None) -> NoticePart | None:
         """The bar over the scene while it shows a search instead of the sliders."""
