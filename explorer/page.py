@@ -53,7 +53,7 @@ from explorer.widgets.layout import Keyboard, Layout, Sections
 from explorer.widgets.lecture.lecture_panel import LecturePanel
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from explorer.widgets.optimise.map_panel import MapPanel
-from explorer.widgets.optimise.optimise_panel import OptimisedDesign, OptimisePanel
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
 from explorer.widgets.optimise.schedule_panel import SchedulePanel
 from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
@@ -137,15 +137,14 @@ class Page:
     def _add_rail(self, address: Address, problems: list[tuple[str, str]]) -> None:
         """What stands on the right beside the sliders of Explore."""
         context = self.context
-        self.optimised, work = OptimisedDesign(context, address, problems), context.work
         with context.layout.in_mode("optimise"):
             tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context, work, self.optimised.begin)
+                self.optimise = OptimisePanel(context, address, problems)
             with tasks["Map"]:
-                self.map = MapPanel(context, work, self.optimise)
+                self.map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
-                self.schedule = SchedulePanel(context, work, self.optimise)
+                self.schedule = SchedulePanel(context, self.optimise)
         with context.layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self._acting()
@@ -225,10 +224,11 @@ class Page:
 
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
-        self._pause = self.context.controls.pauses.longest()
+        tracker = self.context.tracker
+        tracker.pause = self.context.controls.pauses.longest()
         with self.context.whole:
             self._actuator_inputs = self._acting()
-            return self.history.read(self._pause), self.context.display.view()
+            return self.history.read(tracker.pause), self.context.display.view()
 
     def _acting(self) -> ActuatorInputs:
         """The actuator as set; at rest outside Actuate, where the design is that of sliders, link and search."""
@@ -287,7 +287,7 @@ class Page:
             steps=self.history.steps,
             station=self._curve.held,
             change=context.tracker.change,
-            optimised=self.optimised.solution,
+            optimised=self.optimise.rival.solution,
             searching=self.optimise.notice(self._now.sliders),
             memory=self.follower.memory,
             answers=self.follower.answers(),
@@ -301,12 +301,12 @@ class Page:
 
     def solved(self, inputs: Inputs, solution: Solution) -> None:
         """A point of how power changes with the sliders."""
-        self.context.tracker.solved(inputs, solution.power.total, self._pause)
+        self.context.tracker.solved(inputs, solution.power.total)
 
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
         self.solved(state.inputs, state.solution)
-        self.context.analyses.forget_others(state.solution, state.reference, self.optimised.solution)
+        self.context.analyses.forget_others(state.solution, state.reference, self.optimise.rival.solution)
         self.follower.memory = self.follower.memory.then(state, self._now.state)
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
@@ -331,7 +331,7 @@ class Page:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._now = replace(self._now, state=state, curve=curve)
         with self.context.client.atomic():  # Each message by itself would wake the thread that sends.
-            self.optimised.show(state)
+            self.optimise.rival.show(state)
             self._refresh(reading)
             self._curve.show(state)
             self._learn()
@@ -466,5 +466,5 @@ class Page:
         self.context.tracker.reset()
         self.optimise.withdraw()
         self.actuator.reset()
-        self.optimised.begin(None)
+        self.optimise.rival.begin(None)
         self.context.controls.set_inputs(self._opening)

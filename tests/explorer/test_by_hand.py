@@ -98,7 +98,7 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
     view, hand = page.context.display.view(), page.actuator.hand()
-    return (page.context.controls.inputs(), page.pin, page.optimise.run, page.optimised.solution, hand.on_stage,
+    return (page.context.controls.inputs(), page.pin, page.optimise.run, page.optimise.rival.solution, hand.on_stage,
             hand.actuator.drives, view.field, view.difference, page.lecture.place)  # fmt: skip
 
 

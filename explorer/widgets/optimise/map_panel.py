@@ -9,7 +9,6 @@ from explorer.parts.presses import MapPress
 from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
-from explorer.workers.background import LongWork
 from explorer.workers.solver import MapTask
 from rotor import Design
 from rotor.optimisation import nearest
@@ -26,9 +25,9 @@ _KEY = f"★ least · ● your design, ○ nearest point to it · white outline:
 
 
 class MapPanel:
-    def __init__(self, context: TabContext, work: LongWork, search: OptimisePanel) -> None:
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the search is asked for."""
-        self._context, self._work, self._search, gui = context, work, search, context.gui
+        self._context, self._work, self._search, gui = context, context.work, search, context.gui
         self.map: PowerMap | None = None
         """The last with a design that trims."""
         self._refused = ""

@@ -18,7 +18,7 @@ from explorer.widgets.context import TabContext
 from explorer.widgets.elements import WorkButtons
 from explorer.widgets.form import WidgetForm
 from explorer.widgets.layout import by_hand
-from explorer.workers.background import LongWork, PoolAnswers
+from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 from explorer.workers.solver import BaselineCache, SearchTask
 from rotor import Design, Solution
@@ -54,10 +54,11 @@ def same_but_twist(optimised: Design, present: Design) -> bool:
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, context: TabContext, work: LongWork, challenge: Callable[[Design], None]) -> None:
-        """`challenge` hears of an optimum that is to be beaten by hand."""
-        self._context, self._work, self._challenge = context, work, challenge
-        gui, bridge = context.gui, context.bridge
+    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
+        """`address`, `problems`: as for `OptimisedDesign`."""
+        self._context, self._work, gui, bridge = context, context.work, context.gui, context.bridge
+        self.rival = OptimisedDesign(context, address, problems)
+        """What is to be beaten by hand."""
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self._run: SearchRun | None = None
@@ -249,7 +250,7 @@ class OptimisePanel:
         if run is not None and not run.under_way and len(run.frames) > 1 and self._beatable(run):
             self._close(False)
             self._context.layout.show_mode("explore")
-            self._challenge(run.frames[-1].design)
+            self.rival.begin(run.frames[-1].design)
 
     def _close(self, apply: bool) -> None:
         """Take what is previewed onto the sliders, or leave them as they are."""

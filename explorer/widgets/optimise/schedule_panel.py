@@ -13,7 +13,6 @@ from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
 from explorer.widgets.elements import PanelChart, WorkButtons
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
-from explorer.workers.background import LongWork
 from explorer.workers.solver import ScheduleTask
 from rotor import Design
 from rotor.optimisation import SchedulePlan, WeightedCondition
@@ -29,9 +28,9 @@ _BEFORE = "Best twist for each leg, and the best fixed blade for all."
 
 
 class SchedulePanel:
-    def __init__(self, context: TabContext, work: LongWork, search: OptimisePanel) -> None:
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
-        self._context, self._work, self._request, gui = context, work, search.request, context.gui
+        self._context, self._work, self._request, gui = context, context.work, search.request, context.gui
         search.legs = self.legs
         self._refused = ""
         """Why what was asked for last is no schedule."""
@@ -46,7 +45,7 @@ class SchedulePanel:
             "Stop schedule",
             ("schedule", "schedule_stop"),
             self.begin,
-            partial(work.halt, NAME),
+            partial(context.work.halt, NAME),
         )
         self._state = gui.add_html("")
         self._table = gui.add_html("")
