@@ -1,4 +1,4 @@
-"""The map of power over two parameters of a concept: its trims, its drawing, and what is said of its least power."""
+"""The map of power over two parameters of a concept: its trims, its drawing, and its least power in words."""
 
 import math
 from dataclasses import dataclass

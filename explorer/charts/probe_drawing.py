@@ -93,8 +93,8 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
         _forces(sketch, scales.lift * _STRONGEST / strongest, scales.drag * _STRONGEST / strongest),
     )
     label = "The blade section with its velocity triangle and forces"
-    told: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
-    return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **told), scales
+    marks: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
+    return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **marks), scales
 
 
 def _factor(length: float, floor: float, factors: tuple[int, ...]) -> int:

@@ -71,7 +71,7 @@ def with_indices(words: str) -> Markup:
 
 @dataclass(frozen=True, eq=False)
 class BesideMeasured:
-    """Measured curves and ours of one solution."""
+    """Measured curves, and the computed ones of one solution."""
 
     case: FlownCase
     at_test: bool
@@ -79,7 +79,7 @@ class BesideMeasured:
     blade: bool
     """Whether it has the blade of the test."""
     curves: tuple[tuple[MeasuredCurve, Array, Array], ...]
-    """A measured curve, then azimuths [rad] and values of ours."""
+    """A measured curve, then azimuths [rad] and computed values."""
 
 
 def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
@@ -125,26 +125,26 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
             title=tip("probe_measured"),
         ),
         tag("div.rx-line.rx-small.rx-base", tag("span", words), press) if differs else None,
-        [_chart(curve, at, ours, psi, not differs) for curve, at, ours in beside.curves],
+        [_chart(curve, at, computed, psi, not differs) for curve, at, computed in beside.curves],
         tag("div.rx-small.rx-dim", f"Points: {report}."),
         data_explorer="probe-measured",
     )
 
 
-def correlation(measured: MeasuredCurve, psi: Array, ours: Array) -> float:
+def correlation(measured: MeasuredCurve, psi: Array, computed: Array) -> float:
     """Correlation of the harmonics that are compared, without the mean."""
     computed, other = (
-        harmonics(at, values, measured.highest)[1:] for at, values in ((psi, ours), (measured.psi, measured.values))
+        harmonics(at, values, measured.highest)[1:] for at, values in ((psi, computed), (measured.psi, measured.values))
     )
     return float(computed @ other / math.sqrt((computed @ computed) * (other @ other)))
 
 
-def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike: bool) -> Markup:
+def _chart(measured: MeasuredCurve, psi: Array, computed: Array, here: float, alike: bool) -> Markup:
     title, meaning = MEASURED[measured.quantity]
     where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
-    seen = *measured.values.tolist(), *ours.tolist()
+    seen = *measured.values.tolist(), *computed.tolist()
     margin = 0.05 * (max(seen) - min(seen))
-    closed = np.append(psi, psi[0] + 2.0 * math.pi), np.append(ours, ours[0])
+    closed = np.append(psi, psi[0] + 2.0 * math.pi), np.append(computed, computed[0])
     size = 1.0 if len(measured.psi) > 100 else 1.7
     chart = Chart(
         f"{title}{where}",
@@ -155,7 +155,7 @@ def _chart(measured: MeasuredCurve, psi: Array, ours: Array, here: float, alike:
             Line("", np.degrees(closed[0]), closed[1], THIS, width=1.8),
         ),
         (Rule(math.degrees(here) % 360.0),),
-        value=f"correlation {number(correlation(measured, psi, ours), 2)}" if alike else "",
+        value=f"correlation {number(correlation(measured, psi, computed), 2)}" if alike else "",
         note=f"{meaning[0].upper()}{meaning[1:]}, measured and computed. "
         f"Correlation of harmonics 1 to {measured.highest}, without the mean.",
     )

@@ -31,7 +31,7 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
 }
 """Colour, width [px] and dashes by role."""
 _LEAST_SWEPT = 4
-"""Trims of a sweep, at least, of which speeds are told."""
+"""Fewest points from which a top speed is shown."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 

@@ -75,10 +75,10 @@ class PageScene:
         def numbers(values: Array | None, digits: int) -> Any:
             return None if values is None else values.round(digits).tolist()
 
-        told = {
+        shaped = {
             node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)] for node, form in forms.items()
         }
-        call(self._client, "rotorDisk.form", told)
+        call(self._client, "rotorDisk.form", shaped)
 
     def paint(
         self,

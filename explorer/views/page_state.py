@@ -76,7 +76,7 @@ class PageState:
     optimised: Solution | None = None
     """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
     searching: NoticePart | None = None
-    """What is said while a search is shown in place of the sliders."""
+    """The bar over the scene while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None
     """Power over µ; None before the first."""
     measured: MeasuredChart = field(default_factory=MeasuredChart)
