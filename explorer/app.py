@@ -24,9 +24,9 @@ from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import FOLLOW, Presentations
 from explorer.sharing.share import DESIGN, VIEW, inputs_from, parameter, view_from
-from explorer.tabs.context import SharedServices
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
+from explorer.widgets.context import SharedServices
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins, UpdatePool
 from rotor import solve

@@ -1,6 +1,6 @@
 """The page of one client: where its parts stand, and what each of them does when the session calls.
 
-The parts themselves are in `explorer/tabs`, the scene in `explorer/scene`.
+The parts themselves are in `explorer/widgets`, the scene in `explorer/scene`.
 """
 
 import math
@@ -16,56 +16,85 @@ from explorer.hosting.browser import Bridge, set_query
 from explorer.hosting.messages import PageFacts
 from explorer.model.actuator_inputs import AT_REST, ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, Reading, SessionState
+from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, PinResult, Reading, SessionState
 from explorer.model.sliders import nearest_trim
 from explorer.model.undo import PowerTracker
 from explorer.parts.presses import IdlePress
-from explorer.parts.stage import SceneLabel
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
-from explorer.tabs.actuator.actuator_panel import ActuatorPanel
-from explorer.tabs.context import SharedServices, Tab, TabContext
-from explorer.tabs.controls import DesignControls, SessionCallbacks
-from explorer.tabs.design_files import FilePanel, add_rotor_upload
-from explorer.tabs.display import Display
-from explorer.tabs.export_panel import ExportPanel
-from explorer.tabs.history_panel import HistoryPanel
-from explorer.tabs.layout import Keyboard, Layout, Sections
-from explorer.tabs.lecture.lecture_panel import LecturePanel
-from explorer.tabs.lecture.presentation_banner import PresentationBanner
-from explorer.tabs.optimise.map_panel import MapPanel
-from explorer.tabs.optimise.optimise_panel import OptimisedDesign, OptimisePanel
-from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.panel_updater import PanelUpdater
-from explorer.tabs.probe_panel import ProbePanel
-from explorer.tabs.results import drawer_texts
-from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.tabs.vibration_panel import VibrationPanel
-from explorer.tabs.views import SceneViews, SettingsPanel, TopBar
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
+from explorer.views.bar import BAR
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import FLIGHT
 from explorer.views.inset import INSET
-from explorer.views.notice import NOTICE
-from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, SetGrabbed
+from explorer.views.notice import NOTICE, PROMPT
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed
+from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.strip import STRIP
+from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
+from explorer.widgets.context import SharedServices, TabContext
+from explorer.widgets.controls import DesignControls, SessionCallbacks
+from explorer.widgets.design_files import FilePanel, add_rotor_upload
+from explorer.widgets.display import Display
+from explorer.widgets.export_panel import ExportPanel
+from explorer.widgets.history_panel import HistoryPanel
+from explorer.widgets.layout import Keyboard, Layout, Sections
+from explorer.widgets.lecture.lecture_panel import LecturePanel
+from explorer.widgets.lecture.presentation_banner import PresentationBanner
+from explorer.widgets.optimise.map_panel import MapPanel
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
+from explorer.widgets.optimise.schedule_panel import SchedulePanel
+from explorer.widgets.probe_panel import ProbePanel
+from explorer.widgets.results import drawer_texts
+from explorer.widgets.twist_curve import TwistCurveEditor
+from explorer.widgets.views import SceneViews, SettingsPanel, theme
+from explorer.workers.background import LongWork
 from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
-_BRAND = (37, 99, 235)
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
-PANELS = POWER, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+AT_ONCE = BAR, PROMPT
+"""Panels that follow a press before the update that it wakes."""
+PANELS = *AT_ONCE, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
+
+
+def _context(
+    client: viser.ClientHandle, start: Inputs, view: ViewState, shared: SharedServices, callbacks: SessionCallbacks
+) -> TabContext:
+    """The frame of the page, the sliders of Explore, and what its parts share."""
+    bridge, tracker, analyses = Bridge(client), PowerTracker(), Analyses()
+    keyboard, layout = Keyboard(client, bridge), Layout(client.gui, bridge)
+    layout.watchers.append(callbacks.wake)
+    display = Display(bridge, view, callbacks.wake, callbacks.azimuth_changed)
+    with layout.in_mode("explore"):
+        controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
+    return TabContext(
+        client,
+        bridge,
+        keyboard,
+        layout,
+        display,
+        controls,
+        tracker,
+        analyses,
+        Pinboard(analyses.solve),
+        shared.pool,
+        LongWork(shared.pool, callbacks.wake),
+        callbacks.wake,
+        callbacks.state,
+    )
 
 
 class Page:
@@ -86,98 +115,98 @@ class Page:
         self._opening = start
         start = address.read(share.DESIGN, inputs_from, start, "Link: design not used", problems)
         view = address.read(VIEW, view_from, ViewState(), "Link: view not used", problems)
-        self._client, self._wake, self._start, self._dark = client, callbacks.wake, start, facts.dark
-        self._pause, self._touched = 0.0, False
-        self._theme()
+        theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
-        bridge, tracker = Bridge(client), PowerTracker()
-        keyboard = Keyboard(client, bridge)
         banner = client.gui.add_folder(None)
-        layout = self.layout = Layout(client.gui, bridge)
-        layout.watchers.append(callbacks.wake)
-        self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
-        with layout.in_mode("explore"):
-            self.controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
-        analyses = Analyses()
-        pinboard, controls, pool = Pinboard(analyses.solve), self.controls, shared.pool
-        context = self.context = TabContext(
-            client,
-            bridge,
-            keyboard,
-            layout,
-            self.display,
-            controls,
-            tracker,
-            analyses,
-            pinboard,
-            pool,
-            callbacks.wake,
-            callbacks.state,
-        )
+        self.context = _context(client, start, replace(view, dark=facts.dark), shared, callbacks)
         with banner:
             secret = facts.kept.get(PRESENT, "")
-            self._presentation = PresentationBanner(context, shared.presentations, address, secret, facts.page)
-        self.top = TopBar(context)
+            presentation = PresentationBanner(self.context, shared.presentations, address, secret, facts.page)
         rotor = start.aircraft.rotor_for(start.preset)
-        self.camera = FittedCamera(client, rotor.radius)
-        self.scene = SceneController(client, self.camera, rotor, self.display.show_range, facts.dark)
-        self.optimised = OptimisedDesign(context, address, problems)
-        with layout.in_mode("optimise"):
-            tasks = Sections(client.gui, bridge, "task", ("Search", "Map", "Schedule"))
+        camera = FittedCamera(client, rotor.radius)
+        self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
+        self._now = PageState(start, None, None, analyses=self.context.analyses)
+        """As of the last update; `now` has the rest."""
+        self._add_rail(address, problems)
+        self._add_drawers(address, facts, presentation)
+        self._listen()
+        self.file.begin(problems)
+        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
+            client.add_notification(title, brief(sentence), color="red")
+
+    def _add_rail(self, address: Address, problems: list[tuple[str, str]]) -> None:
+        """What stands on the right beside the sliders of Explore."""
+        context = self.context
+        with context.layout.in_mode("optimise"):
+            tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context, self.optimised.begin)
+                self.optimise = OptimisePanel(context, address, problems)
             with tasks["Map"]:
                 self.map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
                 self.schedule = SchedulePanel(context, self.optimise)
-        with layout.in_mode("actuate"):
+        with context.layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(context, address, problems)
             self._actuator_inputs = self._acting()
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
-        self._now = PageState(start, None, None, analyses=context.analyses)
-        """As of the last update; `now` has the rest."""
+
+    def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
+        """What stands on the left, and the panels."""
+        context, start = self.context, self._now.inputs
+        layout, gui = context.layout, context.gui
         texts = {**drawer_texts(context), **self.actuator.texts}
         with layout.in_drawer("probe"):
-            self.probe = ProbePanel(context, self.scene)
-        self.vibration = VibrationPanel(context)
+            probe = ProbePanel(context, self.scene)
         with layout.in_drawer("open"):
-            opened = Sections(client.gui, bridge, "opened", ("Files", "History"))
+            opened = Sections(gui, context.bridge, "opened", ("Files", "History"))
             with opened["Files"]:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
-        self._views = SceneViews(context, self.scene, self.probe, self.actuator)
+        self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.in_drawer("share"):
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
-            export = ExportPanel(context, self.scene, self.history, self.actuator, self.now)
+            ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(context, self.camera, self._views)
-            self._presentation.begin(self.lecture, self._views, self._hold)
+            self.lecture = LecturePanel(context, self.scene.camera, self._views)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
-            PANELS, bridge, texts, pool, callbacks.wake, self.now, self._pressed, self._perform
+            PANELS,
+            context.bridge,
+            context.keyboard.bind,
+            texts,
+            context.pool,
+            context.wake,
+            self.now,
+            self._pressed,
+            self._perform,
         )
-        following = self.probe, settings, self.history, self.file, export, self.lecture, self._presentation
-        self.tabs: tuple[Tab, ...] = following
-        self.scene.on_press(lambda metres: self._curve.grab(metres / self.camera.radius))
+        self._tabs = probe.show, settings.show, self.history.show, self.lecture.show, presentation.show
+        """What follows the panels; that of the probe first, which follows the azimuth too."""
+        with layout.in_drawer("lecture"):
+            presentation.begin(self.lecture, self._views, self._hold)
+
+    def _listen(self) -> None:
+        """Presses that no part of the page has for itself."""
+        context, bridge, camera = self.context, self.context.bridge, self.scene.camera
+        context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
+        context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
+        self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
         context.keyboard.bind("reset", self._reset)
         bridge.on("default", self._default)
         bridge.on("nearest", lambda _: self._nearest_trim())
-        bridge.on("aim", lambda _: self.camera.come_back())
-        bridge.on("taken", lambda _: self.camera.let_go())
-        bridge.on("covered", lambda cards: self.camera.leave_free(cards.above, cards.below))
+        bridge.on("aim", lambda _: camera.come_back())
+        bridge.on("taken", lambda _: camera.let_go())
+        bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.hand().on_stage and not context.held:
-            layout.show_mode("actuate")
-        self.file.begin(problems)
-        self.top.refresh()
-        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
-            client.add_notification(title, brief(sentence), color="red")
+            context.layout.show_mode("actuate")
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
-        self._refresh(Reading(self.controls.inputs(), self.display.view()))
+        self._refresh(Reading(self.context.inputs(), self.context.view()))
+        self.follower.follow(AT_ONCE.__contains__)
 
     def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
         """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
@@ -190,21 +219,21 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
-        for part in (self.follower, self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
-            part.stop()
-        self.context.bridge.stop()
+        for leave in self.context.leaving:
+            leave()
 
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now. A change of inputs becomes a step of undo."""
-        self._pause = self.controls.pauses.longest()
+        tracker = self.context.tracker
+        tracker.pause = self.context.controls.pauses.longest()
         with self.context.whole:
             self._actuator_inputs = self._acting()
-            return self.history.read(self._pause), self.display.view()
+            return self.history.read(tracker.pause), self.context.display.view()
 
     def _acting(self) -> ActuatorInputs:
         """The actuator as set; at rest outside Actuate, where the design is that of sliders, link and search."""
         inputs = self.actuator.inputs()
-        return inputs if self.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
+        return inputs if self.context.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
@@ -217,9 +246,14 @@ class Page:
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
-        moved = self.top.pin_or_swap(inputs, solution)
-        self.display.allow_difference(self.pin is not None)
-        return moved
+        able = solution if solution is not None and solution.converged else None
+        outcome = self.context.pinboard.act(inputs, able) or PinResult(None)
+        if outcome.sentence:
+            self.context.notify("A and B", outcome.sentence)
+        if outcome.inputs is not None:
+            self.context.set_inputs(outcome.inputs)
+        self.context.display.allow_difference(self.pin is not None)
+        return outcome.inputs is not None
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
         """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
@@ -231,13 +265,13 @@ class Page:
         `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
         """
         overlay = overlay_of(reading.sliders if reading.previewed else None, self.pin)
-        self.camera.resize(solution.design.rotor.radius)
+        self.scene.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
         if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
             self.scene.draw(solution, reading.view, overlay, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, reading.view, at_rest=False)
-        self.camera.ride(math.radians(reading.view.azimuth_deg))
+        self.scene.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the lifted blade turn with the marked one.
         if not only_azimuth or solution.design.active_twist is not None:
             design = reading.sliders or solution.design
@@ -245,12 +279,15 @@ class Page:
 
     def now(self) -> PageState:
         """All that is known, for the panels that are functions of it; safe from any thread."""
+        context = self.context
         return replace(
             self._now,
-            ui=OpenPanels(self.layout.mode, self.layout.drawer, self.context.held, self.actuator.lifted),
+            ui=OpenPanels(context.layout.mode, context.layout.drawer, context.held, self.actuator.lifted),
+            pins=context.pinboard.now,
+            steps=self.history.steps,
             station=self._curve.held,
-            change=self.context.tracker.change,
-            optimised=self.optimised.solution,
+            change=context.tracker.change,
+            optimised=self.optimise.rival.solution,
             searching=self.optimise.notice(self._now.sliders),
             memory=self.follower.memory,
             answers=self.follower.answers(),
@@ -264,12 +301,12 @@ class Page:
 
     def solved(self, inputs: Inputs, solution: Solution) -> None:
         """A point of how power changes with the sliders."""
-        self.context.tracker.solved(inputs, solution.power.total, self._pause)
+        self.context.tracker.solved(inputs, solution.power.total)
 
     def take(self, reading: Reading, state: SessionState) -> None:
         """A converged state is what the page shows from now on."""
         self.solved(state.inputs, state.solution)
-        self.context.analyses.forget_others(state.solution, state.reference, self.optimised.solution)
+        self.context.analyses.forget_others(state.solution, state.reference, self.optimise.rival.solution)
         self.follower.memory = self.follower.memory.then(state, self._now.state)
         self._now = replace(self._read(reading), state=state, problem="")
         self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
@@ -282,30 +319,29 @@ class Page:
     def show_power_number(self) -> None:
         """Power and what stands beside the hand, of a step whose charts are left out."""
         self._learn()
-        self.follower.follow(self.now(), lambda panel: panel in (POWER, HAND))
+        self.follower.follow((POWER, HAND).__contains__)
 
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self._now = replace(self._now, state=state)
-        self.follower.follow(self.now(), lambda panel: panel.turns)
-        self.probe.show(state)
+        self.follower.follow(lambda panel: panel.turns)
+        self._tabs[0](state)
 
     def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
         """Update what stands beside the picture, after every frame, and the tabs that start long work."""
         self._now = replace(self._now, state=state, curve=curve)
-        with self._client.atomic():  # Each message by itself would wake the thread that sends.
-            self.optimised.show(state)
+        with self.context.client.atomic():  # Each message by itself would wake the thread that sends.
+            self.optimise.rival.show(state)
             self._refresh(reading)
-            self.vibration.show(state)
             self._curve.show(state)
             self._learn()
-            self.follower.follow(self.now())
-            self.display.show(state)
+            self.follower.follow()
+            self.context.display.show(state)
 
     def show_power(self, curve: PowerCurve) -> None:
         """Draw power over advance ratio anew."""
         self._now = replace(self._now, curve=curve)
-        self.follower.follow(self.now(), lambda panel: panel is STRIP)
+        self.follower.follow((STRIP,).__contains__)
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""
@@ -314,9 +350,9 @@ class Page:
             self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
 
     def follow(self, state: SessionState) -> None:
-        """Update all other tabs."""
-        for tab in self.tabs:
-            tab.show(state)
+        """Update what follows the panels."""
+        for show in self._tabs:
+            show(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """Nothing moves: vortices, slopes of power and how sure it is."""
@@ -325,7 +361,7 @@ class Page:
         self.follower.work(stop, soon=True)
         if self._curve.held is not None:
             self._learn()
-            self.follower.follow(self.now(), lambda panel: panel is HAND)
+            self.follower.follow((HAND,).__contains__)
 
     def keep(self, state: SessionState) -> None:
         """Keep what must survive a reload; before the power curve, since an early reload must find it."""
@@ -338,7 +374,6 @@ class Page:
         self.rest(state, stop)
         self.keep(state)
         self.history.solve_waiting(stop)
-        self.vibration.solve_deferred(stop)
         self.follower.work(stop, soon=False)
 
     def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
@@ -346,10 +381,9 @@ class Page:
         reading = failure.reading
         self._now = replace(self._read(reading), problem=failure.message, curve=curve)
         self._refresh(reading)
-        self.follower.follow(self.now())
-        self.vibration.problem()
-        for tab in self.tabs:
-            tab.show_failure()
+        self.follower.follow()
+        for show in self._tabs:
+            show(None)
         pinned = self.context.pinboard.answer if reading.view.difference else None
         self.scene.fade(failure.good, reading.view, pinned)
 
@@ -364,57 +398,47 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(nearest_trim(state.inputs, self.controls.inputs(), trims))
+            self.context.set_inputs(nearest_trim(state.inputs, self.context.controls.inputs(), trims))
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
         self._now = replace(self._now, problem=brief(sentence))
-        self.follower.follow(self.now())
+        self.follower.follow()
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
         inputs, shown = reading.inputs, None
         if reading.previewed and reading.design is not None:
             shown = replace(with_optimum(inputs, reading.design), advance_ratio=reading.design.condition.advance_ratio)
-        self.controls.follow(shown)
-        self.controls.refresh(inputs, self.context.units)
-        if reading.view.dark != self._dark:
-            self._dark = reading.view.dark
-            self._theme()
-        self.top.show_design(inputs, self.history.steps)
-        self._touched = self._touched or inputs != self._start
-        # What to do first, until something was done.
-        wanted = not (self._touched or self.context.held) and self.layout.mode == "explore"
-        tip = [0.97 * self.camera.radius, 0.0, 0.0]
-        prompt = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip) if wanted else None
-        self.context.bridge.set(prompt=prompt)
+        self.context.controls.follow(shown)
+        self.context.controls.refresh(inputs, self.context.units)
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
 
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
-        self.context.held = held
-        keyboard = self.context.keyboard
-        for part in (self.controls, self.optimise, self.actuator, self.display, self.lecture, keyboard):
+        context = self.context
+        context.held = held
+        for part in (context.controls, self.optimise, self.actuator, context.display, self.lecture, context.keyboard):
             part.hold(held)
-        self.top.refresh()
+        self.follower.follow(AT_ONCE.__contains__)
 
     def _blade_grabbed(self, held: bool) -> None:
         """The blade or a handle of its twist curve was taken by the hand, or let go."""
-        self.camera.hold(held)
+        self.scene.camera.hold(held)
         self._grabbed(held)
 
     def _grabbed(self, held: bool) -> None:
         """A slider or a station of the blade was taken by the hand, or let go."""
-        self.controls.pauses.begin(time.monotonic())
+        self.context.controls.pauses.begin(time.monotonic())
         if held:
             self.context.tracker.grab()
             self._learn()
         else:
             self.context.tracker.release()
         self.history.grab(held)
-        self._wake()
+        self.context.wake()
 
     def _perform(self, effect: Effect) -> None:
         """Do what a press says."""
@@ -423,25 +447,24 @@ class Page:
                 (self.context.drag_to if by_hand else self.context.set_inputs)(inputs)
             case SetGrabbed(held):
                 self._grabbed(held)
+            case PinOrder(order):
+                self.context.pinboard.ask(order)
+                self.context.wake()
             case _:
                 self.actuator.perform(effect)
 
-    def _theme(self) -> None:
-        self._client.gui.configure_theme(
-            dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
-        )
-
     def _default(self, label: str) -> None:
         """A slider was double-clicked."""
-        if not self.context.held and self.layout.mode == "explore":
-            self.controls.default(label, self._opening)
+        mode = self.context.layout.mode
+        if not self.context.held and mode == "explore":
+            self.context.controls.default(label, self._opening)
         elif not self.context.held:
-            (self.optimise.form if self.layout.mode == "optimise" else self.actuator.controls.form).default(label)
+            (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(label)
 
     def _reset(self) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""
         self.context.tracker.reset()
         self.optimise.withdraw()
         self.actuator.reset()
-        self.optimised.begin(None)
-        self.controls.set_inputs(self._opening)
+        self.optimise.rival.begin(None)
+        self.context.controls.set_inputs(self._opening)

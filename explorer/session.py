@@ -1,22 +1,8 @@
 """One browser's session: its page, its worker thread, and the path from a slider to the picture.
 
-A slider step takes these steps; `_update` is the path:
-
-1. A widget's callback calls `wake`, on a thread of viser's. Nothing else happens there.
-2. `NewestWins` runs `_update` on one of a few threads; wakes in between need only one more run.
-3. read: `page.read` turns the widgets into `Inputs` and `ViewState`.
-4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
-5. solve: `rotor.trim.analyse` trims the design, starting from the last converged solution.
-6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
-7. draw: `picture.make_picture` and `disk_numbers` make poses, the twist of the blades and the field on the disk.
-8. draw: `scene` sends them and flushes. The frame is on its way.
-9. draw: the baseline and A are solved and complete the `SessionState`; where other pages are at work,
-   `page.show_power_number` sends the number with the frame.
-10. follow, step by step, given up when a newer update comes: `page.show_results` updates the panels that are functions
-   and those of long work.
-11. follow: `page.follow` updates all other tabs.
-12. follow: once nothing moves, `page.rest` draws vortices and has slopes and doubt of power computed, the power
-   curve is swept, and `page.solve_deferred` does what can wait.
+`_update` is the path; docs/developers/slider.md has its steps. A widget's callback only calls `wake`, on a thread of
+viser's; `NewestWins` runs `_update` on one of a few threads, and wakes in between need only one more run. Before the
+frame is sent only what it shows is computed. What follows it is done in steps, which a newer update ends.
 """
 
 import logging
@@ -35,8 +21,8 @@ from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import FailedTrim, Reading, SessionState
 from explorer.page import Page
-from explorer.tabs.context import SharedServices
-from explorer.tabs.controls import SessionCallbacks
+from explorer.widgets.context import SharedServices
+from explorer.widgets.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Solution

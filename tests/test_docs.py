@@ -80,7 +80,10 @@ def names_of_the_page() -> set[str]:
     rows = (BY_INPUT | ROWS).values()
     found = {row.title for row in (*rows, *LAWS.values())} | {row.slider.label for row in rows if row.slider}
     page = ROOT / "explorer"
-    for path in (*(page / "tabs").rglob("*.py"), *(page / "model").glob("*.py"), page / "page.py"):
+    for path in (
+        page / "page.py",
+        *(p for folder in ("widgets", "model", "charts") for p in (page / folder).rglob("*.py")),
+    ):
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
         found |= {value for value in constants if isinstance(value, str)}
     for path in (*(page / "web").glob("*.html"), *(page / "web").glob("*.js")):

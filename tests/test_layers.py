@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm", "msgspec"}
-KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
+KNOW_VISER = ("explorer/widgets/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 
 
@@ -95,7 +95,7 @@ def test_one_file_uses_private_names_of_viser():
     assert set(users) <= {"viser_compat.py"}
 
 
-@pytest.mark.parametrize("package", ["rotor", "explorer", "explorer/tabs"])
+@pytest.mark.parametrize("package", ["rotor", "explorer", "explorer/widgets"])
 def test_no_import_points_up(package: str):
     order = ORDER[package]
     folders = {path.relative_to(ROOT / package).parts[0].removesuffix(".py") for path in sources(package)}

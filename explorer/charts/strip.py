@@ -31,7 +31,7 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
 }
 """Colour, width [px] and dashes by role."""
 _LEAST_SWEPT = 4
-"""Fewest points of a sweep from which its best speeds are shown."""
+"""Fewest points from which a top speed is shown."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 

@@ -7,6 +7,8 @@ import base64
 import math
 from collections.abc import Iterable
 
+import msgspec
+
 from explorer.colours import RIM, DiskInk, colour_map, css
 from explorer.model.units import SI, Units
 from explorer.picture import disk_image
@@ -14,7 +16,7 @@ from explorer.picture.fields import Field
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import ALL_MARKS, DrawnSolution, MarkedRegion, polar_grid, region_codes
 from rotor import Solution
-from rotor.support.chart import bar_ticks
+from rotor.support.chart import DrawnChart, bar_ticks
 from rotor.support.markup import Attribute, Markup, group, tag
 
 Point = tuple[float, float]
@@ -219,3 +221,13 @@ def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
             swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
             entries.append((title, swatch))
     return entries
+
+
+_CHART_HEIGHT = 94.0
+"""Height of the axes [px]."""
+
+
+def chart_box(chart: DrawnChart, height: float = _CHART_HEIGHT) -> Markup:
+    """A chart within text for the page, which draws it as wide as there is room; `height` [px] of its axes."""
+    content = msgspec.json.encode(chart).decode()
+    return tag("div.rx-chart", data_chart=content, data_high=height)

@@ -15,7 +15,8 @@ from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 Mode = Literal["explore", "optimise", "actuate"]
 Look = Literal["actuator", "3d", "disk", "top", "blade", "side"]
 """What a view looks at: the actuator on the blade that is out of the rotor, or the rotor."""
-Order = Literal["pin", "unpin", "swap", "back"]
+Order = Literal["pin", "unpin", "swap", "back", "along", "apart"]
+"""What a press asks of A: the last two, that it flies in the present condition, or in its own."""
 CONDITION = (*FLIGHT, "stand")
 """The inputs of the condition; the others are the aircraft and the models."""
 _NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
@@ -101,26 +102,43 @@ def apply_order(
             return PinResult(after, pinned.sliders(inputs, along), _DRIVEN if moved else "")
 
 
+@dataclass(frozen=True, eq=False)
+class Pins:
+    """A of A/B as it stands.
+
+    `answer`: A's, as last compared; it may not have converged. `along`: A flies in the present condition.
+    """
+
+    pinned: Pinned | None = None
+    answer: Solution | None = None
+    along: bool = True
+
+
 class Pinboard:
     """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
 
     def __init__(self, by: Solve = solve) -> None:
         self.pinned: Pinned | None = None
         self.answer: Solution | None = None
-        """A's, as last compared; it may not have converged."""
         self.along = True
-        """Whether A flies in the present condition."""
         self._asked: deque[Order] = deque()
         self._put: deque[Inputs | None] = deque()
         self._by, self._known = by, BaselineCache(by=by)
 
     def ask(self, order: Order) -> None:
         """A button was pressed; takes effect in the next update."""
-        self._asked.append(order)
+        if order in ("along", "apart"):
+            self.along = order == "along"
+        else:
+            self._asked.append(order)
 
     def put(self, inputs: Inputs | None) -> None:
         """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
+
+    @property
+    def now(self) -> Pins:
+        return Pins(self.pinned, self.answer, self.along)
 
     @property
     def inputs(self) -> Inputs | None:

@@ -109,10 +109,12 @@ class PowerTracker:
 
     def __init__(self) -> None:
         self._by_hand = True
+        self.pause = 0.0
+        """The longest rest of the inputs [s] before they were read last, as `LongestPause` measures it."""
         self._clear()
 
     def reset(self) -> None:
-        """Forget everything: the design was not changed by hand, but by undo, link, file, optimum or lecture.
+        """Forget everything: the change was not made by hand (undo, link, file, optimum, lecture).
 
         Nothing counts until a hand moves something: an answer on its way may still be that of the design before.
         """
@@ -144,11 +146,8 @@ class PowerTracker:
         """The pointer went up; the change stays until the next grab."""
         self._held = False
 
-    def solved(self, inputs: Inputs, power: float | None, pause: float) -> float | None:
-        """Take a solution's inputs and total power [W], None without trim; `change` afterwards.
-
-        `pause`: the longest rest of the inputs [s] since the last call, as `LongestPause` measures it.
-        """
+    def solved(self, inputs: Inputs, power: float | None) -> float | None:
+        """Take a solution's inputs and total power [W], None without trim; `change` afterwards."""
         if self._inputs is not None and inputs.aircraft != self._inputs.aircraft:
             self._clear()  # The powers of two rotors are not compared.
         if self._inputs is None:
@@ -160,7 +159,7 @@ class PowerTracker:
             self._inputs, self._power = inputs, self._power if power is None else power
             return None
         moved = differing(self._inputs, inputs)
-        if moved and not self._held and (pause >= PAUSE or not moved <= self._moving):
+        if moved and not self._held and (self.pause >= PAUSE or not moved <= self._moving):
             self.reference, self._moving = self._power, moved
         elif moved:
             self._moving |= moved

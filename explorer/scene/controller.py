@@ -84,10 +84,10 @@ class PageScene:
         def numbers(values: Array | None, digits: int) -> Any:
             return None if values is None else values.round(digits).tolist()
 
-        shapes = {
+        shaped = {
             node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)] for node, form in forms.items()
         }
-        call(self._client, "rotorDisk.form", shapes)
+        call(self._client, "rotorDisk.form", shaped)
 
     def paint(
         self,

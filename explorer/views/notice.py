@@ -1,9 +1,10 @@
-"""The bar over the scene: a search in place of the sliders, or the optimiser's blade beside the one in the hand."""
+"""The bar over the scene, for a search or for the optimiser's blade beside the one in the hand; what to do first."""
 
 from typing import Any
 
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
+from explorer.parts.stage import SceneLabel
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
@@ -36,15 +37,23 @@ def notice(now: PageState) -> dict[str, Any]:
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
     """One's own power against the optimiser's, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    optimum, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
+    power, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
     if abs(change) < _EQUAL:
-        return f"{optimum}, yours the same"
+        return f"{power}, yours the same"
     if band is None:
-        return f"{optimum}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
+        return f"{power}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
     within = unit.of(band.change_band or 0.0)
     digits = max(decimals(within), 1)
     amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)}"
-    return f"{optimum}, yours {amount} {unit.symbol} {way}: {band.sureness}"
+    return f"{power}, yours {amount} {unit.symbol} {way}: {band.sureness}"
+
+
+def prompt(now: PageState) -> dict[str, SceneLabel | None]:
+    """What to do first, until something was done."""
+    tip = [0.97 * now.inputs.aircraft.rotor_for(now.inputs.preset).radius, 0.0, 0.0]
+    label = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip)
+    return {"prompt": None if any(now.steps) else label}
 
 
 NOTICE = Panel(notice, works=optimised_doubt)
+PROMPT = Panel(prompt, lambda ui: ui.mode == "explore" and not ui.held)

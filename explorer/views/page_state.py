@@ -8,7 +8,7 @@ from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import Analyses, Mode, SessionState
+from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionState
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
@@ -66,6 +66,9 @@ class PageState:
     problem: str = ""
     """Why the present inputs have no solution, in one sentence; empty where they have one."""
     ui: OpenPanels = OpenPanels()
+    pins: Pins = field(default_factory=Pins)
+    steps: tuple[bool, bool] = (False, False)
+    """Whether there is a step to undo, and one to redo."""
     hand: HandSettings = field(default_factory=HandSettings)
     station: HeldStation | None = None
     change: float | None = None
@@ -73,7 +76,7 @@ class PageState:
     optimised: Solution | None = None
     """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
     searching: NoticePart | None = None
-    """What is said while a search is shown in place of the sliders."""
+    """The bar over the scene while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None
     """Power over µ; None before the first."""
     measured: MeasuredChart = field(default_factory=MeasuredChart)
@@ -136,7 +139,7 @@ class PanelWork:
 
 @dataclass(frozen=True)
 class MoveSliders:
-    """Move the sliders, as a hand does or to a design that comes by none."""
+    """Move the sliders, as a hand does or otherwise: undo, link, file, optimum, lecture."""
 
     inputs: Inputs
     by_hand: bool = True
@@ -169,7 +172,14 @@ class SetAddress:
     value: str | None
 
 
-Effect = MoveSliders | SetGrabbed | SetHand | SetAddress
+@dataclass(frozen=True)
+class PinOrder:
+    """What becomes of A in the next update."""
+
+    order: Order
+
+
+Effect = MoveSliders | SetGrabbed | SetHand | SetAddress | PinOrder
 Press = Callable[[PageState, Any], tuple[Effect, ...]]
 """What a press does, from what is known now and the value that came with it."""
 
@@ -192,3 +202,5 @@ class Panel:
     """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
     """By name in `presses.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""
+    keys: tuple[str, ...] = ()
+    """Presses that a command of the keyboard with the same name does too."""

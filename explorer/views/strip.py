@@ -66,8 +66,8 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)
-    told = not failed and math.isfinite(fastest)
-    return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if told else None
+    known = not failed and math.isfinite(fastest)
+    return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if known else None
 
 
 def remember_ranges(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:

@@ -88,6 +88,7 @@ class SearchTask:
     search: Search
     reference: Design
     """The second reference of the saving."""
+    reference_title: str = ""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
         """Reports `StartPower`, `ReferencePower`, then every `Progress`."""

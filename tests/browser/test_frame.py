@@ -5,7 +5,7 @@ import re
 import pytest
 from watched import Visit, Watched
 
-from explorer.tabs.layout import DRAWERS
+from explorer.widgets.layout import DRAWERS
 
 SIZE = (1500, 940)
 

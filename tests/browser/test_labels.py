@@ -4,7 +4,7 @@ import pytest
 from watched import Watched
 
 from explorer.model.inputs import Inputs
-from explorer.tabs.layout import DRAWERS
+from explorer.widgets.layout import DRAWERS
 
 START = Inputs(law="three")
 

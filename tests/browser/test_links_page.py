@@ -15,7 +15,7 @@ BUILT = replace(OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.
 
 def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
     """Whether the page's session and its address hold this design."""
-    shown = app.sessions[-1].page.controls.inputs().design()
+    shown = app.sessions[-1].page.context.controls.inputs().design()
     code = watched.page.evaluate("() => new URLSearchParams(location.search).get('d')")
     return code_of(inputs.design()) == code_of(shown) == code
 

@@ -15,8 +15,8 @@ from watched import COARSE, LARGE, Watched, opened
 from explorer.app import App
 from explorer.model import actuator_inputs
 from explorer.model.inputs import Inputs
-from explorer.tabs.background import PoolAnswers
-from explorer.tabs.layout import DRAWERS
+from explorer.widgets.layout import DRAWERS
+from explorer.workers.background import PoolAnswers
 
 pytestmark = pytest.mark.slow
 START = Inputs(law="two", preset="thesis")
@@ -65,7 +65,7 @@ class Rest:
 
 
 def works(answers: PoolAnswers) -> bool:
-    return answers.running or answers._timer is not None
+    return answers._job is not None or answers._timer is not None
 
 
 def show(watched: Watched, panel: tuple[str, str]) -> None:

@@ -9,9 +9,9 @@ from playwright.sync_api import Browser
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.charts.power_map import place_on
 from explorer.model.inputs import Inputs, with_optimum
 from explorer.session import Session
-from explorer.tabs.optimise.power_map import place_on
 from rotor.trim.solve import solve
 
 START = Inputs()
@@ -36,7 +36,7 @@ def page(shared: tuple[Watched, Session]) -> Iterator[tuple[Watched, Session]]:
     """The shared page on its first design, no search under way, on the Optimise tab."""
     watched, session = shared
     watched.reset()
-    watched.until(lambda: session.page.controls.inputs() == START)
+    watched.until(lambda: session.page.context.controls.inputs() == START)
     watched.page.wait_for_function("() => RX.state.notice === null")
     watched.mode("optimise")
     watched.section("Search")
@@ -75,26 +75,26 @@ def run_of(session: Session) -> Any:
 def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
     watched, session = page
     before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
-    law = session.page.controls.inputs().law
+    law = session.page.context.controls.inputs().law
     watched.choose("Concept", "Two segments")
     optimise(watched, session)
     until(watched, "done")
     # The picture and the sliders follow the search; the design is the user's own until it is applied.
     watched.until_changed(lambda: watched.text("total-power"), before)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    assert session.page.controls.inputs().law == law
+    assert session.page.context.controls.inputs().law == law
     run = run_of(session)
     watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')")
     watched.mode("explore")
-    shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
+    shown = with_optimum(session.page.context.controls.inputs(), run.frames[-1].design)
     watched.until(lambda: watched.number("Inboard") == pytest.approx(shown.two_inner, abs=0.06))
     watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
     watched.page.wait_for_function("() => RX.state.notice === null")
-    watched.until(lambda: session.page.controls.inputs().two_inner == pytest.approx(shown.two_inner))
-    design = session.page.controls.inputs().design()
-    assert session.page.controls.inputs().law == "two"
+    watched.until(lambda: session.page.context.controls.inputs().two_inner == pytest.approx(shown.two_inner))
+    design = session.page.context.controls.inputs().design()
+    assert session.page.context.controls.inputs().law == "two"
     power = solve(design).power.total
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
@@ -111,7 +111,7 @@ def test_the_optimiser_is_beaten_by_hand_and_its_blade_is_in_the_link(
     until(watched, "done")
     press(watched, "Beat it by hand")
     words = said(watched, r"Optimiser \d+\.\d kW, yours \d+\.\d ± \d+\.\d kW more")
-    assert session.page.controls.inputs() == START
+    assert session.page.context.controls.inputs() == START
     watched.press("Inboard", "PageDown", 2)
     watched.answered()
     watched.until(lambda: gap(said(watched, "more|less")) != gap(words))
@@ -159,10 +159,10 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     first = session.page.map.map
     assert first is not None
     watched.page.locator("[data-map]").click(position={"x": 80.0, "y": 60.0})
-    watched.until(lambda: session.page.controls.inputs() != START)
-    (across, up), exact = place_on(first, session.page.controls.inputs().design().twist)
+    watched.until(lambda: session.page.context.controls.inputs() != START)
+    (across, up), exact = place_on(first, session.page.context.controls.inputs().design().twist)
     assert exact
     box = watched.box("[data-map]")
     assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
-    watched.until(lambda: session.page.map.map is not first and not session.page.map.running)
+    watched.until(lambda: session.page.map.map is not first and not session.page.context.work["map"].under_way)

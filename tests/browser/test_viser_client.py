@@ -44,7 +44,7 @@ def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App)
     boxes[-1].wait_for()
 
     def held() -> list[bool]:
-        inputs = app.sessions[-1].page.controls.inputs()
+        inputs = app.sessions[-1].page.context.controls.inputs()
         return [getattr(inputs, name) for name in titles]
 
     before = held()

@@ -10,7 +10,7 @@ import viser
 from explorer.app import App
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PowerTracker
-from explorer.tabs.controls import DesignControls, SessionCallbacks
+from explorer.widgets.controls import DesignControls, SessionCallbacks
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -26,12 +26,12 @@ from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
-from explorer.tabs.background import PoolAnswers
 from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
+from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict

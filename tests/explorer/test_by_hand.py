@@ -57,10 +57,10 @@ def test_undo_takes_back_what_no_update_has_read_yet(app: App):
 
     async def stands(page: Page, rate: float) -> None:
         for _ in range(500):
-            if page.controls.inputs().built_inner == rate:
+            if page.context.controls.inputs().built_inner == rate:
                 return
             await asyncio.sleep(0.02)
-        assert page.controls.inputs().built_inner == rate
+        assert page.context.controls.inputs().built_inner == rate
 
     async def hurry(visitor: Visitor, page: Page) -> None:
         with page.context.whole:  # No update reads, and none sends anything.
@@ -89,7 +89,7 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
             assert visitor.frame["bar"]["undo"]
             await visitor.press("undo")
             await visitor.idle(wholly=False)
-            assert page.controls.inputs().built_inner == left
+            assert page.context.controls.inputs().built_inner == left
         assert not visitor.frame["bar"]["undo"]
 
     visited(app, drag)
@@ -97,8 +97,8 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
-    view, hand = page.display.view(), page.actuator.hand()
-    return (page.controls.inputs(), page.pin, page.optimise.run, page.optimised.solution, hand.on_stage,
+    view, hand = page.context.display.view(), page.actuator.hand()
+    return (page.context.controls.inputs(), page.pin, page.optimise.run, page.optimise.rival.solution, hand.on_stage,
             hand.actuator.drives, view.field, view.difference, page.lecture.place)  # fmt: skip
 
 
@@ -135,7 +135,7 @@ def test_without_a_trim_the_last_numbers_stay_and_one_press_leads_back(app: App)
         last = visitor.frame["power"]["total"]
         await visitor.move("Adv. ratio µ", 0.44)
         await visitor.idle(wholly=False)
-        lost = page.controls.inputs()
+        lost = page.context.controls.inputs()
         assert visitor.text("status") == "problem"
         assert visitor.frame["power"]["total"] == last
         assert all(one["faded"] for one in visitor.frame["strip"] if one)
@@ -145,7 +145,7 @@ def test_without_a_trim_the_last_numbers_stay_and_one_press_leads_back(app: App)
         await visitor.press("undo")
         await visitor.idle(wholly=False)
         assert visitor.text("status") == "problem"
-        assert page.controls.inputs() == lost
+        assert page.context.controls.inputs() == lost
 
     visited(app, lose, f"?d={code_of(replace(OPENING, mass_t=11.0, altitude_m=2000.0).design())}")
 
@@ -159,7 +159,7 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
         for a, b in ((-3.0, 0.0), (0.0, -3.0)):
             await visitor.press("swap")
             await visitor.idle()
-            assert (page.pin.inputs.built_inner, page.controls.inputs().built_inner) == (a, b)
+            assert (page.pin.inputs.built_inner, page.context.controls.inputs().built_inner) == (a, b)
 
     visited(app, swap)
 
@@ -179,12 +179,12 @@ def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
         await again.idle(wholly=False)
         loaded = app.sessions[-1].page
         assert loaded is not page
-        assert loaded.controls.inputs() == page.controls.inputs()
+        assert loaded.context.controls.inputs() == page.context.controls.inputs()
         assert again.frame["power"]["total"] == shown
         assert again.frame["bar"]["pinned"]
         await again.press("undo")
         await again.idle(wholly=False)
-        assert loaded.controls.inputs() == OPENING
+        assert loaded.context.controls.inputs() == OPENING
         await again.close()
 
     visited(app, load)

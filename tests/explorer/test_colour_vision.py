@@ -9,8 +9,8 @@ import itertools
 import numpy as np
 import pytest
 
+from explorer.charts.probe_drawing import ALPHA, DRAG, LIFT
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
-from explorer.tabs.probe_drawing import ALPHA, DRAG, LIFT
 from rotor.support.arrays import Array
 
 EYES = {

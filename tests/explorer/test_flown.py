@@ -8,10 +8,10 @@ import pytest
 
 from explorer.charts.measured import FlownPowers, source_of
 from explorer.charts.plots import SWEEP, PowerCurves
+from explorer.charts.probe_measured import beside_measured, correlation, measured_panel
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of
 from explorer.model.units import SI
-from explorer.tabs.probe_measured import beside_measured, correlation, measured_panel
 from explorer.text.readout import open_drag_area
 from explorer.text.status import cautions, validated
 from rotor.study.series import between_drag_areas

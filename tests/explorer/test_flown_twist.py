@@ -10,12 +10,12 @@ from numpy.testing import assert_allclose
 
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import PAGE, blade_shape, inset_sections
+from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS, fitted_range
 from explorer.picture.picture import field_values, flown_twist, follows_azimuth, overlay_twist, turned_blades
 from explorer.picture.polar import DrawnSolution, polar_grid
-from explorer.tabs.element import probe
-from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.readout import trim_panel
+from explorer.widgets.twist_curve import flown_band, shown_twist
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.support.arrays import Array

@@ -26,7 +26,7 @@ from explorer.model.sliders import (
     with_station_turned,
 )
 from explorer.model.undo import History
-from explorer.tabs.twist_curve import TwistCurveEditor
+from explorer.widgets.twist_curve import TwistCurveEditor
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import solve
 

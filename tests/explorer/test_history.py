@@ -311,6 +311,7 @@ def test_change(course: tuple[str | tuple[Inputs, float | None, float, float | N
             expected = None if step == "reset" else expected
         else:
             inputs, power, pause, expected = step
-            assert tracker.solved(inputs, power, pause) == expected
+            tracker.pause = pause
+            assert tracker.solved(inputs, power) == expected
     if course[-1] == "release":
         assert tracker.change == expected

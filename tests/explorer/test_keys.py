@@ -12,7 +12,7 @@ import viser
 from fake_bridge import Bridge
 from viser import _messages
 
-from explorer.tabs.layout import KEYS, Keyboard, is_for_presenter, keys_help
+from explorer.widgets.layout import KEYS, Keyboard, is_for_presenter, keys_help
 
 SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 TAKEN_BY_THE_CAMERA = set("WASDQE")

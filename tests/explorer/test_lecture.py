@@ -20,8 +20,8 @@ from explorer.story import steps
 from explorer.story.facts import StepFacts, facts_of
 from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
-from explorer.tabs.lecture import lecture_panel
-from explorer.tabs.lecture.lecture_panel import CASES, LecturePanel
+from explorer.widgets.lecture import lecture_panel
+from explorer.widgets.lecture.lecture_panel import CASES, LecturePanel
 from rotor import Solution, hub_loads, make_design, optimise, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.validation.thesis.ladder import RUNGS, SPEEDS, moving_twist

@@ -30,8 +30,8 @@ def kilowatts(design: Design) -> float:
 
 def design_of(page: Page) -> Design:
     """What the sliders mean and, in Actuate, the voltages."""
-    sliders = page.controls.inputs().design()
-    return page.actuator.inputs().apply(sliders) if page.layout.mode == "actuate" else sliders
+    sliders = page.context.controls.inputs().design()
+    return page.actuator.inputs().apply(sliders) if page.context.layout.mode == "actuate" else sliders
 
 
 def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str, Any]:
@@ -105,11 +105,11 @@ def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
         await presenter.close()
         await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"))
         await follower.press("speed", 0.3)  # The page is the follower's.
-        await follower.until(lambda: led.controls.inputs().advance_ratio == 0.3)
+        await follower.until(lambda: led.context.controls.inputs().advance_ratio == 0.3)
         await right(follower, led)
         again = await arrived(app.address, kept={PRESENT: SECRET}, page="two")
         await follower.until(lambda: not follower.text("presentation"))  # What was changed meanwhile stays.
-        assert led.controls.inputs().advance_ratio == 0.3
+        assert led.context.controls.inputs().advance_ratio == 0.3
         for visitor in (again, follower):
             await visitor.close()
 
@@ -146,7 +146,7 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await visitor.press("lecture", "end")
         await visitor.until(lambda: page._views.on_screen() == before)
         await right(visitor, page, "actuate", "disk")
-        assert abs(kilowatts(design_of(page)) - kilowatts(page.controls.inputs().design())) > 1.0
+        assert abs(kilowatts(design_of(page)) - kilowatts(page.context.controls.inputs().design())) > 1.0
         for mode in ("optimise", "explore"):  # Sliders, link and search know no voltage.
             await visitor.press("mode", mode)
             await right(visitor, page, mode)

@@ -9,17 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from explorer.charts.concept import concept_picture
+from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
+from explorer.model import search_run as mission
 from explorer.model.inputs import baseline_of
+from explorer.model.search_run import SearchRequest, SearchRun
 from explorer.model.units import AVIATION, SI
 from explorer.sharing.share import code_of, design_from
-from explorer.tabs.optimise import search_run as mission
-from explorer.tabs.optimise import search_words as search_text
-from explorer.tabs.optimise.optimise_panel import same_but_twist
-from explorer.tabs.optimise.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
-from explorer.tabs.optimise.search_run import SearchFrame, SearchRequest, SearchRun
-from explorer.tabs.optimise.search_words import concept_picture
+from explorer.text import search_words as search_text
 from explorer.views.notice import comparison
-from explorer.workers.solver import MapLevel, MapTask, SearchTask
+from explorer.widgets.optimise.optimise_panel import same_but_twist
+from explorer.workers.background import WorkRecord
+from explorer.workers.solver import MapLevel, MapTask, SearchTask, StartPower
 from rotor import doubt
 from rotor.files.make_design import make_design
 from rotor.optimisation import optimise
@@ -27,7 +28,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.results import Progress
 from rotor.optimisation.results import SearchStatus as Status
-from rotor.support.processes import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
+from rotor.support.processes import JobEnded, JobFailed
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -42,24 +43,28 @@ def no_stop() -> bool:
     return False
 
 
-def begun(starts: int, **asked: Any) -> SearchRun:
-    """A search from so many starts, fewer than those of the page."""
-    return SearchRun(replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts), "UH-60A as built")
+def begun(starts: int, *reports: object, **asked: Any) -> SearchRun:
+    """A search from so many starts, fewer than those of the page, that has reported so much."""
+    search = replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts)
+    return SearchRun(WorkRecord(SearchTask(search, baseline_of(quick()), "UH-60A as built"), "running", 0, reports))
+
+
+STEP = Progress("search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+"""The first design of the first of two starts."""
 
 
 @pytest.fixture(scope="module")
 def run() -> SearchRun:
     """A search run here, its news heard as from a process."""
-    run = begun(3, concept="two-segment")
-    run.on_event(JobStarted())
-    task = SearchTask(run.search, baseline_of(quick()))
-    run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))
-    return run
+    record = begun(3, concept="two-segment").record
+    reports = list[object]()
+    optimum = record.task.run(reports.append, no_stop)
+    return SearchRun(replace(record, reports=tuple(reports)).then(JobEnded(optimum)))
 
 
 class TestSearchRun:
     def test_frames_lead_from_the_start_to_the_optimum_with_powers_of_trims(self, run: SearchRun):
-        assert run.state == "done"
+        assert run.record.state == "done"
         assert run.frames[0].design == run.search.design
         powers = [frame.power for frame in run.frames[1:-1]]
         assert powers == sorted(powers, reverse=True)
@@ -70,56 +75,17 @@ class TestSearchRun:
         assert run.start_power == pytest.approx(solve(run.search.design).power.total, rel=1e-9)
         assert run.reference_power == pytest.approx(solve(baseline_of(run.search.design)).power.total, rel=1e-9)
 
-    def test_playing_goes_on_in_order_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
-        now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
-        seen = []
-        for _ in range(10 * len(run.frames)):
-            frame = run.shown()
-            if not seen or seen[-1] is not frame:
-                seen.append(frame)
-            now += 0.05
-        assert [frame for frame in run.frames if frame in seen] == seen
-        assert seen[-1] is run.frames[-1]
-        assert not run.playing
-        run.scrub(0)
-        assert run.shown() is run.frames[0]
-        run.scrub(10_000)
-        assert run.shown() is run.frames[-1]
-
-    def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
-        now = 100.0
-        monkeypatch.setattr("explorer.tabs.optimise.search_run.time.monotonic", lambda: now)
-        run = SearchRun(SearchRequest().search(quick(), mission.legs))
-        for k in range(100):
-            run.frames.append(SearchFrame(k, 1000.0 - k, quick()))
-        run.shown()
-        now += 0.11
-        run.shown()
-        assert run.cursor >= 90
-
-    def test_states_follow_the_news(self):
-        run = SearchRun(SearchRequest().search(quick(), mission.legs))
-        assert run.state == "starting"
-        run.on_event(JobQueued(2))
-        assert (run.state, run.ahead) == ("waiting", 2)
-        assert "2 ahead" in search_text.standing(run)
-        run.on_event(JobStarted())
-        assert run.state == "running"
-        run.stopping()
-        run.on_event(JobStarted())
-        assert run.state == "stopping"
-        run.on_event(JobEnded(None, stopped=True))
-        assert run.state == "stopped"
+    def test_stopped_before_any_design_it_has_found_nothing(self):
+        run = SearchRun(begun(1).record.then(JobEnded(None, stopped=True)))
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert search_text.result(run) == ""
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
-        broken = SearchRun(run.search)
-        broken.frames = run.frames[:3]
-        broken.on_event(JobFailed("The worker process ended unexpectedly."))
-        assert broken.best is run.frames[2]
+        half = replace(run.record, reports=run.record.reports[: len(run.record.reports) // 2], result=None)
+        broken = SearchRun(half.then(JobFailed("The worker process ended unexpectedly.")))
+        assert broken.best is not None
+        assert broken.best == run.frames[len(broken.frames) - 1]
         assert "ended unexpectedly" in search_text.result(broken)
         assert "best so far is kept" in search_text.standing(broken)
 
@@ -234,24 +200,14 @@ class TestMap:
 
 
 def test_the_bar_moves_with_starts_and_designs():
-    run = begun(2)
-    step = Progress("search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
-    run.frames.append(SearchFrame(0, 860e3, quick()))
-    seen = [run.part_done]
-    for start, evaluation in ((0, 1), (0, 2), (1, 3), (1, 4)):
-        run._step(replace(step, start=start, evaluation=evaluation))
-        seen.append(run.part_done)
-    run._step(replace(step, phase="band", evaluation=5))
+    steps = [replace(STEP, start=k, evaluation=n) for k, n in ((0, 1), (0, 2), (1, 3), (1, 4))]
+    seen = [begun(2, StartPower(860e3), *steps[:k]).part_done for k in range(5)]
     assert sorted(set(seen)) == seen
-    assert seen[-1] < run.part_done < 1.0
+    assert seen[-1] < begun(2, *steps, replace(STEP, phase="band", evaluation=5)).part_done < 1.0
 
 
 def test_a_design_beyond_a_limit_is_not_the_best():
-    run = begun(1)
-    step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
-    run.frames.append(SearchFrame(0, 860e3, quick()))
-    run._step(step)
-    run._step(replace(step, evaluation=2, power=800e3, feasible=False))
+    run = begun(1, StartPower(860e3), STEP, replace(STEP, evaluation=2, power=800e3, feasible=False))
     assert run.best.power == 850e3
     assert SI.watts(850e3, 1) in search_text.headline(run)
 

@@ -7,10 +7,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from fake_bridge import PanelPage
 
 from explorer.model.inputs import OPENING
-from explorer.tabs.background import PoolAnswers
-from explorer.tabs.panel_updater import PanelUpdater
 from explorer.views.page_state import (
     Effect,
     MoveSliders,
@@ -22,6 +21,7 @@ from explorer.views.page_state import (
     SetGrabbed,
     Tell,
 )
+from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 
 NOW = PageState(OPENING, None, None)
@@ -41,75 +41,61 @@ def pressed(now: PageState, value: Any) -> tuple[Effect, ...]:
     )
 
 
-class Page:
-    """What a follower needs of a page, and what it did there."""
-
-    def __init__(self, *panels: Panel) -> None:
-        self.sent: list[dict[str, Any]] = []
-        self.words: list[str] = []
-        self.done: list[Effect] = []
-        self.presses: dict[str, Any] = {}
-        self.now = NOW
-        bridge: Any = SimpleNamespace(on=self.presses.__setitem__, set=lambda **parts: self.sent.append(parts))
-        texts, pool = {"words": self.words.append}, Any
-
-        def now() -> PageState:
-            return self.now
-
-        self.follower = PanelUpdater(panels, bridge, texts, pool, lambda: None, now, now, self.done.append)  # pyright: ignore[reportArgumentType]
+def page_of(*panels: Panel) -> PanelPage:
+    return PanelPage(*panels, texts=("words",))
 
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, tuple[Call, ...], float]]:
     """What is asked of worker processes; the clock stands still."""
     all_asked: list[tuple[int, tuple[Call, ...], float]] = []
-    monkeypatch.setattr("explorer.tabs.panel_updater.time", SimpleNamespace(monotonic=lambda: 7.0))
+    monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: 7.0))
     monkeypatch.setattr(PoolAnswers, "ask", lambda self, *how: all_asked.append((self._urgency, *how)))
     return all_asked
 
 
 def test_only_what_changed_is_sent():
-    page = Page(Panel(shown))
-    page.follower.follow(NOW)
-    page.follower.follow(NOW)
-    assert (page.sent, page.words) == ([{"power": OPENING.advance_ratio, "notice": ""}], ["computing"])
-    page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1), answers={LENGTH: "4"}))
-    assert (page.sent[1:], page.words) == ([{"power": 0.1}], ["computing", "4"])
+    page = page_of(Panel(shown))
+    page.follow(NOW)
+    page.follow(NOW)
+    assert (page.bridge.sent, page.words) == ([{"power": OPENING.advance_ratio, "notice": ""}], ["computing"])
+    page.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1), answers={LENGTH: "4"}))
+    assert (page.bridge.sent[1:], page.words) == ([{"power": 0.1}], ["computing", "4"])
 
 
 def test_only_panels_that_are_seen_are_called(asked: list[Any]):
     """The parts of a hidden one are sent as absent, once; what it had asked is asked no longer. Opened again, one is
     whole."""
     panel = Panel(shown, lambda ui: ui.drawer == "details", lambda now: (Questions(4, (LENGTH,), 0.2),))
-    page = Page(panel)
-    page.follower.follow(NOW)
-    assert (page.sent, asked) == ([], [])
+    page = page_of(panel)
+    page.follow(NOW)
+    assert (page.bridge.sent, asked) == ([], [])
     opened = replace(NOW, ui=OpenPanels(drawer="details"))
-    page.follower.follow(opened)
-    page.follower.follow(replace(opened, answers={LENGTH: 4}))
+    page.follow(opened)
+    page.follow(replace(opened, answers={LENGTH: 4}))
     for _ in range(2):
-        page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
+        page.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
     assert asked == [(4, (LENGTH,), 0.2), (4, (LENGTH,), 0.2), (4, (), 0.0), (4, (), 0.0)]
-    assert page.sent[1:] == [{"power": None, "notice": None}]
-    page.follower.follow(replace(opened, inputs=replace(OPENING, advance_ratio=0.1)))
-    assert page.sent[2:] == [{"power": 0.1, "notice": ""}]
+    assert page.bridge.sent[1:] == [{"power": None, "notice": None}]
+    page.follow(replace(opened, inputs=replace(OPENING, advance_ratio=0.1)))
+    assert page.bridge.sent[2:] == [{"power": 0.1, "notice": ""}]
     assert page.words == ["computing", 4, "computing"]
 
 
 def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[Any], monkeypatch: pytest.MonkeyPatch):
     """Opened on a page at rest, it is worked on at once; what lifts the blade out is no hand."""
     clock = iter((7.0, 7.05, 9.0, 9.1, 9.2))
-    page = Page(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 0.2),)))
-    monkeypatch.setattr("explorer.tabs.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
-    page.follower.follow(NOW)
-    page.follower.follow(replace(NOW, ui=OpenPanels(lifted=True)))
-    page.follower.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
+    page = page_of(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 0.2),)))
+    monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    page.follow(NOW)
+    page.follow(replace(NOW, ui=OpenPanels(lifted=True)))
+    page.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
     assert [round(delay, 3) for _, _, delay in asked] == [0.15, 0.0, 0.1]
 
 
 def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
-    page = Page(Panel(shown, presses={"speed": pressed}))
-    page.presses["speed"](0.2)
+    page = page_of(Panel(shown, presses={"speed": pressed}))
+    page.bridge.press("speed", 0.2)
     assert page.done == [
         SetGrabbed(False),
         MoveSliders(replace(OPENING, advance_ratio=0.2)),
@@ -117,19 +103,19 @@ def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
     ]
     page.done.clear()
     page.now = replace(NOW, ui=OpenPanels(held=True))
-    page.presses["speed"](0.2)
+    page.bridge.press("speed", 0.2)
     assert page.done == [SetGrabbed(False)]
 
 
 def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypatch: pytest.MonkeyPatch):
-    page = Page(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 60.0),)))
-    page.follower.follow(NOW)
-    assert LENGTH not in page.follower.answers()
+    page = page_of(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 60.0),)))
+    page.follow(NOW)
+    assert LENGTH not in page.updater.answers()
     monkeypatch.setattr(PoolAnswers, "failures", {LENGTH: "It cannot be told."})
-    assert page.follower.answers()[LENGTH] == "It cannot be told."
-    monkeypatch.setattr("explorer.tabs.panel_updater.all_known", lambda: {LENGTH: 4})
-    assert page.follower.answers()[LENGTH] == 4
-    page.follower.stop()
+    assert page.updater.answers()[LENGTH] == "It cannot be told."
+    monkeypatch.setattr("explorer.views.panel_updater.all_known", lambda: {LENGTH: 4})
+    assert page.updater.answers()[LENGTH] == 4
+    page.updater.stop()
 
 
 def counting(name: str, of: float, soon: bool, steps: list[str]) -> PanelWork:
@@ -152,7 +138,7 @@ class TestWork:
         return []
 
     @pytest.fixture
-    def page(self, steps: list[str]) -> Page:
+    def page(self, steps: list[str]) -> PanelPage:
         """Of two panels: one whose work comes late, one in a drawer, whose work comes soon."""
 
         def panel(name: str, soon: bool, seen: Callable[[OpenPanels], bool] = lambda ui: True) -> Panel:
@@ -165,46 +151,44 @@ class TestWork:
 
             return Panel(view, seen, works=works)
 
-        page = Page(panel("strip", False), panel("power", True, lambda ui: ui.drawer == "details"))
+        page = page_of(panel("strip", False), panel("power", True, lambda ui: ui.drawer == "details"))
         page.now = replace(NOW, ui=OpenPanels(drawer="details"))
-        follower = page.follower
-        follower._now = lambda: replace(page.now, memory=follower.memory, answers=follower.answers())
         return page
 
-    def test_what_comes_soon_comes_first_and_every_step_is_shown(self, page: Page, steps: list[str]):
-        page.follower.work(lambda: False, soon=True)
+    def test_what_comes_soon_comes_first_and_every_step_is_shown(self, page: PanelPage, steps: list[str]):
+        page.updater.work(lambda: False, soon=True)
         assert steps == ["power"] * 3
-        page.follower.work(lambda: False, soon=False)
+        page.updater.work(lambda: False, soon=False)
         assert steps == ["power"] * 3 + ["strip"] * 3
         mu = OPENING.advance_ratio
         told = [(None, False, 1), (None, False, 2), (None, False, 3), (mu, True, 3)]
-        assert page.sent == [{name: value} for name in ("power", "strip") for value in told]
+        assert page.bridge.sent == [{name: value} for name in ("power", "strip") for value in told]
 
     def test_every_panel_that_wants_it_shows_what_was_done_once(self, steps: list[str]):
         work = counting("power", 1.0, True, steps)
         views = [partial(lambda name, now: {name: work.key in now.answers}, name) for name in ("power", "strip")]
-        page = Page(*(Panel(view, works=lambda now: (work,)) for view in views))
-        page.follower._now = lambda: replace(NOW, answers=page.follower.answers())
-        page.follower.work(lambda: False, soon=True)
+        page = page_of(*(Panel(view, works=lambda now: (work,)) for view in views))
+        page.updater._now = lambda: replace(NOW, answers=page.updater.answers())
+        page.updater.work(lambda: False, soon=True)
         assert steps == ["power"] * 3
-        assert page.sent[-1] == {"power": True, "strip": True}
+        assert page.bridge.sent[-1] == {"power": True, "strip": True}
 
-    def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: Page, steps: list[str]):
-        asked = iter([False, True])
-        page.follower.work(lambda: next(asked), soon=True)
+    def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: PanelPage, steps: list[str]):
+        asked = iter([False, False, True])
+        page.updater.work(lambda: next(asked), soon=True)
         assert steps == ["power"]
         for _ in range(2):
-            page.follower.work(lambda: False, soon=True)
+            page.updater.work(lambda: False, soon=True)
             assert steps == ["power"] * 3
 
-    def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(self, page: Page, steps: list[str]):
-        page.follower.work(lambda: False, soon=True)
+    def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(self, page: PanelPage, steps: list[str]):
+        page.updater.work(lambda: False, soon=True)
         at = "power", OPENING.advance_ratio
-        assert page.follower.answers()[at] == OPENING.advance_ratio
+        assert page.updater.answers()[at] == OPENING.advance_ratio
         page.now = replace(page.now, inputs=replace(OPENING, advance_ratio=0.1))
-        page.follower.work(lambda: True, soon=False)
-        assert at not in page.follower.answers()
-        (asked,) = page.follower._panels[1].works(page.follower._now())
-        assert page.follower._now().latest(asked) == (OPENING.advance_ratio, False)
-        page.follower.work(lambda: False, soon=True)
-        assert page.follower._now().latest(asked) == (0.1, True)
+        page.updater.work(lambda: True, soon=False)
+        assert at not in page.updater.answers()
+        (asked,) = page.updater._panels[1].works(page._now())
+        assert page._now().latest(asked) == (OPENING.advance_ratio, False)
+        page.updater.work(lambda: False, soon=True)
+        assert page._now().latest(asked) == (0.1, True)

@@ -14,12 +14,12 @@ from explorer.parts.actuate import DialNumbers
 from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
 from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
-from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.views.dial import front_chart, validation_words, with_wave
 from explorer.views.dial_answer import DialAnswer, FittedBlade, FrontDot, compared, dial_answer, front_dots
+from explorer.widgets.twist_curve import flown_band, shown_twist
 from rotor.actuator import (
     HostBlade,
     default_placement,

@@ -3,7 +3,7 @@
 import threading
 import time
 
-from explorer.tabs.context import BEAT, Player
+from explorer.widgets.context import BEAT, Player
 from tests.waited import until
 
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import re
+from typing import Any
 
 import pytest
 
@@ -10,6 +11,7 @@ from explorer.hosting import browser
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import ScreenState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
+from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from tests.tools.visitor import Visitor, ran
 
 SHOWN = PresentedView(ScreenState(Inputs(), ViewState()))
@@ -29,9 +31,11 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
         await visitor.open(app.address)
         await visitor.until(lambda: len(app.sessions) == 1)
         page = app.sessions[0].page
-        await asyncio.to_thread(page._presentation.present)
+        follows: list[Any] = [getattr(show, "__self__", None) for show in page._tabs]
+        (banner,) = (one for one in follows if isinstance(one, PresentationBanner))
+        await asyncio.to_thread(banner.present)
         page.file.copy_link()
-        assert page._presentation._secret
+        assert banner._secret
         await asyncio.sleep(1.0)
         await visitor.close()
 

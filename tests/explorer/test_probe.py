@@ -10,13 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from explorer.charts.probe_drawing import drawing, probe_panel
+from explorer.charts.probe_measured import lift_chart
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
+from explorer.picture.element import AZIMUTHS, FlowRegion, probe, turn_of
 from explorer.picture.picture import DISK_DROP, composed_rotation, make_picture, rotate, rotor_pose, tip_path_pose
-from explorer.tabs.element import AZIMUTHS, FlowRegion, probe, turn_of
-from explorer.tabs.probe_drawing import drawing, probe_panel
-from explorer.tabs.probe_measured import lift_chart
 from rotor import Solution, make_design, solve
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS

@@ -25,9 +25,9 @@ from explorer.model.inputs import (
 from explorer.model.session_state import Pinboard, Pinned
 from explorer.picture.picture import turned_blades
 from explorer.sharing import share
-from explorer.tabs.design_files import UploadedFiles
 from explorer.text.design_words import title_words
 from explorer.text.readout import ideal_line, power_panel
+from explorer.widgets.design_files import UploadedFiles
 from rotor.airfoil.polars import read_polars
 from rotor.files.design_file import parse_design
 from rotor.files.make_design import make_design

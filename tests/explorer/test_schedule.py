@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.tabs.optimise import schedule_view
-from explorer.tabs.optimise.schedule_view import ScheduleProgress
-from explorer.workers.solver import FixedPowers, ScheduleTask
+from explorer.charts import schedule_view
+from explorer.charts.schedule_view import ScheduleProgress
+from explorer.workers.background import WorkRecord
+from explorer.workers.solver import ScheduleTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import ScheduleOptimum, SchedulePlan
+from rotor.optimisation.schedule import SchedulePlan
 from rotor.trim.solve import solve
 from tests.curves import curves
 
@@ -31,19 +32,9 @@ def progress() -> ScheduleProgress:
         WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
         for mu, hours in ((0.3, 0.5), (0.0, 1.0), (0.15, 2.0))
     )
-    progress = ScheduleProgress(SchedulePlan(design, (CONCEPTS["linear"],), legs, starts=1))
-
-    def tell(item: object) -> None:
-        match item:
-            case ScheduleOptimum():
-                progress.cells.append(item)
-            case FixedPowers(powers):
-                progress.fixed_powers = powers
-            case _:
-                raise AssertionError(item)
-
-    assert ScheduleTask(progress.plan).run(tell, lambda: False).complete
-    return progress
+    task, reports = ScheduleTask(SchedulePlan(design, (CONCEPTS["linear"],), legs, starts=1)), list[object]()
+    assert task.run(reports.append, lambda: False).complete
+    return ScheduleProgress.of(WorkRecord(task, "running", 0, tuple(reports)))
 
 
 class TestSchedule:
@@ -62,7 +53,7 @@ class TestSchedule:
         assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 
     def test_legs_to_come_are_not_drawn(self, progress: ScheduleProgress):
-        half = ScheduleProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0])
+        half = ScheduleProgress(progress.plan, tuple(cell for cell in progress.cells if cell.condition == 0))
         whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert drawn is not None
         assert whole is not None

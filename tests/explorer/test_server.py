@@ -19,7 +19,7 @@ from explorer.model.sliders import SLIDERS
 from explorer.model.units import SI
 from explorer.picture.picture import make_picture
 from explorer.scene.scene import Scene
-from explorer.tabs.controls import DesignControls
+from explorer.widgets.controls import DesignControls
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.trim.solve import solve

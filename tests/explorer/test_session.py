@@ -3,6 +3,7 @@
 import threading
 import time
 from dataclasses import replace
+from inspect import signature
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,6 +14,7 @@ from explorer.charts import plots
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Analyses, FailedTrim, Reading, SessionState
+from explorer.page import Page
 from explorer.session import Session
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import Design, Solution
@@ -35,7 +37,14 @@ class RecordingPage:
         self.optimise = SimpleNamespace(preview=lambda design: self.found)
 
     def __getattr__(self, name: str) -> Any:
-        return lambda *_, **__: self.calls.append(name)
+        """Any call that `Page` answers, with arguments that it takes."""
+        called = signature(getattr(Page, name))
+
+        def record(*arguments: Any, **named: Any) -> None:
+            called.bind(self, *arguments, **named)
+            self.calls.append(name)
+
+        return record
 
     def read(self) -> tuple[Inputs, ViewState]:
         self.calls.append("read")

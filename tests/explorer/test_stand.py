@@ -10,9 +10,9 @@ from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.session_state import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
 from explorer.sharing.share import code_of, inputs_from
-from explorer.tabs.controls import DesignControls
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
+from explorer.widgets.controls import DesignControls
 from rotor.support.assets import MEASURED_ROTORS
 from rotor.support.chart import Points
 from rotor.trim.solve import solve

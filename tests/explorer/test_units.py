@@ -11,10 +11,10 @@ import viser
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import AVIATION, HORSEPOWER, KNOT, SI, UNITS, WATT, form_of, meant, shown, units_of
-from explorer.tabs.controls import DesignControls
-from explorer.tabs.form import WidgetForm
 from explorer.text import readout
 from explorer.text.design_words import flight_name
+from explorer.widgets.controls import DesignControls
+from explorer.widgets.form import WidgetForm
 from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution

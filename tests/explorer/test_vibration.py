@@ -3,17 +3,15 @@
 import math
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-import viser
-from fake_bridge import Bridge
+from fake_bridge import PanelPage
 from numpy.testing import assert_allclose
 
 from explorer.model.inputs import Inputs, ViewState, with_rotor
-from explorer.model.session_state import Analyses, SessionState
+from explorer.model.session_state import SessionState
 from explorer.picture.blade_mesh import PAGE, blade_shape
 from explorer.picture.picture import (
     BENDING_SHOWN,
@@ -26,8 +24,8 @@ from explorer.picture.picture import (
     turned_blades,
 )
 from explorer.sharing.share import inputs_from
-from explorer.tabs import vibration_panel
-from explorer.tabs.vibration_panel import VibrationPanel
+from explorer.views import vibration
+from explorer.views.vibration import VIBRATION
 from rotor.columns.bending import coordinates_of
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
@@ -105,80 +103,67 @@ class TestDrawnBlade:
         assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
 
 
-class Page:
-    """A panel without a browser, and what it told the page."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        bridge = Bridge()
-        self.shown = bridge.state
-        self.switch = ""
-        context: Any = SimpleNamespace(
-            analyses=Analyses(),
-            bridge=bridge,
-            controls=SimpleNamespace(show_bending=lambda words: setattr(self, "switch", words)),
-        )
-        self.panel = VibrationPanel(context)
-
-    def show(self, solution: Solution, reference: Solution | None = None, pinned: Solution | None = None) -> None:
-        self.panel.show(SessionState(FAST, ViewState(), solution, reference or solution, pinned))
+def state(solution: Solution, pinned: Solution | None = None) -> SessionState:
+    return SessionState(FAST, VIEW, solution, solution, pinned)
 
 
 @pytest.fixture
-def page(server: viser.ViserServer) -> Page:
-    return Page(server)
+def page() -> PanelPage:
+    return PanelPage(VIBRATION, inputs=FAST, texts=("switch.bending",))
 
 
 class TestPanel:
-    def test_the_index_comes_at_once_and_its_band_at_rest(self, page: Page, bent: Solution, loads: HubLoads):
-        page.show(bent)
-        asked = iter([False, False] + [True] * 10_000)
-        page.panel.solve_deferred(lambda: next(asked))  # Newer input leaves the band for later.
+    def test_the_index_comes_at_once_and_its_band_at_rest(self, page: PanelPage, bent: Solution, loads: HubLoads):
+        page.show(state(bent))
+        page.rest(iter([False] + [True] * 10_000).__next__)  # Newer input leaves the band for later.
         row = page.shown["vibration"]
         assert row.index == f"{loads.index:.1f}"
         assert row.band == "band over inflow models: computing"
         assert "0.5 aft, 0.67 to starboard, 1 vertical" in row.title
         assert row.at == "at 4/rev"
-        page.panel.solve_deferred(lambda: False)
+        page.rest()
         low, high = map(float, re.findall(r"[\d.]+", page.shown["vibration"].band))
         assert low <= float(row.index) <= high
         assert low < high
-        assert re.fullmatch(r"[+−]\d+\.\d kW here", page.switch)
+        assert re.fullmatch(r"[+−]\d+\.\d kW here", page.shown["switch.bending"])
         assert page.shown["hub_labels"][0].text == "bending × 10"
 
-    def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: Page, bent: Solution, straight: Solution):
+    def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: PanelPage, bent: Solution, straight: Solution):
         """3/rev twist against the same blade without; A's index is that of the same blade with bending."""
         twisted = solve(inputs_from("1;uh60a;mu=0.3;bending=true;twist_per_rev=3:1:60").design()).require()
-        page.show(twisted, pinned=straight)
+        page.show(state(twisted, straight))
         assert page.shown["vibration"].change == ""
-        page.panel.solve_deferred(lambda: False)
+        page.rest()
         row, of_a = page.shown["vibration"], hub_loads(bent, band=False)
         assert row.change.endswith(f"% vs. A ({of_a.index:.1f})")
         percent = float(row.change.split()[0].replace("−", "-"))
         assert percent == pytest.approx(100.0 * (float(row.index) / of_a.index - 1.0), abs=2.0)
         assert row.kind == ("good" if percent < 0.0 else "bad")
 
-    def test_slow_flight_and_unknown_blades_have_a_sentence(self, page: Page):
+    def test_slow_flight_and_unknown_blades_have_a_sentence(self, page: PanelPage):
         slow = solve(replace(FAST, advance_ratio=0.15).design()).require()
-        page.show(slow)
+        page.show(state(slow))
         assert page.shown["vibration"].sentence.startswith("Hub loads are not shown below µ 0.2")
         assert page.shown["vibration"].index == ""
         assert [one.text for one in page.shown["hub_labels"]] == ["bending × 10"]
-        page.show(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require())
+        page.show(state(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require()))
         assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"].sentence
         assert page.shown["hub_labels"] == []
-        assert page.switch.startswith("The stiffness of the Robinson R22 blade")
+        assert page.shown["switch.bending"].startswith("The stiffness of the Robinson R22 blade")
 
-    def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: Page):
+    def test_a_rotor_on_a_stand_has_its_thrust_for_weight(self, page: PanelPage):
         hart = solve(replace(with_rotor(FAST, "hart2"), advance_ratio=0.3).design()).require()
-        page.show(hart)
+        page.show(state(hart))
         assert page.shown["vibration"].unit == "% of thrust"
 
-    def test_without_bending_nothing_is_computed(self, page: Page, straight: Solution, monkeypatch: pytest.MonkeyPatch):
+    def test_without_bending_nothing_is_computed(
+        self, page: PanelPage, straight: Solution, monkeypatch: pytest.MonkeyPatch
+    ):
         def never(*_: Any, **__: Any) -> None:
             raise AssertionError("computed without bending")
 
         for name in ("hub_loads", "solve", "analyse"):
-            monkeypatch.setattr(vibration_panel, name, never)
-        page.show(straight)
-        page.panel.solve_deferred(lambda: False)
+            monkeypatch.setattr(vibration, name, never)
+        page.show(state(straight))
+        page.rest()
         assert page.shown["vibration"] is None

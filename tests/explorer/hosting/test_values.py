@@ -100,7 +100,7 @@ def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
     async def drag() -> list[Any]:
         visitor = await arrived(app.address)
         (session,) = app.sessions
-        buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
+        buffer, queued = session.page.context.client._websock_connection.get_message_buffer(), list[Any]()
         push = buffer.push
 
         def watched(message: Message) -> None:

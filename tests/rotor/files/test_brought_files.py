@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from test_rotor_file import GOOD, POLARS, polar_file, read
 
-from explorer.tabs.design_files import UploadedFiles
+from explorer.widgets.design_files import UploadedFiles
 from rotor import Aircraft, make_design, solve
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import Contour, load_contour, parse_contour, resample, thickness_and_camber

@@ -14,7 +14,7 @@ import pytest
 from numpy.testing import assert_allclose
 from test_rotor_file import DECK, GOOD, POLARS, polar_file
 
-from explorer.tabs.design_files import UploadedFiles
+from explorer.widgets.design_files import UploadedFiles
 from rotor import Aircraft, make_design, solve
 from rotor.airfoil.c81 import format_c81, parse_c81
 from rotor.airfoil.polars import COLUMNS, Polar, parse_polars

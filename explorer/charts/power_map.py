@@ -1,0 +1,198 @@
+"""The map of power over two parameters of a concept: its trims, its drawing, and its least power in words."""
+
+import math
+from dataclasses import dataclass
+from functools import cache, lru_cache
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+from scipy.ndimage import binary_dilation
+
+from explorer.charts import svg
+from explorer.colours import NOW, colour_map, css
+from explorer.model.units import Units, number
+from explorer.picture.disk_image import encode_png
+from explorer.workers.solver import MapTask
+from rotor.design import TwistLaw
+from rotor.optimisation import Concept, Parameter, nearest
+from rotor.optimisation.descent import BAND
+from rotor.support.arrays import Array
+from rotor.support.chart import bar_ticks
+from rotor.support.markup import Markup, group, tag
+
+CONTOURS = (0.005, 0.01, 0.02, 0.04, 0.08)
+"""Power above the least, as parts of it, at which lines are drawn; the colours end at the last."""
+_LEFT, _TOP, _WIDE, _HIGH = 38.0, 6.0, 254.0, 190.0
+"""Where the picture is in the drawing, which is 300 × 266."""
+_SHARP = 2
+"""Pixels of the picture for each unit of the drawing."""
+_COLOURS, _LINE, _EDGE = 200, 201, 202
+"""How many colours there are, and the entries of the palette for contours and for the edge of the band."""
+_THICKER = ((0, 0, 0), (0, 1, 1), (0, 1, 0))
+"""A pixel more below and to the right."""
+_NEAR = 1e-3
+"""Twist [rad] within which a design is a point of the map."""
+
+
+@dataclass(frozen=True, eq=False)
+class PowerMap:
+    task: MapTask
+    powers: Array
+    """[W], (rows along y, columns along x); NaN where a design does not trim."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, Parameter]:
+        x, y = (self.task.concept.parameters[axis] for axis in self.task.axes)
+        return x, y
+
+    @property
+    def least(self) -> tuple[float, float, float]:
+        """Place (0…1 along x and y) and power [W] of the best grid point."""
+        row, column = np.unravel_index(np.nanargmin(self.powers), self.powers.shape)
+        n = len(self.powers) - 1
+        return float(column) / n, float(row) / n, float(self.powers[row, column])
+
+
+def default_axes(concept: Concept) -> tuple[int, int]:
+    """Division across and outer rate up, where there are such."""
+    motions = [handle.motion for handle in concept.handles]
+    if len(motions) < 2:
+        return 0, 0
+    across = motions.index("slide") if "slide" in motions else 0
+    rates = [k for k, motion in enumerate(motions) if motion != "slide" and k != across]
+    return across, rates[-1]
+
+
+@lru_cache(maxsize=8)
+def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
+    """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
+    task = drawn.task
+    values, on_map = nearest(task.concept, twist), list(task.values)
+    for axis in task.axes:
+        on_map[axis] = values[axis]
+    r = np.linspace(0.15, 1.0, 40)
+    exact = float(np.abs(task.concept.twist(on_map)(r) - twist(r)).max()) < _NEAR
+    x, y = (
+        (values[axis] - parameter.low) / (parameter.high - parameter.low)
+        for axis, parameter in zip(task.axes, drawn.parameters, strict=True)
+    )
+    return (x, y), exact
+
+
+def least_words(drawn: PowerMap, units: Units) -> str:
+    """The best grid point, and the parameters that the map holds."""
+
+    def at(parameter: Parameter, value: float) -> str:
+        return f"{number(parameter.shown(value), 1 if parameter.angular else 2)} {parameter.shown_unit}"
+
+    *place, power = drawn.least
+    best = [at(p, p.low + part * (p.high - p.low)) for p, part in zip(drawn.parameters, place, strict=True)]
+    held = [
+        f"{p.title} {at(p, value)}"
+        for k, (p, value) in enumerate(zip(drawn.task.concept.parameters, drawn.task.values, strict=True))
+        if k not in drawn.task.axes
+    ]
+    fixed = f" Fixed: {', '.join(held)}." if held else ""
+    return f"Least {units.watts(power, 1)} at {', '.join(best)}.{fixed}"
+
+
+def refined(powers: Array, wide: int, high: int) -> Array:
+    """Smooth between grid points, (high, wide), first row low; straight where some do not trim, NaN next to those."""
+    n = len(powers) - 1
+    row, column = np.linspace(0.0, n, high), np.linspace(0.0, n, wide)
+    degree = 3 if np.isfinite(powers).all() else 1
+    known = np.where(np.isfinite(powers), powers, 1e9)
+    grid = np.arange(n + 1.0)
+    values = RectBivariateSpline(grid, grid, known, kx=degree, ky=degree)(row, column)
+    return np.where(values < 1e8, values, np.nan)
+
+
+@lru_cache(maxsize=1)
+def _picture(drawn: PowerMap) -> bytes:
+    """PNG: colours by power above the least, lines at `CONTOURS`, the 0.1 % band within a white edge."""
+    values = refined(drawn.powers, round(_SHARP * _WIDE), round(_SHARP * _HIGH))[::-1]
+    excess = values / drawn.least[-1] - 1.0
+    known = np.isfinite(excess)
+    excess = np.where(known, excess, 9.0)
+    pixels = (1.0 + np.clip(excess / CONTOURS[-1], 0.0, 1.0) ** 0.5 * (_COLOURS - 1)).astype(np.uint8)
+    ring = np.searchsorted([BAND, *CONTOURS], excess)
+    change = np.zeros(ring.shape, dtype=bool)
+    change[:, 1:] |= ring[:, 1:] != ring[:, :-1]
+    change[1:, :] |= ring[1:, :] != ring[:-1, :]
+    pixels[binary_dilation(change, _THICKER)] = _LINE
+    band = excess <= BAND
+    pixels[binary_dilation(band, _THICKER, 3) & ~band] = _EDGE
+    pixels[~known] = 0
+    entries = np.zeros((256, 4), dtype=np.uint8)
+    entries[1 : 1 + _COLOURS, :3] = colour_map("sequential", _COLOURS)
+    entries[1 : 1 + _COLOURS, 3] = 255
+    entries[_LINE] = (255, 255, 255, 130)
+    entries[_EDGE] = (255, 255, 255, 255)
+    return encode_png(pixels, entries)
+
+
+def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
+    """SVG of a map. `twist`: on the sliders; its mark is hollow where it does not lie in the plane of the map."""
+    across, up = drawn.parameters
+    x, y, _ = drawn.least
+    marks = [_star(_LEFT + x * _WIDE, _TOP + (1.0 - y) * _HIGH)]
+    if twist is not None:
+        (x, y), exact = place_on(drawn, twist)
+        if 0.0 <= x <= 1.0 and 0.0 <= y <= 1.0:
+            marks.append(
+                tag(
+                    "circle",
+                    cx=round(_LEFT + x * _WIDE, 1),
+                    cy=round(_TOP + (1.0 - y) * _HIGH, 1),
+                    r=4.5,
+                    fill=NOW if exact else "none",
+                    stroke="#fff" if exact else NOW,
+                    stroke_width=1.8,
+                )
+            )
+    image = svg.image(_LEFT, _TOP, _WIDE, _HIGH, _picture(drawn))
+    return tag(
+        "svg",
+        tag("g.rx-map", image, data_map="", data_explorer="map"),
+        tag("g", marks, pointer_events="none"),
+        tag("g", _across(across), _up(up), _bar(), font_size=12, fill="currentColor"),
+        viewBox="0 0 300 266",
+        width="100%",
+        role="img",
+        aria_label=f"Power over {across.title} and {up.title}",
+    )
+
+
+def _star(x: float, y: float) -> Markup:
+    corners = [(2.7 if k % 2 else 6.5, k * math.pi / 5.0) for k in range(10)]
+    points = [(x + r * math.sin(turn), y - r * math.cos(turn)) for r, turn in corners]
+    return svg.polygon(points, fill="#fff", stroke="#111", stroke_width=1)
+
+
+def _across(parameter: Parameter) -> Markup:
+    base = _TOP + _HIGH
+    ticks = bar_ticks(parameter.shown(parameter.low), parameter.shown(parameter.high))
+    places = [(round(_LEFT + 0.01 * percent * _WIDE, 1), word) for percent, word in ticks]
+    words = [tag("text", word, x=at, y=base + 13, text_anchor="middle") for at, word in places]
+    return group(words, [tag("path", d=f"M{at},{base} v4", stroke="currentColor") for at, _ in places])
+
+
+def _up(parameter: Parameter) -> Markup:
+    ticks = bar_ticks(parameter.shown(parameter.low), parameter.shown(parameter.high))
+    places = [(round(_TOP + (1.0 - 0.01 * percent) * _HIGH, 1), word) for percent, word in ticks]
+    words = [tag("text", word, x=_LEFT - 6, y=at + 4, text_anchor="end") for at, word in places]
+    return group(words, [tag("path", d=f"M{_LEFT},{at} h-4", stroke="currentColor") for at, _ in places])
+
+
+@cache
+def _bar() -> Markup:
+    """The colours, with the contours at their places [%]."""
+    colours = colour_map("sequential", 25)
+    stops = [tag("stop", offset=round(k / 24, 3), stop_color=css(colour)) for k, colour in enumerate(colours)]
+    places = [(_LEFT + math.sqrt(part / CONTOURS[-1]) * _WIDE, f"{100 * part:g}") for part in (0.0, *CONTOURS)]
+    return group(
+        tag("linearGradient", stops, id="rx-map-colours"),
+        tag("rect", x=_LEFT, y=224, width=_WIDE, height=9, rx=2, fill="url(#rx-map-colours)"),
+        [tag("text", word, x=round(at, 1), y=246, text_anchor="middle") for at, word in places],
+        tag("text", "power above the least [%]", x=_LEFT + _WIDE / 2, y=262, text_anchor="middle", opacity=0.7),
+    )

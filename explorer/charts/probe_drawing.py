@@ -1,0 +1,286 @@
+"""The probe as a drawing and in words: section, velocity triangle, angles and forces; its numbers."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from explorer.charts import svg
+from explorer.charts.probe_measured import HEIGHT as CHART_HEIGHT
+from explorer.charts.probe_measured import lift_chart, with_indices
+from explorer.charts.svg import Point, chart_box
+from explorer.colours import NOW, THIS
+from explorer.model.units import degrees, number
+from explorer.picture.element import FlowRegion, Probe, outline, sections_of, where
+from explorer.text.glossary import tip
+from explorer.text.readout import dash
+from rotor import Solution
+from rotor.support.arrays import Array
+from rotor.support.chart import drawn_chart
+from rotor.support.markup import Attribute, Content, Markup, group, tag
+
+WIDTH, HEIGHT = 312.0, 166.0
+LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
+OPENED = 3
+"""How many times wider small angles are drawn on request."""
+_QUARTER: Point = (126.0, 82.0)
+"""Where the quarter chord is drawn."""
+_CHORD = 100.0
+_FASTEST, _STRONGEST = 88.0, 70.0
+"""Lengths of the greatest velocity and load of the disk."""
+_DRAG_FACTORS = (10, 5, 2)
+"""Drag is a fiftieth of the lift: on its scale it would not be seen."""
+_SMALL = math.radians(40.0)
+"""Angles up to here are marked behind the trailing edge, where they have room; larger ones round the section."""
+_WIDEST = math.radians(31.0)
+"""Widest angle that is drawn [rad]."""
+_RAY, _COLUMN = 134.0, 266.0
+"""Where the rays of small angles end, and where their words begin."""
+_FAINT, _BOLD = 0.6, 600
+"""Opacity of what is less important, and weight of what is more."""
+
+
+@dataclass(frozen=True)
+class DrawingScales:
+    """By how much things are drawn larger than true, or than on the scale of the whole disk."""
+
+    velocity: int
+    lift: int
+    drag: int
+    angles: int
+
+
+@dataclass(frozen=True)
+class _Sketch:
+    """A probe with the angles as they are drawn."""
+
+    probe: Probe
+    theta: float
+    phi: float
+    alpha: float
+
+    @property
+    def small(self) -> bool:
+        return max(abs(self.theta), abs(self.phi), abs(self.alpha)) < _SMALL
+
+    @property
+    def behind(self) -> bool:
+        """Whether the flow comes from the trailing edge."""
+        return self.probe.u_t < 0.0
+
+
+def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[Markup, DrawingScales]:
+    """The SVG, and its scales.
+
+    `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk. `opened`: small angles are drawn
+    wider, so that the triangle is seen.
+    """
+    lift, drag = (_STRONGEST * abs(load) / strongest for load in (probe.lift, probe.drag))
+    widest = max(abs(probe.theta), abs(probe.phi))
+    scales = DrawingScales(
+        velocity=_factor(_FASTEST * probe.u / fastest, 24.0, (1, 2, 5, 10, 20)),
+        lift=_factor(lift, 10.0, (1, 2, 5, 10, 20)) if probe.u_t < 0.0 else 1,
+        drag=next((factor for factor in _DRAG_FACTORS if factor * drag < 0.8 * _STRONGEST), 1),
+        angles=next((k for k in range(OPENED, 1, -1) if opened and k * widest < _WIDEST), 1),
+    )
+    k = scales.angles
+    sketch = _Sketch(probe, k * probe.theta, k * probe.phi, k * (probe.theta - probe.phi) if k > 1 else probe.alpha)
+    parts = (
+        _ground(sketch),
+        _section(sketch),
+        _triangle(sketch, scales.velocity * _FASTEST / fastest),
+        _angles(sketch),
+        _forces(sketch, scales.lift * _STRONGEST / strongest, scales.drag * _STRONGEST / strongest),
+    )
+    label = "The blade section with its velocity triangle and forces"
+    marks: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
+    return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **marks), scales
+
+
+def _factor(length: float, floor: float, factors: tuple[int, ...]) -> int:
+    """The least factor that brings a length to `floor`; the last where none does."""
+    return next((factor for factor in factors if factor * length >= floor), factors[-1])
+
+
+def _ray(angle: float, reach: float) -> Point:
+    return _QUARTER[0] + reach * math.cos(angle), _QUARTER[1] + reach * math.sin(angle)
+
+
+def _turned(points: Array, angle: float) -> Array:
+    """Points of blade axes (y to the nose, z up, in chords) on the drawing, the nose up by `angle`."""
+    across, down = -_CHORD * points[:, 0], -_CHORD * points[:, 1]
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.stack((_QUARTER[0] + across * cos - down * sin, _QUARTER[1] + across * sin + down * cos), axis=1)
+
+
+def _section(sketch: _Sketch) -> Markup:
+    shape = _turned(outline(sketch.probe.section), sketch.theta)
+    look: dict[str, Attribute] = {"fill": "rgba(128,128,128,.22)", "stroke": "currentColor", "stroke_width": 1.2}
+    return svg.polygon([(x, y) for x, y in shape.tolist()], **look, stroke_linejoin="round")
+
+
+def _ground(sketch: _Sketch) -> Markup:
+    """The disk plane, and the chord line drawn out behind the section."""
+    y = _QUARTER[1]
+    plane = svg.line((4.0, y), (_QUARTER[0] + _RAY, y), width=0.9, dashes="5 4", opacity=0.55)
+    chord = svg.line(_ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, opacity=_FAINT)
+    return plane + chord
+
+
+def _triangle(sketch: _Sketch, scale: float) -> Markup:
+    """U_T, then U_P, and their resultant, which ends just short of the edge that it meets."""
+    edge = -0.83 if sketch.behind else 0.32
+    x, y = _turned(np.array([[edge, 0.0]]), sketch.theta)[0].tolist()
+    reach = scale * sketch.probe.u
+    start = x - reach * math.cos(sketch.phi), y - reach * math.sin(sketch.phi)
+    corner, middle = (x, start[1]), 0.5 * (start[0] + x)
+    above = sketch.phi >= 0.0
+    over, under = (start[1] - 6.0, y + 15.0) if above else (start[1] + 13.0, y - 8.0)
+    beside, anchor = (x - 3.0, "end") if sketch.behind else (x + 3.0, "start")
+    return group(
+        svg.arrow(start, corner, width=1.3),
+        svg.arrow(corner, (x, y), width=1.3),
+        svg.arrow(start, (x, y), width=2.6),
+        svg.words((middle, over), "U", low="T"),
+        svg.words((beside, over), "U", anchor, low="P"),
+        svg.words((middle, under), "U", weight=_BOLD),
+    )
+
+
+def _angles(sketch: _Sketch) -> Markup:
+    """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord."""
+    probe, small = sketch.probe, sketch.small
+    wind = svg.line(_ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT)
+    theta, phi, alpha = (124.0, 98.0, 111.0) if small else (56.0, 32.0, 64.0)
+    arcs = (
+        svg.arc(_QUARTER, theta, 0.0, sketch.theta)
+        + svg.arc(_QUARTER, phi, 0.0, sketch.phi)
+        + svg.arc(_QUARTER, alpha, sketch.phi, sketch.alpha, ALPHA, 1.8)
+    )
+    places = _in_column(sketch) if small else _around(sketch)
+    anchors = ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
+    words = (
+        (f"θ {degrees(probe.theta, 1)}", "currentColor", None, None),
+        (f"φ {degrees(probe.phi, 1)}", "currentColor", None, None),
+        (f"α {degrees(probe.alpha, 1)}", ALPHA, _BOLD, None),
+        ("disk plane", "currentColor", None, _FAINT),
+    )
+    labels = [
+        svg.words(place, text, anchor, colour, weight=weight, opacity=opacity)
+        for place, anchor, (text, colour, weight, opacity) in zip(places, anchors, words, strict=True)
+    ]
+    return group(wind, arcs, labels)
+
+
+def _in_column(sketch: _Sketch) -> list[Point]:
+    """Places of the words θ, φ, α and "disk plane" one beneath the other, each near what it names."""
+    heights = [_ray(angle, _RAY)[1] for angle in (sketch.theta, 0.5 * sketch.phi, sketch.phi + 0.5 * sketch.alpha, 0.0)]
+    # The pitch spans both others: its word goes beyond the chord line, that of the plane to the other side.
+    heights[0] += math.copysign(9.0, sketch.theta)
+    heights[3] -= math.copysign(9.0, sketch.theta)
+    edges = (_COLUMN, _COLUMN, _COLUMN, WIDTH - 1.0)
+    return [(x, height + 3.5) for x, height in zip(edges, svg.spread_heights(heights, 12.5), strict=True)]
+
+
+def _around(sketch: _Sketch) -> list[Point]:
+    """Places of the same words about the section, where angles are large."""
+    x, y = _QUARTER
+    inner, outer = _ray(0.5 * sketch.phi, 42.0), _ray(sketch.phi + 0.5 * sketch.alpha, 75.0)
+    return [(x + 46.0, y - 6.0), (inner[0], inner[1] + 3.5), (outer[0], outer[1] + 3.5), (4.0, y - 5.0)]
+
+
+def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
+    """Lift across the wind, drag along it, both from the quarter chord."""
+    lift, drag = lift_scale * sketch.probe.lift, drag_scale * sketch.probe.drag
+    cos, sin = math.cos(sketch.phi), math.sin(sketch.phi)
+    x, y = _QUARTER
+    tip = x + lift * sin, y - lift * cos
+    text, place = "", (tip[0] + 7.0, tip[1] + 8.0 if tip[1] < y else max(tip[1] + 2.0, y + 19.0))
+    if sketch.behind:  # All the angles are on one side: there is room on the other.
+        text, place = "lift ", (x - 14.0, y - 40.0 if sketch.phi > 0.0 else y + 48.0)
+    return group(
+        svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6),
+        svg.arrow(_QUARTER, tip, LIFT, 3.2),
+        tag("circle", cx=x, cy=y, r=2.4, fill=svg.BODY, stroke="currentColor", stroke_width=1.2),
+        svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT, weight=_BOLD),
+    )
+
+
+_CHIPS = {
+    FlowRegion.IDLE: "back",
+    FlowRegion.ATTACHED: "good",
+    FlowRegion.STALLED: "bad",
+    FlowRegion.REVERSE: "back",
+    FlowRegion.DIVERGED: "bad",
+}
+
+
+def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured: Content = None) -> Markup:
+    """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider.
+
+    `measured`: airloads over the azimuth, as `measured_panel` draws them.
+    """
+    disk, design = solution.disk, solution.design
+    fastest = design.rotor.tip_speed * float(np.hypot(disk.u_t, disk.u_p).max())
+    per_metre = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
+    strongest = per_metre * float(np.hypot(disk.dct, disk.dcq).max())
+    picture, scales = drawing(probe, fastest, strongest, opened)
+    return tag(
+        "div.rx.rx-probe",
+        _head(probe),
+        picture,
+        _key(scales),
+        _table(probe),
+        measured,
+        chart_box(drawn_chart(lift_chart(probe)), CHART_HEIGHT),
+        data_explorer="probe",
+    )
+
+
+def _head(probe: Probe) -> Markup:
+    alpha, chip = f"α {degrees(probe.alpha, 1)}", f"span.rx-push.rx-chip.rx-chip-{_CHIPS[probe.region]}"
+    return tag(
+        "div.rx-line.rx-base",
+        tag("span.rx-best", alpha, data_explorer="probe-alpha", title=tip("probe_alpha")),
+        tag("span.rx-dim", where(probe.psi), data_explorer="probe-place"),
+        tag(chip, probe.region.value, data_explorer="probe-region", title=tip("probe_region")),
+        tag("button", "Ride along", data_do="ride", title=tip("ride")),
+    )
+
+
+def _key(scales: DrawingScales) -> Markup:
+    """The colours of the arrows, and what is drawn larger than true or than on the scale of the whole disk."""
+    entries = (("velocity", "currentColor", scales.velocity), ("lift", LIFT, scales.lift), ("drag", DRAG, scales.drag))
+    keys = [tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries]
+    view = f"angles{_times(scales.angles)}" if scales.angles > 1 else "seen from the hub"
+    return tag("div.rx-line.rx-small.rx-dim.rx-base", keys, tag("span.rx-push", view))
+
+
+def _times(factor: int) -> str:
+    return f" ×{factor}" if factor > 1 else ""
+
+
+def _table(probe: Probe) -> Markup:
+    margin = probe.stall_margin
+    entries = (
+        ("probe_u_t", "Tangential U_T", f"{number(probe.u_t, 1)} m/s"),
+        ("probe_mach", "Mach", number(probe.mach, 3)),
+        ("probe_induced", "Induced v_i", f"{number(probe.induced, 1)} m/s"),
+        ("probe_cl", "C_l", number(probe.cl, 3)),
+        ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
+        ("probe_cd", "C_d", number(probe.cd, 4)),
+        ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
+        ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
+        ("probe_section", "Section", sections_of(probe.section)),
+        ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
+    )
+    if probe.unsteady is not None:
+        entries += (
+            ("probe_separation", "Separation", f"{number(probe.unsteady.separation, 2)} c"),
+            ("probe_vortex", "Vortex C_n", number(probe.unsteady.vortex, 3)),
+        )
+    cells = [
+        tag("div.rx-line", tag("span.rx-dim", with_indices(name)), tag("span.rx-num", value), title=tip(key))
+        for key, name, value in entries
+    ]
+    return tag("div.rx-grid", cells)

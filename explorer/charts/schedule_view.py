@@ -1,0 +1,160 @@
+"""A schedule as charts, words and CSV."""
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from explorer.charts.plots import Range, held_range
+from explorer.colours import NOW, THIS, colour_map, css
+from explorer.model.units import SI, Units, number
+from explorer.workers.background import WorkRecord
+from explorer.workers.solver import FixedPowers
+from rotor import Optimum
+from rotor.design.aircraft import reported_names
+from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
+from rotor.support.chart import Axis, Chart, Line
+from rotor.support.markup import Markup, tag
+
+_COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
+
+
+@dataclass(frozen=True)
+class ScheduleProgress:
+    """What is known of a plan with one concept."""
+
+    plan: SchedulePlan
+    cells: tuple[ScheduleOptimum, ...] = ()
+    fixed_powers: tuple[float | None, ...] = ()
+
+    @staticmethod
+    def of(record: WorkRecord) -> "ScheduleProgress":
+        reports = record.reports
+        cells = tuple(one for one in reports if isinstance(one, ScheduleOptimum))
+        fixed = next((one.powers for one in reports if isinstance(one, FixedPowers)), ())
+        return ScheduleProgress(record.task.plan, cells, fixed)
+
+    @property
+    def schedule(self) -> Schedule:
+        return Schedule(self.plan, self.cells)
+
+    def at(self, leg: int | None) -> Optimum | None:
+        """The optimum at a leg; None: the fixed blade."""
+        return self.schedule.at(leg, self.plan.concepts[0].name)
+
+    def fixed_power(self, leg: int) -> float | None:
+        return self.fixed_powers[leg] if leg < len(self.fixed_powers) else None
+
+    @property
+    def count(self) -> str:
+        """How many optima are known, of how many."""
+        return f"{len(self.cells)} of {len(self.plan.conditions) + 1} optima"
+
+    @property
+    def part_done(self) -> float:
+        """0…1"""
+        return len(self.cells) / (len(self.plan.conditions) + 1)
+
+
+def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
+    """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
+    r, legs = np.linspace(0.13, 1.0, 80), len(progress.plan.conditions)
+    shades = colour_map("sequential", legs + 3)[2:]  # Neither end is seen on every page.
+    lines: list[Line] = []
+    for k, leg in enumerate((*range(legs), None)):
+        optimum = progress.at(leg)
+        if optimum is not None and optimum.best is not None:
+            twist = np.degrees(optimum.design.twist(r))
+            name = "hover" if k == 0 else "fast" if k == legs - 1 else ""
+            fixed = Line("fixed", r, twist, NOW, "5 3")
+            lines.append(fixed if leg is None else Line(name, r, twist, css(shades[k]), width=1.5))
+    if not lines:
+        return None
+    seen = [value for line in lines for value in line.y]
+    return Chart(
+        "Best twist", Axis("r/R", (0.1, 1.02)), Axis("°", held_range(previous, min(seen), max(seen))), tuple(lines)
+    )
+
+
+def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
+    """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
+    legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
+    mu, moving, fixed = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 3]).T
+    if not np.isfinite(moving).any():
+        return None
+    seen = [0.0, *(float(value) for value in (*moving, *fixed) if math.isfinite(value))]
+    lines = Line("fixed", mu, fixed, NOW, "5 3", 1.8), Line("variable", mu, moving, THIS)
+    y_axis = Axis("%", held_range(previous, min(seen), max(0.1, *seen)))
+    return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
+
+
+def _saving(progress: ScheduleProgress, leg: int) -> tuple[float, float]:
+    """Savings of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
+    optimum, fixed = progress.at(leg), progress.fixed_power(leg)
+    if optimum is None or optimum.saving is None or optimum.baseline_power is None:
+        return math.nan, math.nan
+    return 100.0 * optimum.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / optimum.baseline_power)
+
+
+def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
+    """One row a leg, then the gain of moving."""
+    heads = (f"current [{units.power[0].symbol}]", "fixed [%]", "variable [%]")
+    rows = [tag("tr.rx-dim.rx-small", tag("td", "µ"), [tag("td.rx-num", head) for head in heads])]
+    for k, leg in enumerate(progress.plan.conditions):
+        optimum, mu = progress.at(k), leg.flight.advance_ratio
+        moving, fixed = _saving(progress, k)
+        power = None if optimum is None else optimum.baseline_power
+        baseline = None if power is None else units.power[0].of(power)
+        cells = (number(baseline), number(fixed, 2), number(moving, 2))
+        rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
+    return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
+
+
+def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
+    """What the best fixed blade saves, and the gain of moving beyond it."""
+    gain = progress.schedule.in_flight_gain(progress.plan.concepts[0].name)
+    if gain is None:
+        return Markup()
+    saved = gain.baseline - gain.fixed
+    saving = tag("td.rx-num", units.watts(saved, 1)), f"{number(100.0 * saved / gain.baseline, 2)} %"
+    more = tag("td", tag("b", "Additional saving from variable twist"), style="white-space:normal")
+    gained = (units.watts(gain.gain, 1), f"{number(100.0 * gain.share, 2)} %")
+    return tag(
+        "table",
+        tag("tr", tag("td", "Best fixed blade saves"), saving[0], tag("td.rx-num", saving[1], style="width:20%")),
+        tag("tr", more, [tag("td.rx-num", tag("b", words)) for words in gained]),
+    )
+
+
+def csv_of(progress: ScheduleProgress) -> bytes:
+    """The schedule as a CSV file; what is not known is blank."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    names = reported_names(leg.flight.unusual for leg in progress.plan.conditions)
+    writer.writerow((*names, *_COLUMNS))
+    for k, leg in enumerate(progress.plan.conditions):
+        optimum = progress.at(k)
+        best = None if optimum is None else optimum.best
+        writer.writerow(
+            (
+                *(f"{leg.flight.numbers[name]:g}" for name in names),
+                f"{leg.hours:g}",
+                _kilowatt(None if optimum is None else optimum.baseline_power),
+                _kilowatt(None if best is None else best.power),
+                "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
+                _kilowatt(progress.fixed_power(k)),
+                "" if best is None else best.twist,
+            )
+        )
+    fixed = progress.at(None)
+    if fixed is not None and fixed.best is not None:
+        hours = sum(leg.hours for leg in progress.plan.conditions)
+        mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
+        writer.writerow(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
+    return text.getvalue().encode()
+
+
+def _kilowatt(watts: float | None) -> str:
+    return "" if watts is None else f"{watts / 1e3:.3f}"

@@ -1,0 +1,325 @@
+"""One blade element under the glass: flow, angles and loads at a point (r, ψ) of the disk; and a slow turn with it.
+
+Of the turn this has what the page needs to go with the section, over the azimuth.
+"""
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from explorer.colours import THIS
+from explorer.model.units import number
+from explorer.parts.stage import RidePart
+from explorer.picture.blade_mesh import blade_axes_outline
+from explorer.picture.polar import DRAG_DIVERGENCE
+from explorer.text.status import section_title
+from rotor import Solution
+from rotor.aero.display import STALLED
+from rotor.aero.elements import Unsteady
+from rotor.aero.problem import LOW_MACH
+from rotor.airfoil.sections import Section
+from rotor.support.arrays import Array
+from rotor.support.chart import Axis, Chart, Line, drawn_chart
+from rotor.trim import DiskFields
+
+_OUTLINE = 61
+
+
+class FlowRegion(Enum):
+    ATTACHED = "attached"
+    STALLED = "stalled"
+    REVERSE = "reverse flow"
+    IDLE = "reverse flow, left out"
+    DIVERGED = "drag divergence"
+
+
+@dataclass(frozen=True)
+class SectionBlend:
+    """The section at a radius: between two spans, or two Reynolds numbers of its data, a mixture."""
+
+    parts: tuple[tuple[Section, float], ...]
+    """The sections that take part, with their shares."""
+
+    def moment(self, alpha: float, mach: float) -> float | None:
+        """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
+        total = 0.0
+        for section, share in self.parts:
+            moment = section.table.moment(alpha - section.incidence_offset, mach)
+            if moment is None:
+                return None
+            total += share * float(moment)
+        return total
+
+    def stall_angles(self, mach: float) -> tuple[float, float]:
+        """Negative and positive stall angle [rad] about the blade's reference line."""
+        ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.parts]
+        low, high = (sum(share * (float(end[k]) + offset) for end, offset, share in ends) for k in (0, 1))
+        return low, high
+
+    def lift_curve(self, alpha: Array, mach: float) -> Array:
+        """C_l at angles of attack [rad] about the blade's reference line."""
+        curve = np.zeros_like(alpha)
+        for section, share in self.parts:
+            curve += share * section.table(alpha - section.incidence_offset, mach).cl
+        return curve
+
+
+@dataclass(frozen=True, eq=False)
+class UnsteadyProbe:
+    """What dynamic stall does at the element, and its way around the disk."""
+
+    separation: float
+    """f″, over the chord."""
+    vortex: float
+    """C_n of the vortex."""
+    loop: Array
+    """α [rad] and C_l at the azimuths of the disk, NaN in reverse flow, (2, azimuths)."""
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A blade element as it passes (r, ψ). SI and radians; loads are of one blade and per metre of span."""
+
+    r: float
+    """y/R"""
+    psi: float
+    """0 … 2π, 0 over the tail."""
+    radius: float
+    """y [m]"""
+    chord: float
+    """[m]"""
+    section: SectionBlend
+    theta: float
+    """Pitch with twist."""
+    elastic: float | None
+    """Elastic twist; None for a rigid blade."""
+    phi: float
+    """Inflow angle atan2(U_P, U_T): near π where the flow comes from the trailing edge."""
+    alpha: float
+    """θ − φ in (−π, π], about the blade's reference line; in unsteady flow that of three quarters of the chord."""
+    u_t: float
+    """In the plane of the disk and normal to the blade [m/s]."""
+    u_p: float
+    """Down through the blade [m/s]."""
+    induced: float
+    """Induced velocity, down [m/s]."""
+    mach: float
+    table_mach: float
+    """Where the section data are read: the same, unless compressibility is switched off."""
+    cl: float
+    cd: float
+    cm: float | None
+    """About the quarter chord, nose-up positive; None where the section data have no moment."""
+    lift: float
+    """Normal to the flow, tip and root loss taken off [N/m]."""
+    drag: float
+    """Along the flow [N/m]."""
+    thrust: float
+    """Along the shaft [N/m]."""
+    pull: float
+    """In the plane, against the rotation [N/m]."""
+    power: float
+    """Ω y times the pull [W/m]."""
+    stall: tuple[float, float]
+    """Negative and positive stall angle at `table_mach`."""
+    cd_mach: float
+    """∂C_d/∂M"""
+    idle: bool
+    """Whether the models leave its loads out, as they may in reverse flow."""
+    unsteady: "UnsteadyProbe | None"
+    """None with steady sections."""
+
+    @property
+    def u(self) -> float:
+        """Resultant velocity at the section [m/s]."""
+        return math.hypot(self.u_t, self.u_p)
+
+    @property
+    def stall_margin(self) -> float | None:
+        """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing."""
+        return None if self.u_t < 0.0 else min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+
+    @property
+    def region(self) -> FlowRegion:
+        margin = self.stall_margin
+        if margin is None:
+            return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
+        if margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED:
+            return FlowRegion.STALLED
+        return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
+
+
+def probe(solution: Solution, r: float, psi: float) -> Probe:
+    """What the solution says at r = y/R and ψ [rad]: the disk's own values at its stations, linear between them.
+
+    ψ may be any turn. ValueError for an r that is not on the blade.
+    """
+    design, disk = solution.design, solution.disk
+    rotor = design.rotor
+    if not rotor.blade.root_cutout - 1e-9 <= r <= 1.0 + 1e-9:
+        raise ValueError(f"r/R {r:g} is not on the blade: choose {rotor.blade.root_cutout:g} … 1")
+    psi = psi % (2.0 * math.pi)
+    at = _GridPoint(disk, r, psi)
+    speed = rotor.tip_speed
+    theta, u_t, u_p, mach = (at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach))
+    phi = math.atan2(u_p, u_t)
+    per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
+    thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
+    section = SectionBlend(rotor.blade.mixture(r, design.reynolds_per_metre))
+    mach = max(mach, 0.0)
+    table_mach = mach if design.models.compressibility else LOW_MACH
+    ahead = at.held(disk.pitch_of_alpha - disk.theta)
+    alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
+    chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.parts)
+    cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
+    if cm is not None and unsteady is not None:
+        cm += at.held(unsteady.moment)
+    idle = u_t < 0.0 and not design.models.reverse_flow
+    return Probe(
+        r=r,
+        psi=psi,
+        radius=r * rotor.radius,
+        chord=chord,
+        section=section,
+        theta=theta,
+        elastic=None if disk.elastic_twist is None else at.reaching(disk.elastic_twist),
+        phi=phi,
+        alpha=alpha,
+        u_t=speed * u_t,
+        u_p=speed * u_p,
+        induced=speed * at.reaching(disk.induced),
+        mach=mach,
+        table_mach=table_mach,
+        cl=at.held(disk.cl),
+        cd=at.held(disk.cd),
+        cm=None if idle else cm,
+        lift=thrust * math.cos(phi) + pull * math.sin(phi),
+        drag=pull * math.cos(phi) - thrust * math.sin(phi),
+        thrust=thrust,
+        pull=pull,
+        power=pull * r * speed,
+        stall=section.stall_angles(table_mach),
+        cd_mach=at.held(disk.cd_mach),
+        idle=idle,
+        unsteady=None if unsteady is None else _around(disk, unsteady, at, r),
+    )
+
+
+def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) -> UnsteadyProbe:
+    """At a point, and around the disk at its radius."""
+    loop = np.empty((2, len(disk.psi)))
+    for k, psi in enumerate(disk.psi.tolist()):
+        there = _GridPoint(disk, r, psi)
+        loop[:, k] = (there.held(disk.alpha), there.held(disk.cl)) if there.reaching(disk.u_t) > 0.0 else math.nan
+    return UnsteadyProbe(at.held(unsteady.separation), at.held(unsteady.vortex), loop)
+
+
+def outline(section: SectionBlend) -> Array:
+    """The true outline, blended as the blade is; (y, z) in reference chords about the quarter chord."""
+    return sum((share * blade_axes_outline(part, _OUTLINE) for part, share in section.parts), np.zeros(()))
+
+
+def where(psi: float) -> str:
+    """What an azimuth [rad] is called."""
+    advancing = "over the tail", "aft, advancing", "advancing side", "ahead, advancing"
+    retreating = "over the nose", "ahead, retreating", "retreating side", "aft, retreating"
+    return (*advancing, *retreating)[round(math.degrees(psi) / 45.0) % 8]
+
+
+def sections_of(section: SectionBlend) -> str:
+    """Name of the section; of two where one goes over into the other."""
+    return " → ".join(dict.fromkeys(section_title(s.name) for s, _ in section.parts))
+
+
+class _GridPoint:
+    """Where a point lies among the stations: periodic in azimuth, linear along the blade."""
+
+    def __init__(self, disk: DiskFields, r: float, psi: float) -> None:
+        n = len(disk.psi)
+        around = (psi - float(disk.psi[0])) * n / (2.0 * math.pi)
+        row = min(max(int(np.searchsorted(disk.r, r, "right")) - 1, 0), len(disk.r) - 2)
+        along = row + (r - float(disk.r[row])) / float(disk.r[row + 1] - disk.r[row])
+        # A station met to rounding is that station: what stands there is read, not blended.
+        around, along = (float(round(x)) if abs(x - round(x)) < 1e-9 else x for x in (around, along))
+        before = math.floor(around)
+        self._columns = before % n, (before + 1) % n
+        self._late = around - before
+        self._row = min(max(math.floor(along), 0), len(disk.r) - 2)
+        self._out = along - self._row
+
+    def reaching(self, field: Array) -> float:
+        """A field that runs on straight over the half elements at root and tip, as velocities do."""
+        return self._blend(field, self._out)
+
+    def held(self, field: Array) -> float:
+        """A field that keeps its last value there: a coefficient that jumps must not be drawn out."""
+        return self._blend(field, min(max(self._out, 0.0), 1.0))
+
+    def _blend(self, field: Array, out: float) -> float:
+        first, second = self._columns
+        inner, outer = (
+            float(field[row, first]) + self._late * float(field[row, second] - field[row, first])
+            for row in (self._row, self._row + 1)
+        )
+        # Two products rather than a difference: the outer station comes out as it stands there too.
+        return (1.0 - out) * inner + out * outer
+
+
+AZIMUTHS = 72
+"""Points of a turn; the page goes straight between them."""
+_ANGLES = 91
+"""Angles of each lift curve."""
+_LEAST_REACH = 14.0
+"""The lift curve is drawn at least to this angle of attack either way [°]."""
+
+
+def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
+    """A section around the disk, with the lift curve at each Mach number."""
+    around = [probe(solution, r, 2.0 * math.pi * k / AZIMUTHS) for k in range(AZIMUTHS)]
+    ahead = np.array([here.u_t >= 0.0 for here in around])
+    # From the edge that meets the flow.
+    angle = [here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi) for here in around]
+    alpha = np.degrees(angle)
+    cl = np.array([here.cl for here in around])
+    reach = max(_LEAST_REACH, 1.15 * float(np.abs(alpha[ahead]).max(initial=0.0)))
+    angles = np.linspace(-reach, reach, _ANGLES)
+    curves = [
+        here.section.lift_curve(np.radians(angles) + (0.0 if front else math.pi), here.table_mach)
+        for here, front in zip(around, ahead, strict=True)
+    ]
+    highest = max(float(np.abs(cl).max()), *(float(np.abs(curve).max()) for curve in curves))
+    path = Line("", np.append(alpha, alpha[0]), np.append(np.where(ahead, cl, np.nan), np.nan), THIS, width=1.2)
+    chart = Chart(
+        "Lift curve at this Mach number",
+        Axis("α", (-reach, reach), unit="°"),
+        Axis("C_l", (-1.1 * highest, 1.1 * highest)),
+        (path,),
+    )
+    return RidePart(
+        r=r,
+        psi=psi_deg,
+        out=around[0].radius,
+        radius=solution.design.rotor.radius,
+        section=sections_of(around[0].section),
+        outline=np.round(outline(around[0].section), 4).tolist(),
+        u=[round(math.copysign(here.u, here.u_t), 1) for here in around],
+        theta=_rounded([math.degrees(here.theta) for here in around]),
+        phi=_rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around]),
+        alpha=_rounded(alpha),
+        cl=_rounded(cl, 3),
+        mach=_rounded([here.table_mach for here in around]),
+        lift=_rounded([here.lift / 1e3 for here in around], 3),
+        where=[where(here.psi) for here in around],
+        region=[here.region.value for here in around],
+        margin=[None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around],
+        angles=_rounded(angles),
+        curves=[_rounded(curve, 3) for curve in curves],
+        chart=drawn_chart(chart),
+    )
+
+
+def _rounded(values: Any, digits: int = 2) -> list[float]:
+    return np.round(np.asarray(values, dtype=float), digits).tolist()

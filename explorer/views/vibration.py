@@ -1,0 +1,148 @@
+"""Vibration of blades that bend: the row of the power card, and what bending costs.
+
+The index of a solution is little work and follows every step of a drag, after its frame. Its band over
+wakes is computed while the page rests.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from explorer.model.session_state import SessionState
+from explorer.model.units import number
+from explorer.parts.stage import SceneLabel, VibrationPart
+from explorer.picture.picture import BENDING_SHOWN
+from explorer.text.readout import index_unit
+from explorer.views.page_state import PageState, Panel, PanelWork, Tell
+from rotor import Solution, hub_loads, solve
+from rotor.aero.bending import can_bend
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.trim import DEFAULT_OPTIONS, HubLoads, analyse, why_no_hub_loads
+from rotor.trim.hub_loads import band_inflows
+
+_NOTICEABLE = 0.5
+"""Changes of the index below this [% of itself] have no colour."""
+
+
+def vibration(now: PageState) -> dict[str, Any]:
+    """The row of the power card, the words in the scene, and those beside the switch."""
+    state = now.state
+    if state is None:
+        return {}
+    bends = state.solution.design.models.bending
+    return {
+        "vibration": _row(now, state) if bends else None,
+        "hub_labels": _how_bent(state.solution) if bends and not now.problem else [],
+        "switch.bending": _beside_switch(now, state),
+    }
+
+
+def works(now: PageState) -> tuple[PanelWork, ...]:
+    """The loads of a reference without bending, those of the solution with their band, and its trim without bending."""
+    state = now.state
+    if state is None or not state.solution.design.models.bending:
+        return ()
+    solution, reference = state.solution, state.reference
+    compared = reference.converged and not reference.design.models.bending
+    return (
+        *((_loads_work(now, reference, False),) if compared else ()),
+        _loads_work(now, solution, True),
+        PanelWork("rigid", (solution.design,), lambda superseded, tell: _rigid_power(solution)),
+    )
+
+
+def _loads_work(now: PageState, solution: Solution, band: bool) -> PanelWork:
+    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[HubLoads | None] | None:
+        options = replace(DEFAULT_OPTIONS, stop=superseded)
+        analysis = now.analyses.of(solution)
+        loads = hub_loads(analysis, solve=lambda design, start: analyse(design, start, options), band=band)
+        return None if superseded() else (loads,)
+
+    return PanelWork("hub loads", (solution.design, band), run)
+
+
+def _loads(now: PageState, solution: Solution, band: bool) -> HubLoads | None:
+    """Hub loads as far as they are known: without a band those of a blade that bends are little work."""
+    known = now.answers.get(_loads_work(now, solution, band).key)
+    if known is not None:
+        return known[0]
+    bends = solution.converged and solution.design.models.bending
+    return hub_loads(now.analyses.of(solution), band=False) if bends else None
+
+
+def _rigid_power(solution: Solution) -> float:
+    """Power without bending [W]; NaN where that does not trim."""
+    rigid = solve(replace(solution.design, models=replace(solution.design.models, bending=False)))
+    return rigid.power.total if rigid.converged else math.nan
+
+
+def _beside_switch(now: PageState, state: SessionState) -> str:
+    """What bending costs, or why this blade does not bend."""
+    design, words = state.solution.design, ""
+    if not can_bend(design.rotor):
+        reason = why_no_hub_loads(design)
+        words = "" if reason is None else reason.sentence.removeprefix("No hub loads: ")
+    elif asked := works(now):
+        added = state.solution.power.total - now.answers.get(asked[-1].key, math.nan)
+        words = f"{now.units.watts(added, 1, sign=True)} here" if math.isfinite(added) else ""
+    return words[:1].upper() + words[1:]
+
+
+def _row(now: PageState, state: SessionState) -> VibrationPart:
+    """The row of the power card; without an index the sentence says why."""
+    design, loads = state.solution.design, _loads(now, state.solution, True)
+    reason = why_no_hub_loads(design)
+    if reason is not None or loads is None:
+        sentence = "No hub loads: no trim with bending." if reason is None else reason.sentence
+        return VibrationPart(sentence, sentence=sentence)
+    band = "band over inflow models: computing"
+    if loads.band is not None:
+        band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over inflow models"
+    change, kind = _change(state, loads, _loads(now, state.reference, False))
+    return VibrationPart(
+        _title(loads),
+        index=number(loads.index, 1),
+        unit=index_unit(design),
+        at=f"at {loads.per_rev}/rev",
+        band=band,
+        change=change,
+        kind=kind,
+    )
+
+
+def _change(state: SessionState, loads: HubLoads, reference: HubLoads | None) -> tuple[str, str]:
+    """Against A, or the blade as built; and its class."""
+    if reference is None or state.reference.design == state.solution.design:
+        return "", ""
+    percent = 100.0 * (loads.index / reference.index - 1.0)
+    kind = "" if abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad"
+    against = "A" if state.pinned is not None else "as built"
+    return f"{number(percent, 0, sign=True)} % vs. {against} ({number(reference.index, 1)})", kind
+
+
+def _how_bent(solution: Solution) -> list[SceneLabel]:
+    """The words in the scene: bending is drawn larger."""
+    if solution.deflections is None:
+        return []
+    rotor = solution.design.rotor
+    tip = [1.04 * (1.0 - rotor.blade.flap_hinge) * rotor.radius, 0.0, 0.0]
+    title = "Flap and lag bending from the straight blade (grey), drawn ten times as large."
+    return [SceneLabel(f"bending × {BENDING_SHOWN:g}", "/rotor/blade_0", tip, title)]
+
+
+def _title(loads: HubLoads) -> str:
+    """What the index is, its parts and its limits."""
+    values = ", ".join(
+        f"{name[0].upper()}{name[1]} {number(value / 1e3, 2)} {'kN' if name[0] == 'f' else 'kN m'}"
+        for name, value in loads.amplitudes.items()
+    )
+    wakes = ", ".join(INFLOW_MODELS[name].title for name in band_inflows())
+    return (
+        f"Vibration index: √((0.5 Fx)² + (0.67 Fy)² + Fz²)/W + √(Mx² + My²)/(R W), from hub loads at "
+        f"{loads.per_rev}/rev: {values}. Weights of the forces: 0.5 aft, 0.67 to starboard, 1 vertical. "
+        f"Band: least and largest with {wakes}. Use it to compare designs; its level is not reliable."
+    )
+
+
+VIBRATION = Panel(vibration, works=works)

@@ -1,0 +1,88 @@
+"""The widgets of Actuate, from top to bottom."""
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import viser
+
+from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
+from explorer.views.actuator import DRIVES, FormLook, actuator_titles
+from explorer.views.dial import validation_words
+from explorer.widgets.form import WidgetForm
+from rotor.actuator.verdict import Against
+from rotor.design.quantity import Slider
+from rotor.optimisation import find_concept
+from rotor.support.markup import tag
+
+
+class ActuatorControls:
+    """Widgets, and the charts and texts between them."""
+
+    def __init__(self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]) -> None:
+        """`moved`: something changed. `driven`: a hand moved a voltage."""
+        self._moved, self._driven = moved, driven
+        texts: dict[str, viser.GuiHtmlHandle] = {}
+
+        def text(name: str) -> None:
+            texts[name] = gui.add_html("")
+
+        start = ActuatorInputs()
+        self._against: Against = start.against
+        form = self.form = WidgetForm(gui, self._heard)
+        text("verdict")
+        form.menu("actuator", "Actuator", actuator_titles())
+        form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)
+        form.span("span", "Span [R]", (0.14, 1.0), start.span, 0.05)
+        for name in DRIVES:
+            form.slider(name, Slider("Voltage [%]", -100.0, 100.0, 1.0), 0.0, entry="voltage")
+        text("bar")
+        text("now")
+        with gui.add_folder("Twist at n/rev"):
+            gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
+            text("per_rev")
+            gui.add_html(tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured"))
+        with gui.add_folder("Placement and blade", expand_by_default=False):
+            form.span("chord", "Chord [c]", (0.0, 0.95), start.chord, 0.05, "chord_range")
+            form.menu("blade", "Blade type", BLADES, entry="blade_type")
+            form.slider("stiffness", Slider("New blade GJ ×", 0.2, 1.5, 0.05), start.stiffness)
+            form.box("crossed", "Fibres at −45°", start.crossed)
+        with gui.add_folder("Mission conditions", expand_by_default=False):
+            titles = {name: find_concept(name).title for name in CONCEPTS}
+            form.menu("concept", "Concept", titles, entry="actuator_concept")
+            form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
+        with gui.add_folder("Reach and limits", expand_by_default=False):
+            text("numbers")
+            text("limits")
+        shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
+        self.texts: Mapping[str, Callable[[Any], None]]
+        """What shows each text of the rail, and how the widgets look."""
+        self.texts = {**shows, "actuator.form": self._arrange}
+
+    def inputs(self) -> ActuatorInputs:
+        """What the widgets mean now."""
+        values = self.form.values()
+        drives = tuple(float(values.pop(name)) for name in DRIVES)
+        return ActuatorInputs(**values, drives=drives, against=self._against)
+
+    def place(self, changes: Mapping[str, Any]) -> None:
+        """Move widgets: these fields of `ActuatorInputs`."""
+        for name, value in changes.items():
+            if name == "drives":
+                for each, drive in zip(DRIVES, value, strict=True):
+                    self.form.place(each, round(drive))
+            elif name == "against":
+                self._against = value
+            else:
+                self.form.place(name, value)
+        self._moved()
+
+    def _arrange(self, look: FormLook) -> None:
+        self.form.show(look.seen)
+        for name, label in look.labels.items():
+            self.form.call(name, label)
+
+    def _heard(self, name: str, by_hand: bool) -> None:
+        if by_hand and name in DRIVES:
+            self._driven()
+        self._moved()

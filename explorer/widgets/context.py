@@ -1,0 +1,139 @@
+"""What the parts of one page share, and a clock for those that play."""
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import viser
+
+from explorer.hosting.browser import Bridge
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import Analyses, Pinboard, SessionState
+from explorer.model.undo import PowerTracker
+from explorer.model.units import Units, units_of
+from explorer.sharing.presentation import Presentations
+from explorer.widgets.controls import DesignControls
+from explorer.widgets.display import Display
+from explorer.widgets.layout import Keyboard, Layout
+from explorer.workers.background import LongWork
+from rotor.support.processes import Processes
+from rotor.support.user_input import brief
+
+_log = logging.getLogger(__name__)
+
+BEAT = 0.05
+"""Time between steps of a clock [s]: a browser is asked to draw at most 20 times a second."""
+
+
+@dataclass(frozen=True)
+class SharedServices:
+    """What the pages of one server share."""
+
+    pool: Processes
+    presentations: Presentations
+
+
+@dataclass
+class TabContext:
+    """One page's. What a part may call is safe from any thread."""
+
+    client: viser.ClientHandle
+    bridge: Bridge
+    keyboard: Keyboard
+    layout: Layout
+    display: Display
+    controls: DesignControls
+    tracker: PowerTracker
+    analyses: Analyses
+    pinboard: Pinboard
+    pool: Processes
+    work: LongWork
+    wake: Callable[[], None]
+    """Have the page follow."""
+    state: Callable[[], SessionState | None]
+    """The last converged state; None before the first."""
+    leaving: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]])
+    """Called once the browser has left: end threads and jobs."""
+    held: bool = False
+    """Whether a presenter moves the page."""
+    whole: threading.RLock = field(default_factory=threading.RLock)
+    """Held while the page is put into another state, or read: no update sees half of one."""
+
+    @property
+    def gui(self) -> viser.GuiApi:
+        return self.client.gui
+
+    def inputs(self) -> Inputs:
+        return self.controls.inputs()
+
+    def set_inputs(self, inputs: Inputs) -> None:
+        """Move the sliders, not by hand: no change of power since an earlier grab counts."""
+        self.tracker.reset()
+        self.controls.set_inputs(inputs)
+
+    def drag_to(self, inputs: Inputs) -> None:
+        """Move the sliders as a hand does."""
+        self.tracker.touch()
+        self.controls.set_inputs(inputs)
+
+    def view(self) -> ViewState:
+        return self.display.view()
+
+    @property
+    def units(self) -> Units:
+        return units_of(self.display.view().units, self.controls.aircraft)
+
+    def pin(self, inputs: Inputs | None) -> None:
+        """Pin these inputs as A, whatever is on the sliders; None removes the pin."""
+        self.pinboard.put(inputs)
+        self.wake()
+
+    def download(self, name: str, content: bytes) -> None:
+        """Send a file to the browser, which saves it at once."""
+        self.client.send_file_download(name, content, save_immediately=True)
+
+    def notify(self, title: str, sentence: str) -> None:
+        self.client.add_notification(title, brief(sentence), auto_close_seconds=6)
+
+
+class Player:
+    """A clock that advances something in small steps, on a thread of its own while it plays; safe from any thread."""
+
+    def __init__(self, step: Callable[[float], None], name: str) -> None:
+        """`step` is called with the time [s] since its last call, or since play was pressed."""
+        self._step = step
+        self._name = name
+        self._lock = threading.Lock()
+        self._pause: threading.Event | None = None
+        """Set to pause the thread that plays now; None when none does."""
+
+    @property
+    def playing(self) -> bool:
+        return self._pause is not None
+
+    def play(self) -> None:
+        """Start, unless it plays already."""
+        with self._lock:
+            if self._pause is None:
+                pause = self._pause = threading.Event()
+                threading.Thread(target=self._run, args=(pause,), name=self._name, daemon=True).start()
+
+    def pause(self) -> None:
+        """No step begins after this."""
+        with self._lock:
+            if self._pause is not None:
+                self._pause.set()
+                self._pause = None
+
+    def _run(self, pause: threading.Event) -> None:
+        before = time.monotonic()
+        while not pause.wait(BEAT):
+            now = time.monotonic()
+            try:
+                self._step(now - before)
+            except Exception:  # The browser may have gone.
+                _log.exception("play ended")
+                self.pause()
+            before = now

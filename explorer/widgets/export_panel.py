@@ -1,0 +1,160 @@
+"""The Export folder: picture, report, tables, design file and the shape of the blade."""
+
+import json
+import logging
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from explorer.charts.plots import PowerCurves
+from explorer.export.blade import blade_stl
+from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.provenance import file_name, tables_zip
+from explorer.export.report import report_html
+from explorer.export.view_picture import view_png
+from explorer.model.inputs import baseline_title
+from explorer.model.session_state import SessionState
+from explorer.picture.fields import FIELDS
+from explorer.scene.controller import SceneController
+from explorer.scene.still_scene import make_stage
+from explorer.text.glossary import hint
+from explorer.views.actuated import ActuatedBlade, actuated_blade, effect_asked
+from explorer.views.page_state import PageState
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
+from explorer.widgets.context import TabContext
+from explorer.widgets.history_panel import HistoryPanel
+from rotor.support.markup import tag
+
+_log = logging.getLogger(__name__)
+_PATIENCE = 90.0
+"""[s] for the page to draw; browsers that draw in software take some."""
+_WIDTH = 1920
+"""[px] of a picture of the view."""
+
+
+class ExportPanel:
+    """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
+
+    def __init__(
+        self,
+        context: TabContext,
+        scene: SceneController,
+        history: HistoryPanel,
+        actuator: ActuatorPanel,
+        now: Callable[[], PageState],
+    ) -> None:
+        """`now`: all that is known."""
+        self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
+        self._now = now
+        self._busy = threading.Lock()
+        self._curves = PowerCurves()
+        with context.gui.add_folder("Export"):
+            for name, ending, make in (
+                ("Picture", ".png", self._picture),
+                ("Report", "-report.html", self._report),
+                ("Tables", "-tables.zip", self._tables),
+                ("Design file", ".json", _design_file),
+                ("As-built STL", "-as-built.stl", lambda state: blade_stl(state.solution.design)),
+            ):
+                button = context.gui.add_button(name, color="gray", hint=hint("export"))
+                button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))
+            self._state = context.gui.add_html("")
+        self._say("idle", "Exports the design on the sliders.")
+        context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
+
+    def _driven(self) -> ActuatedBlade | None:
+        """The actuator, where it twists the blade, and what it does here, worked out where that is not known."""
+        now = self._now()
+        if not now.hand.actuator.driven:
+            return None
+        call = effect_asked(now)
+        known = {} if call is None or call in now.answers else {call: call.run()}
+        return actuated_blade(replace(now, answers={**now.answers, **known}))
+
+    def _tables(self, state: SessionState) -> bytes:
+        design, reference = state.solution.design, state.reference.design
+        self._curves.sweep(design, reference, lambda: False)
+        curve = self._curves.known(design, reference)
+        return tables_zip(state.solution, reference, curve, state.view.azimuth_deg)
+
+    def _picture(self, state: SessionState) -> bytes:
+        """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
+        client, view = self._context.client, state.view
+        height = round(_WIDTH / client.camera.aspect)
+        self._actuator.show_leaders(False)  # To labels, which are not in the scene.
+        try:
+            pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
+            if pixels.shape[:2] != (height, _WIDTH):
+                raise RuntimeError("The picture has another size.")
+        except RuntimeError as error:  # The browser has left, or cannot draw.
+            raise ValueError(f"The page sent no picture ({error}): press again.") from None
+        finally:
+            self._actuator.show_leaders(True)
+        above, below = self._scene.camera.covered
+        seen = pixels[round(above * height) : height - round(below * height)]
+        return view_png(seen, state.solution, self._scene.scale, self._context.units, view.dark, self._driven())
+
+    def _report(self, state: SessionState) -> bytes:
+        """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
+        solution, pinned, view = state.solution, state.pinned, replace(state.view, difference=False)
+        if state.pin is None:
+            reference = ReportEntry(baseline_title(solution.design), state.baseline)
+        else:
+            # A may not converge in the present flight condition; then its own solution is used.
+            flies = pinned is not None and pinned.converged
+            reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
+        known = (solution.design, reference.solution.design)
+        others = [item for item in self._history.kept if item.solution.design not in known]
+        entries = [ReportEntry("Now", solution)]
+        entries += [ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)]
+        field = FIELDS[view.field]
+        report = DesignReport(
+            reference,
+            entries,
+            state.view,
+            {view.field: self._scene.held_range(field)},
+            own_section=state.pin is not None,
+            actuator=self._actuator.outcome(),
+            driven=self._driven(),
+        )
+        stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
+        return report_html(report, stage, self._curves).encode()
+
+    def _save(self, what: str, ending: str, make: Callable[[SessionState], bytes]) -> None:
+        """Make a file and send it, unless another is under way."""
+        state = self._context.state()
+        if state is None:
+            self._say("problem", "There is no solution yet: wait for the first.")
+        elif not self._busy.acquire(blocking=False):
+            self._say("busy", f"Busy: press {what} again when it is done.")
+        else:
+            self._say("busy", f"{what}: in progress …")
+            threading.Thread(target=self._make, args=(what, ending, make, state), name="export", daemon=True).start()
+
+    def _make(self, what: str, ending: str, make: Callable[[SessionState], bytes], state: SessionState) -> None:
+        begin = time.perf_counter()
+        try:
+            name, content = file_name(state.solution.design, ending), make(state)
+            self._context.download(name, content)
+            old = " It holds the last converged solution: the design on the sliders has no trim."
+            stale = old if self._now().problem else ""
+            size = f"{max(len(content) / 1e3, 1.0):,.0f} kB".replace(",", "\u2009")
+            self._say("done", f"{name}, {size} ({time.perf_counter() - begin:.1f} s).{stale}")
+        except (ValueError, TimeoutError) as error:
+            _log.warning("export of %s: %s", what, error)
+            self._say("problem", str(error))
+        except Exception as error:  # The session goes on whatever a file meets.
+            _log.exception("export of %s failed", what)
+            self._say("problem", f"{what} failed ({error}): try again.")
+        finally:
+            self._busy.release()
+
+    def _say(self, kind: str, sentence: str) -> None:
+        marks = {"data_explorer": "export", "data_kind": kind}
+        self._state.content = tag("div.rx.rx-small.rx-export", sentence, **marks)
+
+
+def _design_file(state: SessionState) -> bytes:
+    """As `--case` and `--design` read it: with every number of a twist that has but a name on the page."""
+    return (json.dumps(state.solution.design.to_dict(), indent=2, ensure_ascii=False) + "\n").encode()

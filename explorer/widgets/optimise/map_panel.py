@@ -1,0 +1,127 @@
+"""The Map section: power over two parameters of the concept; a click on it takes a point."""
+
+import numpy as np
+import viser
+
+from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words
+from explorer.model.inputs import with_optimum
+from explorer.parts.presses import MapPress
+from explorer.text.glossary import hint
+from explorer.widgets.context import TabContext
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
+from explorer.workers.solver import MapTask
+from rotor import Design
+from rotor.optimisation import nearest
+from rotor.optimisation.descent import BAND
+from rotor.support.markup import tag
+
+TIME_LIMIT = 120.0
+"""[s] a map may take."""
+_URGENCY = 2
+"""After searches and schedules."""
+NAME = "map"
+_BEFORE = "Power over two parameters, the others fixed. Click the map to set a point."
+_KEY = f"★ least · ● your design, ○ nearest point to it · white outline: within {100 * BAND:g} % of the least"
+
+
+class MapPanel:
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
+        """The map is of what the search is asked for."""
+        self._context, self._work, self._search, gui = context, context.work, search, context.gui
+        self.map: PowerMap | None = None
+        """The last with a design that trims."""
+        self._refused = ""
+        """Why what was asked for last is no map."""
+        self._offered: tuple[str, ...] = ()
+        self._drawn: object = None
+        self._title = gui.add_html("")
+        titles = tuple([parameter.title for parameter in self._search.request().known_concept().parameters])
+        self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
+        self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
+        self._draw = gui.add_button("Compute map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
+        self._state = gui.add_html("")
+        self._picture = gui.add_html("")
+        self._draw.on_click(lambda _: self.begin())
+        context.bridge.on("map_at", self._take)
+
+    def begin(self) -> None:
+        """The map of the concept chosen for the search, about the design on the sliders."""
+        try:
+            task, self._refused = self._task(), ""
+        except ValueError as error:
+            self._refused = str(error)
+            self._context.wake()
+        else:
+            self._work.begin(NAME, task, TIME_LIMIT, _URGENCY, restarts=True)
+
+    def _task(self) -> MapTask:
+        """ValueError with one sentence where there is no map."""
+        design, request = self._context.inputs().design(), self._search.request()
+        concept = request.known_concept()
+        titles = [parameter.title for parameter in concept.parameters]
+        if len(titles) < 2:
+            raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
+        axes = self._axes(titles)
+        objective = request.wanted(design, self._search.legs)
+        values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
+        return MapTask(design, concept, objective, axes, values)
+
+    def refresh(self, design: Design | None) -> None:
+        """Bring the tab into line with the concept. `design`: on the sliders; None when they mean none."""
+        concept = self._search.request().known_concept()
+        titles = tuple(parameter.title for parameter in concept.parameters)
+        if titles != self._offered:
+            self._offered = titles
+            first, second = default_axes(concept)
+            for menu, axis in ((self._x, first), (self._y, second)):
+                menu.options = titles
+                menu.value = titles[axis]
+        self._title.content = tag("div.rx.rx-dim.rx-small", f"Concept: {concept.title}")
+        self._state.content = tag("div.rx.rx-dim.rx-small", self._line(), data_explorer="map-state")
+        drawn = self.map
+        if drawn is None:
+            return
+        twist, units = None if design is None else design.twist, self._context.units
+        seen = drawn, twist, units
+        if seen != self._drawn:
+            self._drawn = seen
+            across, up = (f"{p.title} [{p.shown_unit}]" for p in drawn.parameters)
+            self._picture.content = tag(
+                "div.rx.rx-small",
+                tag("div.rx-line", tag("span", f"↑ {up}"), tag("span", f"{across} →")),
+                drawing(drawn, twist),
+                tag("div", least_words(drawn, units), data_explorer="map-least"),
+                tag("div.rx-dim", _KEY),
+            )
+
+    def _take(self, place: MapPress) -> None:
+        """The map was clicked: its design there goes onto the sliders."""
+        if self.map is not None and not self._context.held:
+            design = self.map.task.at(place.x, place.y)
+            self._context.set_inputs(with_optimum(self._context.inputs(), design))
+
+    def _axes(self, titles: list[str]) -> tuple[int, int]:
+        if self._x.value not in titles or self._y.value not in titles:
+            return default_axes(self._search.request().known_concept())
+        x, y = titles.index(self._x.value), titles.index(self._y.value)
+        if x == y:
+            raise ValueError("Both axes are the same parameter: choose two.")
+        return x, y
+
+    def _line(self) -> str:
+        """Takes the last powers, and says how the map stands."""
+        record = self._work[NAME]
+        if self._refused or record is None:
+            return self._refused or _BEFORE
+        line, level = "Computing …", record.reports[-1] if record.reports else None
+        if level is not None:
+            grid = np.array(level.powers, dtype=float)
+            conditions, line = record.task.objective.conditions, "No design on this map has a trim."
+            if np.isfinite(grid).any():
+                if self.map is None or self.map.task is not record.task or len(self.map.powers) != len(grid):
+                    self.map = PowerMap(record.task, grid)
+                mu = conditions[0].flight.advance_ratio
+                where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"
+                line = f"{len(grid)} × {len(grid)} points, {where}"
+        late = "; time is up." if record.state == "late" else ""
+        return record.sentence or line + late

@@ -1,0 +1,124 @@
+"""The Schedule section: best twist per speed, best fixed blade, the gain of moving; mission mix; CSV."""
+
+from functools import partial
+from typing import Any
+
+import viser
+
+from explorer.charts import schedule_view
+from explorer.charts.schedule_view import ScheduleProgress
+from explorer.model import search_run as mission
+from explorer.model.inputs import with_optimum
+from explorer.text.glossary import hint
+from explorer.widgets.context import TabContext
+from explorer.widgets.elements import PanelChart, WorkButtons
+from explorer.widgets.optimise.optimise_panel import OptimisePanel
+from explorer.workers.solver import ScheduleTask
+from rotor import Design
+from rotor.optimisation import SchedulePlan, WeightedCondition
+from rotor.optimisation.search import STARTS
+from rotor.support.markup import tag
+
+TIME_LIMIT = 180.0
+"""[s] a schedule may take."""
+_URGENCY = 1
+"""After searches."""
+NAME = "schedule"
+_BEFORE = "Best twist for each leg, and the best fixed blade for all."
+
+
+class SchedulePanel:
+    def __init__(self, context: TabContext, search: OptimisePanel) -> None:
+        """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
+        self._context, self._work, self._request, gui = context, context.work, search.request, context.gui
+        search.legs = self.legs
+        self._refused = ""
+        """Why what was asked for last is no schedule."""
+        self._drawn: object = None
+        self._concept = gui.add_html("")
+        self._mission = gui.add_text("Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission"))
+        self._mission.on_update(lambda _: context.wake())
+        self._read = gui.add_html("")
+        self._buttons = WorkButtons(
+            gui,
+            "Compute schedule",
+            "Stop schedule",
+            ("schedule", "schedule_stop"),
+            self.begin,
+            partial(context.work.halt, NAME),
+        )
+        self._state = gui.add_html("")
+        self._table = gui.add_html("")
+        self._results = gui.add_button_group(
+            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
+        )
+        self._twists, self._savings = PanelChart(gui), PanelChart(gui)
+        self._results.on_click(self._result_clicked)
+
+    def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
+        """The mission's legs; ValueError with one sentence for an invalid mission."""
+        return mission.legs(design, self._mission.value)
+
+    def begin(self) -> None:
+        """The mission, for the concept that the search is asked for."""
+        request = self._request()
+        try:
+            design = self._context.inputs().design()
+            plan = SchedulePlan(
+                design,
+                (request.known_concept(),),
+                self.legs(design),
+                "induced" if request.objective == "induced" else "total",
+                request.limits(design),
+                STARTS,
+            )
+            self._refused = ""
+        except ValueError as error:
+            self._refused = str(error)
+            self._context.wake()
+        else:
+            self._work.begin(NAME, ScheduleTask(plan), TIME_LIMIT, _URGENCY)
+
+    def refresh(self) -> None:
+        """Bring everything that only shows into line."""
+        title = self._request().known_concept().title
+        self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
+        self._read.content = tag("div.rx.rx-dim.rx-small", self._mission_line(), data_explorer="mission")
+        record, units = self._work[NAME], self._context.units
+        under_way = record is not None and record.under_way
+        kind = "running" if under_way else "idle" if record is None else "done"
+        progress = None if record is None else ScheduleProgress.of(record)
+        line = self._refused or _BEFORE
+        if record is not None and progress is not None and not self._refused:
+            line = record.sentence or record.words(progress.count, f"{progress.count} kept")
+        self._state.content = tag("div.rx.rx-dim", line, data_explorer="schedule-state", data_kind=kind)
+        self._buttons.show(progress and (progress.part_done if under_way else 1.0), under_way)
+        if progress is None:
+            return
+        self._results.visible = not under_way and progress.at(None) is not None
+        seen = progress, units
+        if seen != self._drawn:
+            self._drawn = seen
+            self._table.content = schedule_view.table(progress, units)
+            self._twists.show(schedule_view.twist_chart(progress, self._twists.y_range))
+            self._savings.show(schedule_view.saving_chart(progress, self._savings.y_range))
+
+    def _mission_line(self) -> str:
+        """What the mission is read as; or why it is none."""
+        try:
+            legs = mission.mission_of(self._mission.value)
+        except ValueError as error:
+            return str(error)
+        return f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
+
+    def _result_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        record = self._work[NAME]
+        if record is None:
+            return
+        progress = ScheduleProgress.of(record)
+        if event.target.value == "Save CSV":
+            self._context.download("twist-schedule.csv", schedule_view.csv_of(progress))
+            return
+        fixed = progress.at(None)
+        if fixed is not None and fixed.best is not None:
+            self._context.set_inputs(with_optimum(self._context.inputs(), fixed.design))
