@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -102,34 +103,22 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     keeps = installed.host.kind == "retrofit"
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = installed.shapes[:, -1]
-    unlimited = np.outer(UNLIMITED_TWIST / np.maximum(np.abs(shapes), MIN_TWIST), (-1.0, 1.0))
-    flown: dict[str, Solution | None] = {"fixed": None, "built": None, "heavy": None}
-    powers: dict[str, list[float]] = {name: [] for name in ("fixed", "built", "with")}
-    wanted: list[tuple[float, ...]] = []
-    swings: list[tuple[float, ...]] = []
-    designs: list[Design] = []
     flights = [leg.of(pair.design) for leg in legs]
-    distinct = list(dict.fromkeys(flights))
-    for design in distinct:
-        try:
-            for name, law in (("fixed", base.fixed_twist), ("built", design.twist)):
-                flown[name] = near = solve(replace(design, twist=law), flown[name]).require()
-                powers[name].append(near.power.total)
-            blade = replace(design, twist=jig)
-            reached = free = best_swings(blade, installed, unlimited, near)
-            if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-                reached = best_swings(blade, installed, window, near)
-            driven = reached.solutions[0].design
-            flown["heavy"] = heavy = solve(with_actuator_mass(driven, installed), flown["heavy"]).require()
-        except RuntimeError as error:
-            raise RuntimeError(f"{legs[flights.index(design)].name}: {error}") from None
-        wanted.append(free.swings[0])
-        powers["with"].append(heavy.power.total + verdict.drive.hold_power)
-        swings.append(reached.swings[0])
-        designs.append(driven)
-    place = [distinct.index(design) for design in flights]
-    wanted, swings = [wanted[k] for k in place], [swings[k] for k in place]
-    power_of = {name: np.array(values)[place] for name, values in powers.items()}
+    distinct: dict[Design, _Flown] = {}
+    last: _Flown | None = None
+    for leg, design in zip(legs, flights, strict=True):
+        if design not in distinct:
+            try:
+                distinct[design] = last = _fly_leg(verdict, design, jig, window, last)
+            except RuntimeError as error:
+                raise RuntimeError(f"{leg.name}: {error}") from None
+    flown = [distinct[design] for design in flights]
+    wanted, swings = [one.wanted for one in flown], [one.swings for one in flown]
+    power_of = {
+        "fixed": np.array([one.fixed.power.total for one in flown]),
+        "built": np.array([one.built.power.total for one in flown]),
+        "with": np.array([one.heavy.power.total for one in flown]) + verdict.drive.hold_power,
+    }
     counted = power_of["built" if verdict.against == "same-blade" else "fixed"]
     ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     volts = (np.array(swings) - undriven) / per_unit
@@ -151,8 +140,34 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
         power_with=power_of["with"],
         reference_power=counted,
         fuel_saving=saved,
-        designs=tuple(designs[k] for k in place),
+        designs=tuple(one.driven for one in flown),
     )
+
+
+class _Flown(NamedTuple):
+    """A leg: trims with the fixed and the built-in twist and with the actuator's mass, swings wanted and reached."""
+
+    fixed: Solution
+    built: Solution
+    heavy: Solution
+    wanted: tuple[float, ...]
+    swings: tuple[float, ...]
+    driven: Design
+
+
+def _fly_leg(verdict: Verdict, design: Design, jig: TwistLaw, window: Array, last: _Flown | None) -> _Flown:
+    """One leg, from the trims of the last one; `window`: range of the swings, (segments, 2)."""
+    installed = verdict.installed
+    reach = UNLIMITED_TWIST / np.maximum(np.abs(installed.shapes[:, -1]), MIN_TWIST)
+    fixed = solve(replace(design, twist=verdict.baseline.fixed_twist), last and last.fixed).require()
+    built = solve(design, last and last.built).require()
+    blade = replace(design, twist=jig)
+    reached = free = best_swings(blade, installed, np.outer(reach, (-1.0, 1.0)), built)
+    if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
+        reached = best_swings(blade, installed, window, built)
+    driven = reached.solutions[0].design
+    heavy = solve(with_actuator_mass(driven, installed), last and last.heavy).require()
+    return _Flown(fixed, built, heavy, free.swings[0], reached.swings[0], driven)
 
 
 def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:

@@ -213,6 +213,11 @@ RAISED_MU = 0.2
 TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
 
 
+def _total_panel(total: dict[str, list[float]]) -> Chart:
+    lines = tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS))
+    return panel("8322.4 kg, sea level", "advance ratio µ", "total power [kW]", lines)
+
+
 def figure_3_10() -> Report:
     """Power over advance ratio, with public data of the UH-60A."""
     total = {
@@ -220,13 +225,24 @@ def figure_3_10() -> Report:
     }
     computed = {name: model_curve_comparison(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = model_curve_comparison("flight")
-    hover_ct, hover_cp, hover_ours = hover_comparison()
+    hover_ct, hover_cp, hover_computed = hover_comparison()
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
     plain, *raised = (solve(rung_design(on, RAISED_MU)).require().power.total for on in ((), ("table",), ("wake",)))
     section, line = (power / plain - 1.0 for power in raised)
-    hover_ratio = np.array(hover_ours) / np.array(hover_cp)
+    hover_ratio = np.array(hover_computed) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
+    main_rotor = panel(
+        "7257.5 kg, 1600 m",
+        "advance ratio µ",
+        "main-rotor power [kW]",
+        (
+            *(curve(name, rotor_speeds, computed[name], colour=k) for k, name in enumerate(TWISTS)),
+            curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
+        ),
+    )
+    measured = curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7)
+    hover = panel("hover", "C_T/σ (σ = 0.0826)", "C_P/σ", (curve("flight", hover_ct, hover_computed), measured))
     return report(
         "3.10",
         Agreement.INDICATIVE,
@@ -240,35 +256,10 @@ def figure_3_10() -> Report:
             table(
                 "hover_points",
                 ("ct_over_sigma", "cp_over_sigma_digitised", "cp_over_sigma_flight"),
-                zip(hover_ct, hover_cp, hover_ours, strict=True),
+                zip(hover_ct, hover_cp, hover_computed, strict=True),
             ),
         ),
-        panels=(
-            panel(
-                "8322.4 kg, sea level",
-                "advance ratio µ",
-                "total power [kW]",
-                tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS)),
-            ),
-            panel(
-                "7257.5 kg, 1600 m",
-                "advance ratio µ",
-                "main-rotor power [kW]",
-                (
-                    *(curve(name, rotor_speeds, computed[name], colour=k) for k, name in enumerate(TWISTS)),
-                    curve("public model curve (indicative)", rotor_speeds, theirs, "points", colour=7),
-                ),
-            ),
-            panel(
-                "hover",
-                "C_T/σ (σ = 0.0826)",
-                "C_P/σ",
-                (
-                    curve("flight", hover_ct, hover_ours),
-                    curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7),
-                ),
-            ),
-        ),
+        panels=(_total_panel(total), main_rotor, hover),
         numbers={
             "rms_to_model_curve": error,
             "mean_to_model_curve": mean,

@@ -353,10 +353,7 @@ def keys_1987() -> Report:
     """Two twists, hover to fast flight, and over propulsive force."""
     percent = {name: [100.0 * strong_over_weak(on, kmh) for kmh in SPEEDS_KMH] for name, on in RUNGS_OF.items()}
     hover, fast = percent["flight"][0], percent["flight"][-1]
-    near = [
-        abs(computed - 100.0 * measured) <= CLOSE * abs(100.0 * measured)
-        for computed, measured in ((hover, HOVER), (fast, FAST))
-    ]
+    near = [abs(here - 100.0 * of) <= 100.0 * CLOSE * abs(of) for here, of in ((hover, HOVER), (fast, FAST))]
     rotor = make_design().rotor
     force = [area / ((2.0 * rotor.radius) ** 2 * rotor.solidity) for area in AREAS]
     over = {words: [over_drag_area(area, *model) for area in AREAS] for words, model in FORCE_MODELS.items()}
@@ -364,6 +361,15 @@ def keys_1987() -> Report:
     lowest, highest = (np.array([f(column) for column in zip(*ratio.values(), strict=True)]) for f in (min, max))
     usual, low, high = (float(np.interp(USUAL_FORCE, force, row)) for row in (ratio["flight"], lowest, highest))
     slower = float(np.interp(USUAL_FORCE, force, [point[1] for point in over["flight"]]))
+    by_speed = (
+        *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
+        curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
+    )
+    by_force = (
+        curve("", force, lowest, "band", upper=highest, colour=2),
+        *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),
+        curve("measured, force not stated", (force[0], force[-1]), (100 * FAST,) * 2, "dashed", colour=7),
+    )
     return report(
         "keys 1987",
         judged(all(near)),
@@ -380,32 +386,12 @@ def keys_1987() -> Report:
             ),
         ),
         panels=(
-            panel(
-                "",
-                "speed [km/h]",
-                "power of −17.3° over −11.5° [%]",
-                (
-                    *(curve(name, SPEEDS_KMH, row, "both", colour=k) for k, (name, row) in enumerate(percent.items())),
-                    curve("Keys et al. 1987", (0.0, FAST_KMH), (100 * HOVER, 100 * FAST), "points", colour=7),
-                ),
-            ),
-            panel(
-                "",
-                "X/qd²σ",
-                "power of −17.3° over −11.5° at 330 km/h [%]",
-                (
-                    curve("", force, lowest, "band", upper=highest, colour=2),
-                    *(curve(words, force, row, "both", colour=k) for k, (words, row) in enumerate(ratio.items(), 2)),
-                    curve("measured, force not stated", (force[0], force[-1]), (100 * FAST,) * 2, "dashed", colour=7),
-                ),
-            ),
+            panel("", "speed [km/h]", "power of −17.3° over −11.5° [%]", by_speed),
+            panel("", "X/qd²σ", "power of −17.3° over −11.5° at 330 km/h [%]", by_force),
         ),
         numbers={
-            **{
-                f"{name}_{end}": row[at] / 100.0
-                for name, row in percent.items()
-                for end, at in (("hover", 0), ("fast", -1))
-            },
+            **{f"{name}_hover": row[0] / 100.0 for name, row in percent.items()},
+            **{f"{name}_fast": row[-1] / 100.0 for name, row in percent.items()},
             "usual_force": usual / 100.0,
             "usual_low": low / 100.0,
             "usual_high": high / 100.0,
