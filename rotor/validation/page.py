@@ -59,8 +59,10 @@ _AGAINST = {
 }
 _ASKS = {
     "validation": "Are these the right equations? Neither measured forward-flight power of the UH-60A nor a measured "
-    "benefit of active twist was available; published figures of both are computed.",
-    "indicative": "Compared with another model, or with data of unclear origin; this proves nothing.",
+    "benefit of active twist was available; published figures of both are computed. No usable measurement shows what "
+    "built-in twist saves.",
+    "indicative": "Compared with another model, data of unclear origin or a measurement without a target; this proves "
+    "nothing.",
     "verification": "Are the equations solved correctly?",
     "public code": "The same question, answered by independent codes.",
     "document": "Statements of the thesis beside our results.",
@@ -171,7 +173,10 @@ def set_page(data: TrustSet) -> str:
         notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
+        words = [
+            *data.text,
+            *(f"**{row.what}: {row.shown}.** {row.against} *Computed:* {row.note}" for row in data.rows),
+        ]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
         words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
