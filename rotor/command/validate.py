@@ -122,14 +122,8 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 def power_report(rows: list[FlownPower]) -> str:
     columns = (
-        *(
-            Column("rotor", LEFT),
-            Column("case"),
-            Column("mu", ".3f"),
-            Column("measured", ".1f"),
-            Column("computed", ".1f"),
-        ),
-        *(Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
+        *(Column("rotor", LEFT), Column("case"), Column("mu", ".3f"), Column("measured", ".1f")),
+        *(Column("computed", ".1f"), Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for row in rows:
@@ -146,13 +140,8 @@ def report(comparison: Comparison) -> str:
     measured, quantity = comparison.measured, comparison.measured.quantity
     columns = (
         *(Column(name, ".5g") for name in measured.given),
-        *(
-            Column("measured", ".6g"),
-            Column("±", ".2g"),
-            Column("computed", ".6g"),
-            Column(f"error {measured.unit}", "+.1f"),
-            Column("within scatter", LEFT),
-        ),
+        *(Column("measured", ".6g"), Column("±", ".2g"), Column("computed", ".6g")),
+        *(Column(f"error {measured.unit}", "+.1f"), Column("within scatter", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for point in comparison.points:

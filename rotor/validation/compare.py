@@ -5,6 +5,7 @@ Each file has report, rotor, trim and scatter; the comparison gives rows and cha
 
 import math
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any, Literal, cast
@@ -23,10 +24,7 @@ from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
 
 _XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
-_CASTLES_GRAY = (
-    "castles-gray-hover", "castles-gray-4ft", "castles-gray-tapered", "castles-gray", "castles-gray-twisted",
-    "castles-gray-twist-effect",
-)  # fmt: skip
+_CASTLES_GRAY = [f"castles-gray{which}" for which in ("-hover", "-4ft", "-tapered", "", "-twisted", "-twist-effect")]
 _CARADONNA_TUNG = ("caradonna-tung-lift", "caradonna-tung")
 SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CARADONNA_TUNG, *_CASTLES_GRAY, "uh60a-hover")
 """Names of the sets, in the order in which they are shown."""
@@ -86,26 +84,16 @@ class MeasuredSet:
 
     def scatter_of(self, point: dict[str, float]) -> float:
         """Scatter of a measured point: its own, else that of the set."""
-        if "scatter" in point:
-            return point["scatter"]
-        size = abs(point[self.quantity]) * (self.scatter_percent or 0.0) / 100.0
-        return size if self.scatter is None else self.scatter
+        share = abs(point[self.quantity]) * (self.scatter_percent or 0.0) / 100.0
+        return point.get("scatter", share if self.scatter is None else self.scatter)
 
     def counts(self, point: dict[str, float]) -> bool:
         """Whether a point lies within the ranges that count."""
         return all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
 
-    def is_judged(self, point: dict[str, float]) -> bool:
-        """Whether a target is set for a point."""
-        return self.counts(point) and not self.indicative
-
-    def error(self, measured: float, computed: float) -> float:
-        """Error of a computed value [%]; of a change, which is in per cent itself and may be small, the difference."""
-        return computed - measured if self.against else 100.0 * (computed / measured - 1.0)
-
     @property
     def unit(self) -> str:
-        """That of `error`."""
+        """That of errors: of a change, which is in per cent itself and may be small, the error is the difference."""
         return "points" if self.against else "%"
 
     def allows(self, measured: float, computed: float) -> bool:
@@ -167,7 +155,7 @@ class ComparedPoint:
     message: str
     """Why it does not."""
     error_percent: float | None
-    """By `MeasuredSet.error`."""
+    """In the unit of the set."""
     within_scatter: bool
     judged: bool
     """Whether a target is set for this point."""
@@ -266,13 +254,14 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     given = {name: point[name] for name in measured.given}
     targets = {name: value for name, value in point.items() if name not in given}
     solution = solve(design_at(measured, point, base))
-    wanted, judged = targets[measured.quantity], measured.is_judged(point)
+    wanted, judged = targets[measured.quantity], measured.counts(point) and not measured.indicative
     if not solution.converged:
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
     r = given.get("r", math.nan)
     computed = {name: quantity_of(name, solution, measured, r) for name in targets if name != "scatter"}
     value = computed[measured.quantity]
-    error, within = measured.error(wanted, value), abs(value - wanted) <= measured.scatter_of(point)
+    error = value - wanted if measured.against else 100.0 * (value / wanted - 1.0)
+    within = abs(value - wanted) <= measured.scatter_of(point)
     passed = not judged or measured.allows(wanted, value)
     return ComparedPoint(given, targets, computed, "", error, within, judged, passed)
 
@@ -281,27 +270,42 @@ def measured_set(name: str) -> TrustSet:
     """A set of measured points for the trust page; every one is trimmed here."""
     comparisons = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
     measured, rows = comparisons[0].measured, tuple(map(_row, comparisons))
+    text, by_pitch = [_constant(measured), measured.note], ()
+    if measured.given[0] == "collective_deg":
+        by_pitch, missing = zip(*_by_pitch(comparisons[0]), strict=True)
+        text.append(f"The measured thrust takes a lower collective, in the mean by {', '.join(missing)}.")
     return TrustSet(
         name=name,
         title=measured.title,
         compared=comparisons[0].counted,
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
-        rows=rows,
+        rows=(*rows, *by_pitch),
         charts=(comparison_chart(comparisons),),
-        text=tuple(words for words in (_constant(measured), measured.note) if words),
+        text=tuple(filter(None, text)),
         points=_points(comparisons),
     )
 
 
-def _row(comparison: Comparison) -> TrustRow:
-    """The root mean square of the errors at the points with a target; of all points where there is none."""
+def _by_pitch(comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
+    """Of each given collective its row, and how much lower a collective gives the measured thrust."""
+    measured = comparison.measured
+    at_thrust = compare(replace(measured, given=("ct", "tip_mach"), quantity="collective_deg"))
+    for pitch in dict.fromkeys(point["collective_deg"] for point in measured.points):
+        here = [k for k, point in enumerate(measured.points) if point["collective_deg"] == pitch]
+        less = -float(np.mean([at_thrust.points[k].error_percent or math.nan for k in here]))
+        part = replace(comparison, points=tuple(comparison.points[k] for k in here))
+        yield _row(part, f"Collective {pitch:g}°: "), f"{0.01 * less * pitch:.1f}° ({less:.0f} %) at {pitch:g}°"
+
+
+def _row(comparison: Comparison, where: str = "") -> TrustRow:
+    """The root mean square of the errors at the points that count."""
     measured, rms = comparison.measured, comparison.rms_percent
     assert rms is not None
     return TrustRow(
         set=measured.name,
         kind="indicative" if measured.indicative else "validation",
-        what=f"{measured.title}: {comparison.counted}, inflow {comparison.inflow}",
+        what=f"{measured.title}: {where}{comparison.counted}, inflow {comparison.inflow}",
         against=measured.report,
         shown=f"rms {rms:.1f} {measured.unit}, worst {comparison.worst}",
         error=rms / 100.0,
@@ -413,13 +417,9 @@ def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float =
 
 
 def at_zero(design: Design) -> Solution:
-    """The rotor of a design in hover without thrust, by annuli, at the same tip Mach number.
-
-    A twist of −12° makes an eighth of its C_Q.
-    """
-    test = design.condition.stand
-    mach, density = (None, None) if test is None else (test.tip_mach, test.density)
-    stand = Stand(ct_over_sigma=0.0, tip_mach=mach, density=density)
+    """The rotor of a design in hover without thrust, by annuli. A twist of −12° makes an eighth of its C_Q."""
+    air = design.condition.stand or Stand(ct_over_sigma=0.0)
+    stand = Stand(ct_over_sigma=0.0, tip_mach=air.tip_mach, density=air.density)
     models = replace(design.models, hover_inflow="annulus", trim="wind-tunnel")
     condition = replace(design.condition, advance_ratio=0.0, stand=stand)
     return _solved(replace(design, condition=condition, models=models))

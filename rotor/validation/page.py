@@ -173,10 +173,7 @@ def set_page(data: TrustSet) -> str:
         notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [
-            *data.text,
-            *(f"**{row.what}: {row.shown}.** {row.against} *Computed:* {row.note}" for row in data.rows),
-        ]
+        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
         words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
