@@ -20,7 +20,7 @@ LEAST_CORRELATION = 0.8
 LARGEST_MISS = 0.25
 """Target for each harmonic of the tip's motion, |computed − measured| over measured, as vectors: 25 % of amplitude at
 the right phase, 14° of phase at the right amplitude."""
-_TIP = (("tip_twist_deg", "twist", "°", ".2f", 0.03), ("tip_flap", "flap deflection", " R", ".4f", 3e-4))
+_TIP = (("tip_twist_deg", "twist", "°", ".2f", 0.03), ("tip_flap", "flapping", " R", ".4f", 3e-4))
 """Motions of the tip: quantity, what it is called, unit, digits, and by how much its mean may move."""
 QUANTITIES = {
     "cn_m2": "C_n M² at 0.87 R",
@@ -97,12 +97,11 @@ def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterato
                 size, measured = curve.miss(n), curve.amplitude(n, measured=True)
                 met = size <= LARGEST_MISS
                 yield row(
-                    f"{name}: {motion} of the tip at {n}/rev", f"{100 * size:.0f} % of {measured:{digits}}{unit}", size,
+                    f"{name}: tip {motion}, {n}/rev", f"{100 * size:.0f} % of {measured:{digits}}{unit}", size,
                     0.03, note="" if met else motion, target=f"{100 * LARGEST_MISS:g} %", met=met,
                 )  # fmt: skip
             error = curve.mean - curve.measured_mean
-            what = f"{name}: mean {motion} of the tip"
-            yield row(what, f"{error:+{digits}}{unit}", error, allowed, note=f"mean {motion}")
+            yield row(f"{name}: tip {motion}, mean", f"{error:+{digits}}{unit}", error, allowed, note=f"mean {motion}")
     for name, solution in solutions.items():
         size, mean, points = vortex_errors(solution, name)
         what = f"{name}: height of tip vortices, {points} points"
