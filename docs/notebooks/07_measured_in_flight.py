@@ -19,7 +19,7 @@ solutions = {case.name: rotor.solve(case.design()) for case in CASES}
 
 
 def show(axes, name, quantity, r, mean=True):
-    """Measured points and our line, with or without their means; the correlation of their harmonics."""
+    """Measured points and the computed line, with or without their means; the correlation of their harmonics."""
     measured = curves[name, quantity, r]
     psi, computed = computed_curve(measured, solutions[name])
     theirs = measured.values if mean else measured.values - measured.values.mean()
@@ -48,7 +48,8 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
     found = show(ax, name, "tip_twist_deg", 1.0)
     ax.set_xlabel("Azimuth [°]")
     for n in (1, 2, 3):
-        print(f"{name} {n}/rev: measured {found.amplitude(n, measured=True):.2f}°, computed {found.amplitude(n):.2f}°")
+        sizes = f"measured {found.amplitude(n, measured=True):.2f}°, computed {found.amplitude(n):.2f}°"
+        print(f"{name} {n}/rev: {sizes}, difference as vectors {100 * found.miss(n):.0f} %")
 axes[0].set_ylabel("Elastic twist of the tip [°]")
 
 # %%

@@ -56,7 +56,7 @@ class MeasuredChart:
         axis, wide = _AXES.get(along, (along, 1.0))
         places = [wide * point[along] for point in measured.points]
         values = [size * point[measured.quantity] for point in measured.points]
-        scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
+        scatter = [size * measured.scatter_of(point) for point in measured.points]
         computed = [
             (wide * point.given[along], size * point.computed[measured.quantity]) for point in known if point.computed
         ]

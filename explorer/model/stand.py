@@ -259,7 +259,10 @@ _TITLES = {
     "knight-hefner-3": "Hover (TN 626)",
     "knight-hefner-4": "Hover (TN 626)",
     "caradonna-tung": "Hover (TM-81232)",
-    "castles-gray": "Hover (TN 2474)",
+    "castles-gray-hover": "Hover (TN 2474, table V)",
+    "castles-gray-4ft": "Hover (TN 2474)",
+    "castles-gray-tapered": "Hover (TN 2474)",
+    "castles-gray": "Hover (TN 2474, table I)",
     "castles-gray-twisted": "Hover (TN 2474)",
     "uh60a-hover": "Hover (digitised)",
 }

@@ -154,8 +154,8 @@ def validated(solution: Solution) -> ValidationRecord:
     row = row_of(measured, design.models.hover_inflow if design.hovering else design.models.inflow)
     report = f"{measured.title}, {measured.report}"
     if row is None:
-        words = f"Not compared with this inflow model. Measured: {report}."
-        return ValidationRecord("not compared with this inflow", words, measured)
+        sentence = _printed([f"Not compared with this inflow model. Measured: {report}.", measured.note])
+        return ValidationRecord("not compared with this inflow", sentence, measured)
     outside = beyond(measured, solution)
     parts = [f"Compared with measurement: {row.shown} ({report}).", row.remark]
     if outside:
@@ -164,10 +164,15 @@ def validated(solution: Solution) -> ValidationRecord:
         parts.append("The measured blade has the twist as built; we know of no measurement with this twist.")
     if design.pitch_per_rev:
         parts.append("The test used collective and cyclic only.")
+    parts.append(measured.note)
     size, error = "within" if measured.name == _DIGITISED else "rms", 0.0 if row.error is None else abs(row.error)
     words = "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
-    sentence = typographic(" ".join(part for part in parts if part))
-    return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)
+    return ValidationRecord(words, _printed(parts), measured)
+
+
+def _printed(parts: list[str]) -> str:
+    """Sentences in a line, as they are printed."""
+    return re.sub(r"\bC_(?=[TPQ])", "C", typographic(" ".join(part for part in parts if part)))
 
 
 def _flown(solution: Solution) -> ValidationRecord | None:
@@ -212,7 +217,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     climb = solution.design.condition.climb_speed
     if climb:
         return f"rate of climb {climb:g} m/s, tested in level flight"
-    points = [point for point in measured.points if measured.is_judged(point)] or list(measured.points)
+    points = [point for point in measured.points if measured.counts(point)]
     place = {
         "mu": solution.design.condition.advance_ratio,
         "ct": solution.ct,

@@ -122,14 +122,8 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 
 def power_report(rows: list[FlownPower]) -> str:
     columns = (
-        *(
-            Column("rotor", LEFT),
-            Column("case"),
-            Column("mu", ".3f"),
-            Column("measured", ".1f"),
-            Column("computed", ".1f"),
-        ),
-        *(Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
+        *(Column("rotor", LEFT), Column("case"), Column("mu", ".3f"), Column("measured", ".1f")),
+        *(Column("computed", ".1f"), Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for row in rows:
@@ -146,22 +140,19 @@ def report(comparison: Comparison) -> str:
     measured, quantity = comparison.measured, comparison.measured.quantity
     columns = (
         *(Column(name, ".5g") for name in measured.given),
-        *(
-            Column("measured", ".6g"),
-            Column("computed", ".6g"),
-            Column("error %", "+.1f"),
-            Column("within scatter", LEFT),
-        ),
+        *(Column("measured", ".6g"), Column("±", ".2g"), Column("computed", ".6g")),
+        *(Column(f"error {measured.unit}", "+.1f"), Column("within scatter", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for point in comparison.points:
         computed, words = None, point.message
         if point.computed is not None:
             missed = "" if point.passed else ", misses the target"
-            aside = "" if point.judged or measured.indicative else " (no target here)"
+            aside = "" if point in comparison.judged else " (not counted)"
             computed, words = point.computed[quantity], f"{'yes' if point.within_scatter else 'no'}{missed}{aside}"
         where = (point.given[name] for name in measured.given)
-        cells.append((*where, point.measured[quantity], computed, point.error_percent, words))
+        scatter = measured.scatter_of({**point.given, **point.measured})
+        cells.append((*where, point.measured[quantity], scatter, computed, point.error_percent, words))
     lines = [
         wrapped(f"{measured.name}: {measured.title}"),
         wrapped(measured.report),
@@ -170,18 +161,18 @@ def report(comparison: Comparison) -> str:
     ]
     lines.append(wrapped(verdict(comparison)))
     if lost := [point for point in comparison.points if point.computed is None]:
-        counted = sum(point in comparison.judged for point in lost)
+        counted = sum(point.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"
         lines.append(f"{len(lost)} of {len(comparison.points)} points do not trim, {where}.")
-    if comparison.why_missed:
-        lines.append(wrapped(comparison.why_missed))
+    lines += [wrapped(words) for words in (measured.note, comparison.why_missed) if words]
     return "\n".join(lines)
 
 
 def verdict(comparison: Comparison) -> str:
     """Root mean square, worst error and target in one line."""
-    rms = "a point does not trim" if comparison.rms_percent is None else f"rms {comparison.rms_percent:.1f} %"
-    worst = "" if comparison.worst_percent is None else f", worst {comparison.worst_percent:+.1f} %"
+    unit = comparison.measured.unit
+    rms = "a point does not trim" if comparison.rms_percent is None else f"rms {comparison.rms_percent:.1f} {unit}"
+    worst = "" if comparison.worst_percent is None else f", worst {comparison.worst_percent:+.1f} {unit}"
     target = "indicative, without a target"
     if comparison.passed is not None:
         target = f"target {comparison.measured.target}: {'met' if comparison.passed else 'missed'}"

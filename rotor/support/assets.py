@@ -12,7 +12,8 @@ from pathlib import Path
 SHIPPED_ROTORS = ("uh60a", "r22", "s61", "gazelle", "bo105")
 """Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
 
-_IN_HOVER = ("knight-hefner-3", "knight-hefner-4", "castles-gray", "castles-gray-twisted", "caradonna-tung")
+_CASTLES_GRAY = ("castles-gray", "castles-gray-twisted", "castles-gray-4ft", "castles-gray-tapered")
+_IN_HOVER = ("knight-hefner-3", "knight-hefner-4", *_CASTLES_GRAY, "caradonna-tung")
 MEASURED_ROTORS = ("xv15", "pca2", *_IN_HOVER, "2mrts", "hart2")
 """Names of the shipped rotors that were tested on a stand, each in `assets/rotors/<name>.toml`."""
 

@@ -10,9 +10,9 @@ A d is all that the model makes of the load; of a lifting line λ0 + (AΓ − λ
 power at no speed is 1.3, 1.0 and 0.4 % below that of annuli for UH-60A, Bo 105 and R22.
 
 Hover stays with annuli, since the same wake in hover is no closer to measured power: rms 7.8 and 6.1 % for 8.8 and 7.2
-(Knight and Hefner, three and four blades), 15.7 and 21.0 for 16.0 and 20.0 (Castles and Gray, plain and twisted), 5.1
-for 4.6 (UH-60A), 2.0 for 1.9 (XV-15). It makes −12° of twist worth −13.0 and −10.7 %, annuli −11.1 and −9.1; measured
-are −8.7 and −7.6. Climb, descent and the vortex ring's edge rest on annuli too.
+(Knight and Hefner, three and four blades), 15.7 and 21.0 for 16.0 and 20.0 (Castles and Gray, tables I and III), 5.1
+for 4.6 (UH-60A), 2.0 for 1.9 (XV-15). It makes −12° of twist worth −13.0 and −10.7 % at C_T 0.004 and 0.005, annuli
+−11.1 and −9.1; no usable measurement decides. Climb, descent and the vortex ring's edge rest on annuli too.
 
 λ̄ is Glauert's inflow over that of hover. With it cos²χ of the wake's skew χ is λ̄⁴, the share of the axial transport in
 the squared velocity through the disk; c falls faster than with it and with the inflow itself, as λ̄⁵, for the wake of a

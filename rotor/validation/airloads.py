@@ -128,7 +128,7 @@ class CurveAgreement:
     mean: float
     measured_mean: float
     waves: Array = field(repr=False)
-    """Ours by `harmonics`."""
+    """Of the computed curve, by `harmonics`."""
     measured_waves: Array = field(repr=False)
 
     def amplitude(self, n: int, *, measured: bool = False) -> float:
@@ -140,12 +140,17 @@ class CurveAgreement:
         return math.degrees(cmath.phase(wave_amplitude(self.measured_waves if measured else self.waves, n)))
 
     def ratio(self, n: int) -> float:
-        """Our amplitude over the measured one, less 1."""
+        """Computed amplitude over the measured one, less 1."""
         return self.amplitude(n) / self.amplitude(n, measured=True) - 1.0
 
     def late_deg(self, n: int) -> float:
-        """Our phase less the measured one, −180 to 180°."""
+        """Computed phase less the measured one, −180 to 180°."""
         return math.degrees(cmath.phase(wave_amplitude(self.waves, n) / wave_amplitude(self.measured_waves, n)))
+
+    def miss(self, n: int) -> float:
+        """|computed − measured| of harmonic n as vectors, over the measured amplitude."""
+        measured = wave_amplitude(self.measured_waves, n)
+        return abs(wave_amplitude(self.waves, n) - measured) / abs(measured)
 
     def to_dict(self) -> dict[str, Any]:
         """For `validate --json`."""
@@ -190,7 +195,7 @@ def columns(rows: Sequence[Mapping[str, str]], *names: str) -> list[Array]:
 
 
 def computed_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, Array]:
-    """Azimuths [rad] and our values of a measured quantity there, (azimuths,) each."""
+    """Azimuths [rad] and computed values of a measured quantity there, (azimuths,) each."""
     disk = solution.disk
     if measured.quantity == "tip_twist_deg":
         twist = np.zeros(len(disk.psi)) if solution.elastic is None else solution.elastic.tip

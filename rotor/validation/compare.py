@@ -1,10 +1,11 @@
-"""Sets of measured points, one file a set in `assets/measured/`, and our rotor trimmed at every point beside them.
+"""Sets of measured points, one file a set in `assets/measured/`, and the rotor trimmed at every point beside them.
 
 Each file has report, rotor, trim and scatter; the comparison gives rows and charts of the trust page.
 """
 
 import math
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any, Literal, cast
@@ -23,7 +24,7 @@ from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
 
 _XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
-_CASTLES_GRAY = ("castles-gray", "castles-gray-twisted", "castles-gray-twist-effect")
+_CASTLES_GRAY = [f"castles-gray{which}" for which in ("-hover", "-4ft", "-tapered", "", "-twisted", "-twist-effect")]
 _CARADONNA_TUNG = ("caradonna-tung-lift", "caradonna-tung")
 SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CARADONNA_TUNG, *_CASTLES_GRAY, "uh60a-hover")
 """Names of the sets, in the order in which they are shown."""
@@ -72,7 +73,7 @@ class MeasuredSet:
     """Scatter of the quantity; None where it is a part of it."""
     scatter_percent: float | None = None
     judged: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
-    """Ranges of columns within which a target is set."""
+    """Ranges of columns within which points count: for the target, or where there is none for the errors shown."""
     tolerance: float | None = None
     """Largest difference of a judged point; None where it is a part of the measured value, or there is no target."""
     tolerance_percent: float | None = None
@@ -81,17 +82,22 @@ class MeasuredSet:
     against: str | None = None
     """Rotor from which a change is counted."""
 
-    def scatter_of(self, measured: float) -> float:
-        """Scatter of a measured value."""
-        return self.scatter if self.scatter is not None else abs(measured) * (self.scatter_percent or 0.0) / 100.0
+    def scatter_of(self, point: dict[str, float]) -> float:
+        """Scatter of a measured point: its own, else that of the set."""
+        share = abs(point[self.quantity]) * (self.scatter_percent or 0.0) / 100.0
+        return point.get("scatter", share if self.scatter is None else self.scatter)
 
-    def is_judged(self, point: dict[str, float]) -> bool:
-        """Whether a target is set for a point."""
-        inside = all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
-        return inside and not self.indicative
+    def counts(self, point: dict[str, float]) -> bool:
+        """Whether a point lies within the ranges that count."""
+        return all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
+
+    @property
+    def unit(self) -> str:
+        """That of errors: of a change, which is in per cent itself and may be small, the error is the difference."""
+        return "points" if self.against else "%"
 
     def allows(self, measured: float, computed: float) -> bool:
-        """Whether our value is within the target."""
+        """Whether the computed value is within the target."""
         largest = self.tolerance
         if largest is None:
             largest = abs(measured) * (self.tolerance_percent or 0.0) / 100.0
@@ -145,10 +151,11 @@ class ComparedPoint:
     given: dict[str, float]
     measured: dict[str, float]
     computed: dict[str, float] | None
-    """Our values of the quantities measured; None where our rotor does not trim."""
+    """Computed values of the quantities measured; None where the rotor does not trim."""
     message: str
     """Why it does not."""
     error_percent: float | None
+    """In the unit of the set."""
     within_scatter: bool
     judged: bool
     """Whether a target is set for this point."""
@@ -168,8 +175,8 @@ class Comparison:
 
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
-        """Points with a target, or all where the set has none."""
-        return tuple(point for point in self.points if point.judged) or self.points
+        """Points that count."""
+        return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
 
     @property
     def counted(self) -> str:
@@ -195,7 +202,7 @@ class Comparison:
     def worst(self) -> str:
         """The worst judged point in the unit of the target."""
         if self.measured.tolerance is None:
-            return f"{self.worst_percent:+.1f} %"
+            return f"{self.worst_percent:+.1f} {self.measured.unit}"
         name = self.measured.quantity
         differences = (
             point.computed[name] - point.measured[name] for point in self.judged if point.computed is not None
@@ -247,12 +254,14 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     given = {name: point[name] for name in measured.given}
     targets = {name: value for name, value in point.items() if name not in given}
     solution = solve(design_at(measured, point, base))
-    wanted, judged = targets[measured.quantity], measured.is_judged(point)
+    wanted, judged = targets[measured.quantity], measured.counts(point) and not measured.indicative
     if not solution.converged:
         return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
-    computed = {name: quantity_of(name, solution, measured, given.get("r", math.nan)) for name in targets}
+    r = given.get("r", math.nan)
+    computed = {name: quantity_of(name, solution, measured, r) for name in targets if name != "scatter"}
     value = computed[measured.quantity]
-    error, within = 100.0 * (value / wanted - 1.0), abs(value - wanted) <= measured.scatter_of(wanted)
+    error = value - wanted if measured.against else 100.0 * (value / wanted - 1.0)
+    within = abs(value - wanted) <= measured.scatter_of(point)
     passed = not judged or measured.allows(wanted, value)
     return ComparedPoint(given, targets, computed, "", error, within, judged, passed)
 
@@ -261,29 +270,44 @@ def measured_set(name: str) -> TrustSet:
     """A set of measured points for the trust page; every one is trimmed here."""
     comparisons = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
     measured, rows = comparisons[0].measured, tuple(map(_row, comparisons))
+    text, by_pitch = [_constant(measured), measured.note], ()
+    if measured.given[0] == "collective_deg":
+        by_pitch, missing = zip(*_by_pitch(comparisons[0]), strict=True)
+        text.append(f"The measured thrust takes a lower collective, in the mean by {', '.join(missing)}.")
     return TrustSet(
         name=name,
         title=measured.title,
         compared=comparisons[0].counted,
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
-        rows=rows,
+        rows=(*rows, *by_pitch),
         charts=(comparison_chart(comparisons),),
-        text=tuple(words for words in (_constant(measured), measured.note) if words),
+        text=tuple(filter(None, text)),
         points=_points(comparisons),
     )
 
 
-def _row(comparison: Comparison) -> TrustRow:
-    """The root mean square of the errors at the points with a target; of all points where there is none."""
+def _by_pitch(comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
+    """Of each given collective its row, and how much lower a collective gives the measured thrust."""
+    measured = comparison.measured
+    at_thrust = compare(replace(measured, given=("ct", "tip_mach"), quantity="collective_deg"))
+    for pitch in dict.fromkeys(point["collective_deg"] for point in measured.points):
+        here = [k for k, point in enumerate(measured.points) if point["collective_deg"] == pitch]
+        less = -float(np.mean([at_thrust.points[k].error_percent or math.nan for k in here]))
+        part = replace(comparison, points=tuple(comparison.points[k] for k in here))
+        yield _row(part, f"Collective {pitch:g}°: "), f"{0.01 * less * pitch:.1f}° ({less:.0f} %) at {pitch:g}°"
+
+
+def _row(comparison: Comparison, where: str = "") -> TrustRow:
+    """The root mean square of the errors at the points that count."""
     measured, rms = comparison.measured, comparison.rms_percent
     assert rms is not None
     return TrustRow(
         set=measured.name,
         kind="indicative" if measured.indicative else "validation",
-        what=f"{measured.title}: {comparison.counted}, inflow {comparison.inflow}",
+        what=f"{measured.title}: {where}{comparison.counted}, inflow {comparison.inflow}",
         against=measured.report,
-        shown=f"rms {rms:.1f} %, worst {comparison.worst}",
+        shown=f"rms {rms:.1f} {measured.unit}, worst {comparison.worst}",
         error=rms / 100.0,
         allowed=5e-3,
         test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
@@ -299,7 +323,7 @@ def comparison_chart(comparisons: list[Comparison]) -> Chart:
     along = measured.varied[0]
     values = tuple(point[quantity] for point in measured.points)
     places = tuple(point[along] for point in measured.points)
-    scatter = tuple(map(measured.scatter_of, values))
+    scatter = tuple(map(measured.scatter_of, measured.points))
     series: list[Series] = [Points("measured", places, values, scatter=scatter)]
     for k, comparison in enumerate(comparisons, start=1):
         computed = sorted(
@@ -322,10 +346,13 @@ def _constant(measured: MeasuredSet) -> str:
 def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
     """Every measured point beside the computed one, with what is not the same at all of them."""
     measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
-    head = [*(LABELS[name] for name in measured.varied), "Measured"]
-    rows = [[f"{point[name]:.5g}" for name in (*measured.varied, quantity)] for point in measured.points]
+    head = [*(LABELS[name] for name in measured.varied), "Measured", "Scatter"]
+    rows = [
+        [*(f"{point[name]:.5g}" for name in (*measured.varied, quantity)), f"{measured.scatter_of(point):.2g}"]
+        for point in measured.points
+    ]
     for comparison in comparisons:
-        head += [f"Ours, {comparison.inflow}", f"Error [%], {comparison.inflow}"]
+        head += [f"Computed, {comparison.inflow}", f"Error [{measured.unit}], {comparison.inflow}"]
         for row, point in zip(rows, comparison.points, strict=True):
             computed = point.computed
             row += [f"{computed[quantity]:.5g}", f"{point.error_percent:+.1f}"] if computed else ["no trim", ""]
@@ -361,7 +388,7 @@ def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | Non
 
 
 def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float = math.nan) -> float:
-    """One of our quantities under the name of a measured one, for a solution of the set's rotor; r: of a section."""
+    """A computed quantity under the name of a measured one, for a solution of the set's rotor; r: of a section."""
     design = solution.design
     match name:
         case "ct":
@@ -391,7 +418,8 @@ def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float =
 
 def at_zero(design: Design) -> Solution:
     """The rotor of a design in hover without thrust, by annuli. A twist of −12° makes an eighth of its C_Q."""
-    stand = Stand(ct_over_sigma=0.0)
+    air = design.condition.stand or Stand(ct_over_sigma=0.0)
+    stand = Stand(ct_over_sigma=0.0, tip_mach=air.tip_mach, density=air.density)
     models = replace(design.models, hover_inflow="annulus", trim="wind-tunnel")
     condition = replace(design.condition, advance_ratio=0.0, stand=stand)
     return _solved(replace(design, condition=condition, models=models))

@@ -15,10 +15,13 @@ from rotor.validation.trust import TrustRow, TrustSet, description
 
 NAME = "doubt"
 POWERS = {
-    "hover": ("uh60a-hover", "knight-hefner-3", "knight-hefner-4", "castles-gray", "castles-gray-twisted"),
+    "hover": (
+        "uh60a-hover", "knight-hefner-3", "knight-hefner-4", "castles-gray-hover", "castles-gray-4ft",
+        "castles-gray-tapered", "castles-gray", "castles-gray-twisted",
+    ),
     "XV-15 hover": ("xv15-hover",),
     "XV-15 tunnel": ("xv15-forward-15deg", "xv15-forward-0deg"),
-}
+}  # fmt: skip
 """Sets of shaft powers by kind of flight. The free rotor of `pca2` takes none."""
 FLOWN = {"gazelle": "level flight", "bo105": "Bo 105, mass assumed"}
 """Kind of the powers measured in flight, by rotor."""
@@ -46,7 +49,8 @@ def points_and_bands() -> Iterator[PointAndBand]:
     """All measured powers at which our rotor trims, in order of kind."""
     for kind, names in POWERS.items():
         for measured in map(load_set, names):
-            yield from (held for point in measured.points for held in _held_of(measured, point, kind))
+            points = [point for point in measured.points if measured.counts(point) or not measured.indicative]
+            yield from (held for point in points for held in _held_of(measured, point, kind))
         if kind == "hover":
             yield from _flown()
 

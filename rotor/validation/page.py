@@ -59,8 +59,10 @@ _AGAINST = {
 }
 _ASKS = {
     "validation": "Are these the right equations? Neither measured forward-flight power of the UH-60A nor a measured "
-    "benefit of active twist was available; published figures of both are computed.",
-    "indicative": "Compared with another model, or with data of unclear origin; this proves nothing.",
+    "benefit of active twist was available; published figures of both are computed. No usable measurement shows what "
+    "built-in twist saves.",
+    "indicative": "Compared with another model, data of unclear origin or a measurement without a target; this proves "
+    "nothing.",
     "verification": "Are the equations solved correctly?",
     "public code": "The same question, answered by independent codes.",
     "document": "Statements of the thesis beside our results.",
@@ -174,7 +176,8 @@ def set_page(data: TrustSet) -> str:
         words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in data.rows)]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
-        words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
+        heads = ("; ".join(of) if len(of) < 3 else f"{of[0]} and {len(of) - 1} more" for of in notes.values())
+        words += [note if len(notes) == 1 else f"- {head}: {note}" for head, note in zip(heads, notes, strict=True)]
     return _page(
         f"# {data.title}",
         f"{_AGAINST[kind].capitalize()}: {data.compared}. {_source(data)}{'' if judged else ' No target is set.'}",

@@ -13,6 +13,7 @@ from explorer.sharing.share import code_of, inputs_from
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
+from rotor.files.make_design import make_design
 from rotor.support.assets import MEASURED_ROTORS
 from rotor.support.chart import Points
 from rotor.trim.solve import solve
@@ -149,3 +150,6 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert rising.words == "outside the test range"
     assert "rate of climb 3 m/s, tested in level flight" in rising.sentence
     assert "in hover only" in uh60a.sentence
+    for rotor in ("castles-gray", "castles-gray-twisted"):
+        stand = validated(solve(make_design(rotor=rotor, mu=0.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.08})))
+        assert "No usable measurement of what twist saves is in this project." in stand.sentence

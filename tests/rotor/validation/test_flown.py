@@ -159,7 +159,7 @@ def solutions() -> dict[str, Solution]:
 
 
 def test_amplitude_and_phase_of_a_known_curve(solutions: dict[str, Solution]):
-    """2 cos(3ψ − 40°) beside our twist: its amplitude, its phase, and how late ours is."""
+    """2 cos(3ψ − 40°) beside the computed twist: amplitude, phase, and the difference by the law of cosines."""
     psi = np.linspace(0.0, 2.0 * math.pi, 30, endpoint=False)
     curve = replace(CURVES["MN", "tip_twist_deg"], psi=psi, values=2.0 * np.cos(3.0 * psi - math.radians(40.0)))
     one = agreement(curve, solutions["MN"])
@@ -167,6 +167,8 @@ def test_amplitude_and_phase_of_a_known_curve(solutions: dict[str, Solution]):
     assert_allclose(one.phase_deg(3, measured=True), 40.0)
     assert_allclose(one.late_deg(3), one.phase_deg(3) - 40.0)
     assert_allclose(one.ratio(3), 0.5 * one.amplitude(3) - 1.0)
+    third = 4.0 + one.amplitude(3) ** 2 - 4.0 * one.amplitude(3) * math.cos(math.radians(one.late_deg(3)))
+    assert_allclose(one.miss(3), 0.5 * math.sqrt(third))
 
 
 def test_measured_motion_and_vortices_are_those_of_the_source():

@@ -1,6 +1,7 @@
 """Measured and computed points: what the files say, what the comparison finds, and the command."""
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,8 @@ from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
 from rotor.trim.solve import solve
-from rotor.validation.compare import FIELDS, SETS, ComparedPoint, Comparison, compare, design_at, load_set
+from rotor.validation import Comparison, compare, design_at, load_set
+from rotor.validation.compare import FIELDS, SETS, ComparedPoint, measured_set
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.page import SETS as TRUST_SETS
 from tests.shipped_rows import still_true
@@ -26,9 +28,9 @@ def test_sets_are_complete(name: str):
     for point in measured.points:
         assert {*measured.given, measured.quantity} <= set(point)
         assert all(math.isfinite(value) for value in point.values())
-        assert measured.scatter_of(point[measured.quantity]) > 0.0
+        assert measured.scatter_of(point) > 0.0
     assert measured.indicative == (measured.tolerance is None and measured.tolerance_percent is None)
-    assert any(measured.is_judged(point) for point in measured.points) != measured.indicative
+    assert any(map(measured.counts, measured.points))
 
 
 def test_points_as_the_reports_print_them():
@@ -39,6 +41,8 @@ def test_points_as_the_reports_print_them():
     assert (forward["mu"], forward["cq_over_sigma"]) == (0.17, 0.0062)
     knight = next(point for point in load_set("knight-hefner-4").points if point["collective_deg"] == 8.0)
     assert_allclose(2.0 * knight["ct"], 0.00981)
+    castles = next(point for point in load_set("castles-gray-4ft").points if point["ct"] == 0.00411)
+    assert (castles["cq_above_zero"], castles["collective_deg"]) == (0.000229, 8.30)
     # Report 515: mu 0.303 (V cos a), a 3.9 deg, CL 0.1397, CD 0.0199, 147.3 rpm.
     near = [point for point in load_set("pca2").points if abs(point["mu"] - 0.303 / math.cos(math.radians(3.9))) < 1e-4]
     pca2 = next(point for point in near if abs(point["shaft_tilt_deg"] + 3.9) < 1e-9)
@@ -83,11 +87,41 @@ def test_forward_flight_of_the_xv15_by_uniform_inflow(name: str):
         assert 0.00003 < full - simple < 0.0006
 
 
-def test_measured_effect_of_twist_in_hover():
-    """Sign and size: −9 and −8 % measured with repeats that scatter by 10 %."""
-    found = compare(load_set("castles-gray-twist-effect"), "annulus")
-    assert all(point.within_scatter for point in found.points)
-    assert found.passed is None
+def power_law(name: str, least: float, ct: float) -> tuple[float, float, float]:
+    """ln of torque above its zero at one C_T by a power law through a table, its variance, and the points' scatter."""
+    points = [point for point in load_set(name).points if point["ct"] >= least]
+    x, y = (np.log([point[column] for point in points]) for column in ("ct", "cq_above_zero"))
+    law, covariance = np.polyfit(x - math.log(ct), y, 1, cov=True)
+    left = y - np.polyval(law, x - math.log(ct))
+    return float(law[1]), float(covariance[1, 1]), math.sqrt(left @ left / (len(points) - 2))
+
+
+def test_the_measured_effect_of_twist_has_the_sign_of_the_table_it_is_counted_from():
+    """The shipped changes are those of the tables; from table V, with measured C_T, twist costs power."""
+    effect = load_set("castles-gray-twist-effect")
+    tables = [("castles-gray", 0.0, point["ct"], point["change_percent"], point["scatter"]) for point in effect.points]
+    for plain, least, ct, change, scatter in (*tables, ("castles-gray-hover", 0.0018, 0.004, 9.8, 3.6)):
+        twisted, other = power_law("castles-gray-twisted", 0.0, ct), power_law(plain, least, ct)
+        ratio = 100.0 * math.exp(twisted[0] - other[0])
+        assert_allclose((ratio - 100.0, ratio * math.sqrt(twisted[1] + other[1])), (change, scatter), atol=0.05)
+    assert "would cost 9.8 ± 3.6 % at 0.004" in effect.note
+    for point in compare(effect, "annulus").points:
+        computed = (point.computed or {})["change_percent"]
+        assert point.error_percent == pytest.approx(computed - point.measured["change_percent"])
+        assert point.within_scatter == (abs(point.error_percent or 0.0) <= point.measured["scatter"])
+
+
+@pytest.mark.parametrize("name", ["hover", "4ft", "tapered"])
+def test_torque_of_castles_and_gray_where_thrust_was_measured(name: str):
+    """In the mean computed torque is 2 to 11 % high; that of table I, with nominal thrust, is a tenth low.
+
+    The least thrust at Mach 0.45 takes torque: counted from the zero at Mach 0.34 it gave some.
+    """
+    measured = load_set(f"castles-gray-{name}")
+    assert 100.0 * power_law(measured.name, 0.002, 0.004)[2] == pytest.approx(measured.scatter_percent, abs=0.05)
+    points = compare(measured, "annulus").points
+    assert 2.0 < np.mean([point.error_percent or math.inf for point in points if point.given["ct"] > 0.002]) < 11.0
+    assert all(point.computed and point.computed["cq_above_zero"] > 0.0 for point in points)
 
 
 def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_measured_pitch():
@@ -98,6 +132,18 @@ def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_
     for point in level.points:
         assert point.error_percent is not None
         assert 20.0 < point.error_percent < 70.0
+    assert f"within {-float(lift.worst[:-2])} %" in level.measured.note
+    page = measured_set("caradonna-tung")
+    less = map(float, re.findall(r"([\d.]+)° \(", page.text[-1]))
+    for row, pitch, lower in zip(page.rows[1:], (5.0, 8.0, 12.0), less, strict=True):
+        points = [point for point in level.points if point.given["collective_deg"] == pitch]
+        assert f"Collective {pitch:g}°: C_T, {len(points)} points" in row.what
+        assert row.shown.endswith(f"worst {max(point.error_percent or 0.0 for point in points):+.1f} %")
+        found = [
+            {"collective_deg": pitch - lower, "tip_mach": p.given["tip_mach"], "ct": p.measured["ct"]} for p in points
+        ]
+        again = compare(replace(level.measured, points=tuple(found))).points
+        assert np.mean([point.error_percent or math.inf for point in again]) == pytest.approx(0.0, abs=2.0)
 
 
 def test_model_rotor_of_knight_and_hefner_needs_more_than_momentum_theory_gives():
@@ -191,7 +237,7 @@ def test_points_that_do_not_trim_are_counted_and_decide_only_where_a_target_is_s
     def answer(lost: set[int]) -> Comparison:
         points: list[ComparedPoint] = []
         for k, point in enumerate(measured.points):
-            trims, judged = k not in lost, measured.is_judged(point)
+            trims, judged = k not in lost, measured.counts(point)
             computed, said, error = (point, "", 0.0) if trims else (None, "Not trimmed.", None)
             points.append(ComparedPoint(point, point, computed, said, error, trims, judged, trims or not judged))
         return Comparison(measured, "annulus", tuple(points))
