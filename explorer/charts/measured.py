@@ -162,7 +162,7 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 @dataclass(frozen=True)
 class ComputedPower:
-    """Our main-rotor power in a measured flight [W]."""
+    """Computed main-rotor power in a measured flight [W]."""
 
     power: float | None
     """None where it does not trim."""

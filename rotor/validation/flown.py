@@ -109,12 +109,12 @@ class FlownPower:
     computed: float | None
     """None where our rotor does not trim."""
     band: tuple[float, float] | None
-    """Ours with the lowest and the highest drag area of the sources."""
+    """Computed power with the lowest and the highest drag area of the sources."""
     measured_angles: tuple[float, ...] | None
     """Collective, cyclic 1c and 1s; None where they were not measured. Where along the blade the report takes the
     collective is not known."""
     angles: tuple[float, ...] | None
-    """Ours, the collective at 0.75 R."""
+    """Computed, the collective at 0.75 R."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class FlownAngle:
 
     @property
     def error(self) -> Array:
-        """Ours less measured."""
+        """Computed less measured."""
         return np.subtract(self.computed, self.measured)
 
 
@@ -260,7 +260,7 @@ def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
-    rows = [("Helicopter", "Quantity", "At", "Measured", "Ours", "Band", "Error")]
+    rows = [("Helicopter", "Quantity", "At", "Measured", "Computed", "Band", "Error")]
     for row in powers:
         computed = "no trim" if row.computed is None else f"{row.computed / 1e3:.1f}"
         band = "" if row.band is None else f"{row.band[0] / 1e3:.1f}…{row.band[1] / 1e3:.1f}"

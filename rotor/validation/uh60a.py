@@ -95,7 +95,7 @@ def hover_set() -> TrustSet:
         f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
         rows,
         (Chart("UH-60A in hover", Axis("C_T/σ"), Axis("C_P/σ"), series),),
-        points=(("C_T/σ", "Measured C_P/σ", "Ours", "Error [%]"),
+        points=(("C_T/σ", "Measured C_P/σ", "Computed", "Error [%]"),
                 *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f}") for a, b, c, d in points)),
     )  # fmt: skip
 
@@ -113,7 +113,7 @@ def forward_set() -> TrustSet:
         f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         rows,
         (Chart(words.title, Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series),),
-        points=(("µ", "Model curve [kW]", "Ours [kW]", "Error [%]"),
+        points=(("µ", "Model curve [kW]", "Computed [kW]", "Error [%]"),
                 *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f}")
                   for mu, a, b in zip(speeds, theirs, computed, strict=True))),
     )  # fmt: skip
@@ -183,7 +183,9 @@ def constants_set() -> TrustSet:
     ]
     errors = [100.0 * (row.error or 0.0) for row in rows]
     names = ("lift slope, SC1095", "lift slope, SC1094 R8", "flap frequency", "Lock number")
-    chart = Chart("Ours over published", Axis("difference [%]"), Axis(names=names), (Points("", errors, range(4), 1),))
+    chart = Chart(
+        "Computed over published", Axis("difference [%]"), Axis(names=names), (Points("", errors, range(4), 1),)
+    )
     return words.page(f"{min(errors):+.1f} to {max(errors):+.1f} %", rows, (chart,))
 
 
@@ -198,7 +200,7 @@ class PitchLinkLoad:
     computed: Array
     """[N], (azimuths,)"""
     torsion_alone: Array
-    """Ours of a blade that twists but does not bend."""
+    """Computed of a blade that twists but does not bend."""
     beside: airloads.CurveAgreement
 
     @property
@@ -284,7 +286,7 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
 
 def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [
-        ("µ", "Quantity", "Measured [kN]", "Measured φ [°]", "Ours [kN]", "Ours φ [°]", "Without bending [kN]")
+        ("µ", "Quantity", "Measured [kN]", "Measured φ [°]", "Computed [kN]", "Computed φ [°]", "Without bending [kN]")
     ]
     for load in loads:
         measured, computed, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)

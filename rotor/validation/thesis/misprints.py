@@ -83,7 +83,7 @@ def misprint_table() -> ReportTable:
         )
         values = (f"{_short(value)}{unit}" for value in shown_values(misprint))
         rows.append((where, misprint.printed, misprint.corrected, f"{misprint.setting}\n{misprint.showing}", *values))
-    return table("misprints", ("Equation", "As printed", "Ours, and why", "Python", "Printed", "Ours"), rows)
+    return table("misprints", ("Equation", "As printed", "Corrected, and why", "Python", "Printed", "Corrected"), rows)
 
 
 def _short(value: float) -> str:

@@ -57,7 +57,7 @@ class Report:
     statement: str
     """What the thesis says."""
     finding: str
-    """Our numbers, one or two sentences."""
+    """What this project finds, one or two sentences."""
     verdict: Agreement
     because: str
     """Reason for the difference, or basis of the agreement; one sentence."""
