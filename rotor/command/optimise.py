@@ -256,16 +256,16 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         band = bands.get(parameter.name)
         low, high = (parameter.shown(band.low), parameter.shown(band.high)) if band else (0.0, 1.0)
         digits = digits_of_band(high - low)
-        line = f"{parameter.title:<20}{parameter.shown(value):9.{digits}f} {parameter.shown_unit}"
+        line = f"{parameter.title:<20}{parameter.shown(value):z9.{digits}f} {parameter.shown_unit}"
         if band:
-            line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the {least}"
+            line += f"   {low:z.{digits}f} to {high:z.{digits}f} within 0.1 % of the {least}"
         if sure := doubts.get(parameter.name):
             low, high = parameter.shown(sure.low), parameter.shown(sure.high)
-            causes = ", ".join(f"{words} {parameter.shown(by):+.{digits}f}" for words, by in sure.causes)
-            line += f", {low:.{digits}f} to {high:.{digits}f} with uncertain inputs ({causes})"
+            causes = ", ".join(f"{words} {parameter.shown(by):+z.{digits}f}" for words, by in sure.causes)
+            line += f", {low:z.{digits}f} to {high:z.{digits}f} with uncertain inputs ({causes})"
         for line_rate in _in_hover(beside, optimum, k):
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
-            line += f", {low:.{digits}f} to {high:.{digits}f} between annuli and a lifting line"
+            line += f", {low:z.{digits}f} to {high:z.{digits}f} between annuli and a lifting line"
         lines.append(wrapped(line, " " * 38))
     lines.append(f"twist {common.short_spec(best.twist)}")
     airfoils = airfoils_spec(optimum.design.rotor)

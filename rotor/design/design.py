@@ -433,6 +433,8 @@ def with_numbers(design: Design, asked: Mapping[str, Any]) -> Design:
     """
     for name, row in quantities.AIRFRAME.items():
         if asked.get(name) is not None:
+            if design.condition.stand is not None and row.in_flight:
+                raise ValueError(f"{name} {asked[name]} has no effect on a test stand: leave it out, or trim a flight")
             design = row.put(design, row.read(asked[name]))
     return design
 

@@ -368,6 +368,8 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
         return builtin
     if not rest and kind in SHIPPED_ROTORS:
         return shipped_twist(kind)
+    if rest and kind in ("builtin", *SHIPPED_ROTORS):
+        raise ValueError(f"twist {spec!r} has numbers, which {kind} does not take: write {kind} or {kind}+linear:-2")
     if kind == "builtin":
         raise ValueError(
             f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
@@ -378,9 +380,14 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
         return IdealTwist(ideal_tip_pitch())
     if kind in LAWS:
         before, _, after = rest.partition("@")
-        return LAWS[kind].read(_angles(before, spec), _stations(after, spec), spec.strip())
+        try:
+            return LAWS[kind].read(_angles(before, spec), _stations(after, spec), spec.strip())
+        except _NotANumber as error:
+            raise ValueError(f"{error}: write for example {kind}:{LAWS[kind].example}") from None
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
+    if kind == "table":
+        raise ValueError(f"twist {spec!r} names no file: write table:FILE, two columns of r/R and degrees")
     number = _NUMBER.fullmatch(spec.strip())
     bare = f": write linear:{number[1].replace('−', '-')} for a linear twist, or" if number else ""
     raise ValueError(
@@ -436,6 +443,10 @@ def read_twist_table(path: Path) -> TableTwist:
     return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
 
 
+class _NotANumber(ValueError):
+    """The text where a SPEC needs a number."""
+
+
 def _angles(text: str, spec: str) -> tuple[float, ...]:
     """[rad]"""
     return tuple(math.radians(_number(item, spec)) for item in text.split(","))
@@ -451,5 +462,5 @@ def _number(text: str, spec: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value) or abs(value) > 100.0:
-        raise ValueError(f"twist {spec!r} holds {text!r}, not a number in −100…100: write for example linear:-8")
+        raise _NotANumber(f"twist {spec!r} holds {text!r}, not a number in −100…100")
     return value

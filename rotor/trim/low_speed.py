@@ -157,15 +157,14 @@ def vortex_ring(design: Design) -> str:
 
 def axial_ring(design: Design) -> str:
     """Why axial wind against the thrust leaves no steady wake."""
-    remedy = "change the collective or the climb"
+    end, remedy = "", "change the collective or the climb"
     if (stand := design.condition.stand) is None or stand.collective is None:
         speed = math.sqrt(0.5 * abs(design.weight_coefficient)) * design.rotor.tip_speed
         slow, fast = math.floor(-10.0 * vortex_ring_edge(0.0) * speed) / 10.0, math.ceil(20.0 * speed) / 10.0
         lowest = math.ceil(1e3 * FASTEST_RING * speed / design.rotor.tip_speed) / 1e3
-        remedy = (
-            f"descend at less than {slow:.1f} or well above {fast:.1f} m/s, or fly beyond advance ratio {lowest:.3f}"
-        )
+        end = f" up to {fast:.1f} m/s or more"
+        remedy = f"descend at less than {slow:.1f} m/s, or fly beyond advance ratio {lowest:.3f}"
     return (
         f"Not trimmed: at {abs(design.vertical_speed):g} m/s the air flows against the thrust. All or part of the wake "
-        f"is in the vortex ring state or turbulent, where momentum theory has no valid answer: {remedy}."
+        f"is in the vortex ring state or turbulent, where momentum theory has no valid answer{end}: {remedy}."
     )

@@ -173,10 +173,7 @@ def set_page(data: TrustSet) -> str:
         notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [
-            *data.text,
-            *(f"**{row.what}: {row.shown}.** {row.against} *Here:* {row.note}" for row in data.rows),
-        ]
+        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Here:* {row.note}" for row in data.rows)]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
         heads = ("; ".join(of) if len(of) < 3 else f"{of[0]} and {len(of) - 1} more" for of in notes.values())

@@ -308,6 +308,7 @@ WRONG = {
     "design.at(twist='linear:-8')": (TypeError, "no argument 'twist': write design.with_twist(…)"),
     "design.at(rotor='s61')": (TypeError, "no argument 'rotor': write rotor.make_design(case=design, rotor=…)"),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
+    "rotor.make_design(rotor='xv15', drag_area_m2=3)": (ValueError, "drag_area_m2 3 has no effect on a test stand"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
     "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),
     "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),

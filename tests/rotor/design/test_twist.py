@@ -95,7 +95,9 @@ def test_table_file(tmp_path: Path):
         ("linear:x", "'x'"), ("linear:nan", "'nan'"), ("linear:", "linear:-8"), ("quadratic:3", "quadratic:6,-14"),
         ("segments:-3,-4", "1 break"), ("segments:-3,-4,-5@0.7,0.4", "ascend"),
         ("segments:-3,-4@1.2", "between 0 and 1"), ("wavy:3", "'wavy:3' is not known"),
-        ("table:nowhere.txt", "does not exist"), ("", "is not known"),
+        ("table:nowhere.txt", "does not exist"), ("", "is not known"), ("table:", "names no file: write table:FILE"),
+        ("ideal:x", "for example ideal:6.4"), ("segments:-3,-4@x", "for example segments:-12,-4@0.5"),
+        ("builtin:3", "write builtin or builtin+linear:-2"), ("r22:-8", "numbers, which r22 does not take"),
     ],
 )  # fmt: skip
 def test_bad_specs_are_one_sentence(spec: str, words: str):
