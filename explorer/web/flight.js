@@ -151,7 +151,7 @@
     const scopes = [['here', 'here', here], ['flight', 'over the flight', !here]].map(([name, words, chosen]) =>
       `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
     earns.innerHTML = `<div class="rxf-head"><b>Extra power</b><span role="group">${scopes.join('')}</span>
-        <span class="rxf-dim">${text(unit)}, ${text(where)}</span>
+        <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Try another actuator: drag its twist and mass">What would pay?</button></div>
       <svg role="img"></svg>
