@@ -18,6 +18,7 @@ from explorer.widgets.controls import DesignControls
 from explorer.widgets.display import Display
 from explorer.widgets.layout import Keyboard, Layout
 from explorer.workers.background import LongWork
+from rotor import Design
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
@@ -56,6 +57,12 @@ class TabContext:
     """The last converged state; None before the first."""
     leaving: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]])
     """Called once the browser has left: end threads and jobs."""
+    refreshing: list[Callable[[Design | None], None]] = field(default_factory=list[Callable[[Design | None], None]])
+    """Called after every frame with the design on the sliders; None: they mean none."""
+    following: list[Callable[[SessionState | None], None]] = field(
+        default_factory=list[Callable[[SessionState | None], None]]
+    )
+    """Called once the panels have followed an update; None: the inputs have no solution."""
     held: bool = False
     """Whether a presenter moves the page."""
     whole: threading.RLock = field(default_factory=threading.RLock)

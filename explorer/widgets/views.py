@@ -93,7 +93,7 @@ _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": 
 
 class SceneViews:
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
-        self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
+        self._context, self._scene, self.probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
         self._mode = context.layout.mode
         self._on_blade: Callable[[float], Camera] | None = None
@@ -204,7 +204,7 @@ class SceneViews:
             return
         self._actuator.lift(out)
         self._scene.set_behind(out)
-        self._probe.set_seen(not out)
+        self.probe.set_seen(not out)
         if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
