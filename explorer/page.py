@@ -12,14 +12,12 @@ from typing import Literal
 
 import viser
 
-from explorer.hosting.browser import Bridge, set_query
+from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
 from explorer.model.actuator_inputs import AT_REST
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import Pinboard, PinResult
+from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
-from explorer.model.undo import PowerTracker
-from explorer.parts.presses import IdlePress
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
@@ -44,12 +42,11 @@ from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import SharedServices, TabContext
-from explorer.widgets.controls import DesignControls, SessionCallbacks
+from explorer.widgets.controls import SessionCallbacks
 from explorer.widgets.design_files import FilePanel, add_rotor_upload
-from explorer.widgets.display import Display
 from explorer.widgets.export_panel import ExportPanel
 from explorer.widgets.history_panel import HistoryPanel
-from explorer.widgets.layout import Keyboard, Layout, Sections
+from explorer.widgets.layout import Sections
 from explorer.widgets.lecture.lecture_panel import LecturePanel
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from explorer.widgets.optimise.map_panel import MapPanel
@@ -59,7 +56,6 @@ from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
-from explorer.workers.background import LongWork
 from rotor import Solution, solve
 from rotor.support.user_input import brief
 
@@ -72,33 +68,6 @@ Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "r
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
 and kept at rest; what could wait."""
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
-
-
-def _context(
-    client: viser.ClientHandle, start: PageState, shared: SharedServices, callbacks: SessionCallbacks
-) -> TabContext:
-    """The frame of the page, the sliders of Explore, and what its parts share."""
-    bridge, tracker, analyses = Bridge(client), PowerTracker(), start.analyses
-    keyboard, layout = Keyboard(client, bridge), Layout(client.gui, bridge)
-    layout.watchers.append(callbacks.wake)
-    display = Display(bridge, start.view, callbacks.wake, callbacks.azimuth_changed)
-    with layout.in_mode("explore"):
-        controls = DesignControls(client.gui, bridge, start.inputs, tracker, callbacks)
-    return TabContext(
-        client,
-        bridge,
-        keyboard,
-        layout,
-        display,
-        controls,
-        tracker,
-        analyses,
-        Pinboard(analyses.solve),
-        shared.pool,
-        LongWork(shared.pool, callbacks.wake),
-        callbacks.wake,
-        callbacks.state,
-    )
 
 
 class Page:
@@ -123,7 +92,7 @@ class Page:
         banner = client.gui.add_folder(None)
         self.latest = PageState(start, None, None, view=replace(view, dark=facts.dark))
         """As of the last update; `now` has the rest."""
-        self.context = _context(client, self.latest, shared, callbacks)
+        self.context = TabContext(client, self.latest, shared, callbacks)
         with banner:
             secret = facts.kept.get(PRESENT, "")
             presentation = PresentationBanner(self.context, shared.presentations, address, secret, facts.page)
@@ -131,9 +100,8 @@ class Page:
         camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
         self._add_rail(address, problems)
-        self._add_drawers(address, facts, presentation)
+        self._add_drawers(address, facts, presentation, problems)
         self._listen(opening)
-        self.file.begin(problems)
         for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
@@ -153,7 +121,9 @@ class Page:
             self.actuator = ActuatorPanel(context, address, problems)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
-    def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
+    def _add_drawers(
+        self, address: Address, facts: PageFacts, presentation: PresentationBanner, problems: list[tuple[str, str]]
+    ) -> None:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
@@ -168,7 +138,7 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.in_drawer("share"):
-            self.file = FilePanel(context, address, facts.kept, opened["Files"])
+            self.file = FilePanel(context, address, facts.kept, opened["Files"], problems)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
             lecture = LecturePanel(context, self.scene.camera, self._views)
@@ -211,15 +181,6 @@ class Page:
         self._refresh()
         self.follower.follow(AT_ONCE.__contains__)
 
-    def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
-        """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
-
-        def answer(asked: IdlePress) -> None:
-            wait(asked.wholly)
-            self.context.bridge.set(idle=asked.serial)
-
-        self.context.bridge.on("idle", answer)
-
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
         for leave in self.context.leaving:
@@ -236,7 +197,7 @@ class Page:
             hand = self.actuator.hand()
             if context.layout.mode != "actuate":
                 hand = replace(hand, actuator=replace(hand.actuator, drives=AT_REST))
-            inputs, view = self.history.read(tracker.pause), context.display.view()
+            inputs, view = self.history.read(tracker.pause), context.display.view
         return replace(self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem="")
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
@@ -382,8 +343,8 @@ class Page:
     def _hold(self, lecture: LecturePanel, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         context = self.context
-        context.held = held
-        for part in (context.controls, self.optimise, self.actuator, context.display, lecture, context.keyboard):
+        context.held = context.keyboard.held = held
+        for part in (context.controls, self.optimise, self.actuator.controls.form, context.display, lecture):
             part.hold(held)
         self.follower.follow(AT_ONCE.__contains__)
 

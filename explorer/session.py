@@ -22,6 +22,7 @@ from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import SessionState
 from explorer.page import Page, Urgency
+from explorer.parts.presses import IdlePress
 from explorer.views.page_state import PageState
 from explorer.widgets.context import SharedServices
 from explorer.widgets.controls import SessionCallbacks
@@ -61,7 +62,7 @@ class Session:
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
-        self.page.answer_when_idle(self._until_idle)
+        self.page.context.bridge.on("idle", self._answer_when_idle)
         self.page.start()
         self._wake()
         self._worker.release()
@@ -196,10 +197,11 @@ class Session:
         self._all_changed = True
         self._worker.wake()
 
-    def _until_idle(self, wholly: bool) -> None:
-        """Wait until all that the page sent before is answered; `wholly`: and nothing is computed for it any more."""
+    def _answer_when_idle(self, asked: IdlePress) -> None:
+        """Give the page its number back once all that it sent before is answered (`RX.idle` of frame.js)."""
         wait_for_callbacks(self._client)
-        self._worker.until_answered(wholly)
+        self._worker.until_answered(asked.wholly)
+        self.page.context.bridge.set(idle=asked.serial)
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

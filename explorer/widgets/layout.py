@@ -186,7 +186,8 @@ class Keyboard:
     def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
-        self._held = False
+        self.held = False
+        """Whether a presenter has what is the presenter's."""
         self._acting = threading.Lock()
         """Two keys pressed at once must not both read the inputs before either has written them."""
         bridge.set(coarse=COARSE)
@@ -205,16 +206,12 @@ class Keyboard:
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
 
         def act(_: Any) -> None:
-            if not (self._held and is_for_presenter(name)):
+            if not (self.held and is_for_presenter(name)):
                 with self._acting:
                     action()
 
         command.on_trigger(act)
         self._commands[name] = command
-
-    def hold(self, held: bool) -> None:
-        """Leave to a presenter what is the presenter's, or give it back."""
-        self._held = held
 
     def show(self) -> None:
         """The list of keys, over the page; shown a second time it goes."""

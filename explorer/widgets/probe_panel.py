@@ -134,8 +134,7 @@ class RideAlong:
         self._shown: Solution | None = None
 
     def begin(self, solution: Solution, r: float, psi_deg: float) -> None:
-        if self._scene.camera is not None:
-            self._scene.camera.hold(True)
+        self._scene.camera.hold(True)
         self._context.layout.show_drawer("")
         self._scene.play(True)
         self._at, self._shown = (r, psi_deg), None
@@ -153,8 +152,7 @@ class RideAlong:
         self._context.bridge.set(ride=None)
         if not self._playing():
             self._scene.play(False)
-        if self._scene.camera is not None:
-            self._scene.camera.hold(False)
+        self._scene.camera.hold(False)
 
 
 LONGEST = 600.0
@@ -220,7 +218,7 @@ class ProbePanel:
             return
         if self._follow.value:
             # Where the blade is by now: an older place would pull a slider that is dragged back.
-            self._psi.value = self._context.view().azimuth_deg
+            self._psi.value = self._context.display.view.azimuth_deg
         solution = state.solution
         self._ride.show(solution)
         # The first step of r/R on the blade.
@@ -306,7 +304,7 @@ class ProbePanel:
         with self._hand:
             if not self._player.playing:
                 return
-            now = self._context.view().azimuth_deg
+            now = self._context.display.view.azimuth_deg
             self._left -= seconds
             if (self._walked is not None and now != self._walked) or self._left <= 0.0:
                 self._pause()  # The user has taken the blade, or gone.
@@ -349,7 +347,7 @@ class ProbePanel:
         if state is None or not self._seen:
             return
         origin = np.array(event.ray_origin) - self._scene.scene.rotor.frame.position
-        on_blade = pick_blade(state.solution, self._context.view(), origin, event.ray_direction)
+        on_blade = pick_blade(state.solution, self._context.display.view, origin, event.ray_direction)
         picked = on_blade or pick(state.solution, origin, event.ray_direction)
         if picked is not None:
             self._set(picked[0], picked[1] if on_blade else round(math.degrees(picked[1])) % 360)

@@ -18,6 +18,7 @@ from explorer.session import Session
 from explorer.views.page_state import PageState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import Design, Solution, solve
+from tests.fake_bridge import Bridge
 
 
 class RecordingPage:
@@ -35,7 +36,7 @@ class RecordingPage:
         self.found: Design | None = None
         self.moves_sliders = False
         pinboard = SimpleNamespace(pinned=None, solve=lambda *_: self.calls.append("solve A"))
-        self.context = SimpleNamespace(analyses=Analyses(), pinboard=pinboard)
+        self.context = SimpleNamespace(analyses=Analyses(), pinboard=pinboard, bridge=Bridge())
         self.optimise = SimpleNamespace(preview=lambda design: self.found)
 
     def read(self) -> PageState:
@@ -98,8 +99,6 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
             arguments[-1].wake()
             time.sleep(0.05)
             super().__init__(*arguments)
-
-        def answer_when_idle(self, wait: Any) -> None: ...
 
         def start(self) -> None: ...
 

@@ -50,10 +50,6 @@ class ActuatorPanel:
         self.texts = {**self.controls.texts, "actuator.pays": self._light}
         self.inputs = self.controls.inputs
 
-    def hold(self, held: bool) -> None:
-        """Take the widgets from the user, or give them back."""
-        self.controls.form.hold(held)
-
     def hand(self) -> HandSettings:
         """What the hand has set by now."""
         return replace(self._hand, actuator=self.inputs())
