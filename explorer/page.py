@@ -83,10 +83,11 @@ class Page:
     ) -> None:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
-        problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
+        if facts.query is None:
+            address.problems.append(_NO_LINK)
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
-        opening, start = start, address.read(share.DESIGN, inputs_from, start, "Link: design not used", problems)
-        view = address.read(VIEW, view_from, ViewState(), "Link: view not used", problems)
+        opening, start = start, address.read(share.DESIGN, inputs_from, start, "Link: design not used")
+        view = address.read(VIEW, view_from, ViewState(), "Link: view not used")
         theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
         banner = client.gui.add_folder(None)
@@ -99,31 +100,32 @@ class Page:
         rotor = start.aircraft.rotor_for(start.preset)
         camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
-        self._add_rail(address, problems)
-        self._add_drawers(address, facts, presentation, problems)
+        self._add_rail(address)
+        self._add_drawers(address, facts, presentation)
         self._listen(opening)
-        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
+        for (
+            title,
+            sentence,
+        ) in address.problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
-    def _add_rail(self, address: Address, problems: list[tuple[str, str]]) -> None:
+    def _add_rail(self, address: Address) -> None:
         """What stands on the right beside the sliders of Explore."""
         context = self.context
         with context.layout.in_mode("optimise"):
             tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context, address, problems)
+                self.optimise = OptimisePanel(context, address)
             with tasks["Map"]:
                 power_map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
                 schedule = SchedulePanel(context, self.optimise)
         context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
         with context.layout.in_mode("actuate"):
-            self.actuator = ActuatorPanel(context, address, problems)
+            self.actuator = ActuatorPanel(context, address)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
-    def _add_drawers(
-        self, address: Address, facts: PageFacts, presentation: PresentationBanner, problems: list[tuple[str, str]]
-    ) -> None:
+    def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
@@ -138,7 +140,7 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.in_drawer("share"):
-            self.file = FilePanel(context, address, facts.kept, opened["Files"], problems)
+            self.file = FilePanel(context, address, facts.kept, opened["Files"])
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.in_drawer("lecture"):
             lecture = LecturePanel(context, self.scene.camera, self._views)

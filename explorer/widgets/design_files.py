@@ -114,16 +114,11 @@ class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
     def __init__(
-        self,
-        context: TabContext,
-        address: Address,
-        kept: Mapping[str, str],
-        folder: viser.GuiFolderHandle,
-        problems: list[tuple[str, str]],
+        self, context: TabContext, address: Address, kept: Mapping[str, str], folder: viser.GuiFolderHandle
     ) -> None:
         """`kept`: design files that the page kept for what its address cannot hold, by name in the address.
 
-        `folder`: where the upload button goes. `problems` get a title and a sentence where A cannot be read.
+        `folder`: where the upload button goes.
         """
         self._context, self._address, self._kept = context, address, dict(kept)
         self._records: dict[str, dict[str, Any]] = {}
@@ -141,7 +136,7 @@ class FilePanel:
         self._link.on_click(lambda _: self.copy_link())
         self._load.on_upload(self._loaded)
         inputs_from = partial(share.inputs_from, kept=kept.get(share.PINNED))
-        pinned = address.read(share.PINNED, inputs_from, None, "Link: A not used", problems)
+        pinned = address.read(share.PINNED, inputs_from, None, "Link: A not used")
         if pinned is not None:
             context.pin(pinned)
 

@@ -29,12 +29,12 @@ from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 class ActuatorPanel:
     """What is shown of it are panels of `explorer/views`."""
 
-    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
-        """`address` may hold a supposed actuator; `problems` get a title and a sentence where it cannot be read."""
+    def __init__(self, context: TabContext, address: Address) -> None:
+        """`address` may hold a supposed actuator."""
         self._context, self._address = context, address
         self._blade = LiftedScene(context.client, context.bridge)
         context.leaving.append(self._blade.stop)
-        place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used", problems)
+        place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used")
         self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
         self.lifted = False
         """Whether the blade is wanted outside the rotor."""
