@@ -103,10 +103,7 @@ class Page:
         self._add_rail(address)
         self._add_drawers(address, facts, presentation)
         self._listen(opening)
-        for (
-            title,
-            sentence,
-        ) in address.problems:  # They stay until they are closed: the link does not show what it names.
+        for title, sentence in address.problems:  # Not closed by time: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
     def _add_rail(self, address: Address) -> None:
