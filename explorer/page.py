@@ -29,10 +29,10 @@ from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.bar import BAR
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
-from explorer.views.flight import FLIGHT
+from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE, PROMPT
-from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed, SetHand
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
@@ -109,7 +109,7 @@ class Page:
     def _add_rail(self, address: Address) -> None:
         """What stands on the right beside the sliders of Explore."""
         context = self.context
-        with context.layout.in_mode("optimise"):
+        with context.layout.modes["optimise"]:
             tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(context, address)
@@ -118,7 +118,7 @@ class Page:
             with tasks["Schedule"]:
                 schedule = SchedulePanel(context, self.optimise)
         context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
-        with context.layout.in_mode("actuate"):
+        with context.layout.modes["actuate"]:
             self.actuator = ActuatorPanel(context, address)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
@@ -127,21 +127,21 @@ class Page:
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
         texts = {**drawer_texts(context), **self.actuator.texts}
-        with layout.in_drawer("probe"):
+        with layout.drawers["probe"]:
             probe = ProbePanel(context, self.scene)
-        with layout.in_drawer("open"):
+        with layout.drawers["open"]:
             opened = Sections(gui, context.bridge, "opened", ("Files", "History"))
             with opened["Files"]:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
-        with layout.in_drawer("share"):
+        with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
-        with layout.in_drawer("lecture"):
+        with layout.drawers["lecture"]:
             lecture = LecturePanel(context, self.scene.camera, self._views)
-        with layout.in_drawer("settings"):
+        with layout.drawers["settings"]:
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
             PANELS,
@@ -155,7 +155,7 @@ class Page:
             self._perform,
         )
         context.following += [probe.show, settings.show, self.history.show, lecture.show, presentation.show]
-        with layout.in_drawer("lecture"):
+        with layout.drawers["lecture"]:
             presentation.begin(lecture, self._views, partial(self._hold, lecture))
 
     def _listen(self, opening: Inputs) -> None:
@@ -388,6 +388,6 @@ class Page:
         """The design of a page without a link; what is shown in its place, a preview, ends."""
         self.context.tracker.reset()
         self.optimise.withdraw()
-        self.actuator.reset()
+        self.actuator.perform(SetHand(BY_HAND, {"drives": AT_REST}))
         self.optimise.rival.begin(None)
         self.context.controls.set_inputs(opening)

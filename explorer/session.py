@@ -47,7 +47,7 @@ class Session:
         self._latest: Solution | None = None
         self._good: Solution | None = None
         """The last converged solution: what the picture shows."""
-        self._shown = threading.Event()
+        self.shown = threading.Event()
         """Set once the page has its first solution, or the sentence why there is none."""
         self._all_changed = True
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
@@ -71,10 +71,6 @@ class Session:
         self._all_changed = True
         self.page.stop()
         self._worker.stop()
-
-    def until_shown(self, patience: float) -> None:
-        """Wait until the first solution is shown, at most `patience` [s]."""
-        self._shown.wait(patience)
 
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self) -> Iterator[float] | None:
@@ -169,7 +165,7 @@ class Session:
         show_with_curve("results")
         yield 0.0
         show("tabs")
-        self._shown.set()
+        self.shown.set()
         yield 0.0
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
@@ -191,7 +187,7 @@ class Session:
         last = now.state
         curve = None if last is None else self._curves.known(last.solution.design, last.reference.design)
         self.page.show_failure(replace(now, curve=curve), self._good)
-        self._shown.set()
+        self.shown.set()
 
     def _wake(self) -> None:
         self._all_changed = True
@@ -209,7 +205,7 @@ class Session:
 
     def _failed(self, error: Exception) -> None:
         """Nothing that the update may have left half done is used by the next."""
-        self._shown.set()
+        self.shown.set()
         self._latest = self._good = None
         self._all_changed = True
         self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()

@@ -1,4 +1,4 @@
-"""A of A/B, the pinned design; and what one update of a session reads, solves and shows, as values."""
+"""A of A/B, the pinned design; and what one update of a session solves, as a value."""
 
 from collections import deque
 from dataclasses import dataclass, field, replace

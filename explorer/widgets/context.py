@@ -50,7 +50,7 @@ class TabContext:
         self.keyboard, self.layout = Keyboard(client, self.bridge), Layout(client.gui, self.bridge)
         self.layout.watchers.append(callbacks.wake)
         self.display = Display(self.bridge, start.view, callbacks.wake, callbacks.azimuth_changed)
-        with self.layout.in_mode("explore"):
+        with self.layout.modes["explore"]:
             self.controls = DesignControls(client.gui, self.bridge, start.inputs, self.tracker, callbacks)
         self.refreshing: list[Callable[[Design | None], None]] = []
         """Called after every frame with the design on the sliders; None: they mean none."""

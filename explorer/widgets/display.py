@@ -32,7 +32,9 @@ class Display:
         self.view = replace(start, difference=False)
         self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
-        self._allowed = self._held = self._playing = self._fitted = self._faded = False
+        self._allowed = self._held = self._playing = self._faded = False
+        self.fitted = False
+        """Whether a fitted colour range was asked for, not the field's own."""
         self._stalled = ""
         self._fields = list(FIELDS)
         self._range: tuple[Field, tuple[float, float]] | None = None
@@ -66,10 +68,6 @@ class Display:
         self._held = held
         self._show_turn()
         self._show_field()
-
-    def order_range(self, order: str) -> None:
-        """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
-        self._fitted = order == "Rescale"
 
     def show_range(
         self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
@@ -128,7 +126,7 @@ class Display:
                 colours=_bar(field.colours),
                 ticks=bar_ticks(*range_),
                 faded=self._faded,
-                fitted=self._fitted,
+                fitted=self.fitted,
                 regions={name: getattr(view, name) for name in REGIONS},
                 stalled=self._stalled,
                 difference=view.difference if self._allowed else None,

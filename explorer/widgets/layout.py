@@ -44,13 +44,15 @@ class Layout:
         self.watchers: list[Callable[[], None]] = []
         """Called after another mode or drawer is shown."""
         gui.main_panel.dock_right()
-        self._modes = {mode: gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        self.modes = {mode: gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        """Where the widgets of each mode go, as a context."""
         self._panel = gui.add_panel(visible=False)
-        self._drawers: dict[str, viser.GuiFolderHandle] = {}
+        self.drawers: dict[str, viser.GuiFolderHandle] = {}
+        """Where the widgets of each drawer go, as a context."""
         with self._panel.add_tab("Drawer"):
             for name, title in DRAWERS.items():
-                self._drawers[name] = gui.add_folder(None, visible=False)
-                with self._drawers[name]:
+                self.drawers[name] = gui.add_folder(None, visible=False)
+                with self.drawers[name]:
                     close = tag("button", "×", data_do="drawer", data_value="", aria_label="Close", title="Close (Esc)")
                     gui.add_html(tag("div.rxp-title", title, close, data_explorer="drawer", data_name=name))
         self._panel.dock_left()
@@ -58,28 +60,20 @@ class Layout:
         bridge.on("mode", self.show_mode)
         bridge.on("drawer", self.show_drawer)
 
-    def in_mode(self, mode: Mode) -> viser.GuiFolderHandle:
-        """Where the widgets of a mode go, as a context."""
-        return self._modes[mode]
-
-    def in_drawer(self, name: str) -> viser.GuiFolderHandle:
-        """Where the widgets of a drawer go, as a context; KeyError for a name without one."""
-        return self._drawers[name]
-
     def show_mode(self, mode: Any) -> None:
         """Change what the rail holds; a name that is no mode is passed over."""
         if mode not in MODES:
             return
         self.mode = mode
-        for name, folder in self._modes.items():
+        for name, folder in self.modes.items():
             folder.visible = name == mode
         self._tell()
 
     def show_drawer(self, name: str) -> None:
         """Open a drawer in place of another; one that is open, or the empty name, closes it."""
-        name = "" if name == self.drawer or name not in self._drawers else name
+        name = "" if name == self.drawer or name not in self.drawers else name
         before, self.drawer = self.drawer, name
-        for title, folder in self._drawers.items():
+        for title, folder in self.drawers.items():
             if title in (before, name):
                 folder.visible = title == name
         self._panel.visible = bool(name)

@@ -174,7 +174,8 @@ class ProbePanel:
 
     def __init__(self, context: TabContext, scene: SceneController) -> None:
         client, self._context, self._scene = context.client, context, scene
-        self._seen = True
+        self.seen = True
+        """Whether the disk is in the scene, to be clicked."""
         self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = Markup()
         self._cursor = ProbeCursor(client.scene, context.bridge)
@@ -262,10 +263,6 @@ class ProbePanel:
         self._panel.content = faded(self._html)
         self._cursor.hide()
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the disk is in the scene, to be clicked."""
-        self._seen = seen
-
     def point(self, at: SectionPress) -> None:
         """A place on the disk was clicked: the drawer shows the section there."""
         self._set(at.r, float(round(at.psi) % 360))
@@ -313,7 +310,7 @@ class ProbePanel:
             self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
-        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
+        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self.seen, self._opened.value)
 
     def _set(self, r: float, psi_deg: float | None = None) -> None:
         """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
@@ -344,7 +341,7 @@ class ProbePanel:
 
     def _clicked(self, event: viser.SceneClickEvent) -> None:
         state = self._context.state()
-        if state is None or not self._seen:
+        if state is None or not self.seen:
             return
         origin = np.array(event.ray_origin) - self._scene.scene.rotor.frame.position
         on_blade = pick_blade(state.solution, self._context.display.view, origin, event.ray_direction)

@@ -183,7 +183,7 @@ class SceneViews:
 
     def _colour(self, order: str) -> None:
         """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
-        self._context.display.order_range(order)
+        self._context.display.fitted = order == "Rescale"
         self._scene.order_range(order)
         self._context.wake()
 
@@ -204,7 +204,7 @@ class SceneViews:
             return
         self._actuator.lift(out)
         self._scene.set_behind(out)
-        self.probe.set_seen(not out)
+        self.probe.seen = not out
         if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
