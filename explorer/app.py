@@ -82,7 +82,7 @@ class ClientConnection:
                     _log.exception("a page could not be made")
                     show_dialogue(self.client, web.fill("crashed.html", {"error": type(error).__name__}))
                     return
-                self.session.until_shown(FIRST_SOLUTION_S)
+                self.session.shown.wait(FIRST_SOLUTION_S)
 
     def turn_away(self, places: int) -> None:
         """All places are taken: the page says so, asks now and then, and loads again once there is one."""

@@ -8,18 +8,16 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Literal
 
 import viser
 
-from explorer.charts.plots import PowerCurve
-from explorer.hosting.browser import Bridge, set_query
+from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
-from explorer.model.actuator_inputs import AT_REST, ActuatorInputs
+from explorer.model.actuator_inputs import AT_REST
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import Analyses, FailedTrim, Pinboard, Pinned, PinResult, Reading, SessionState
+from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
-from explorer.model.undo import PowerTracker
-from explorer.parts.presses import IdlePress
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
@@ -31,10 +29,10 @@ from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.bar import BAR
 from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
-from explorer.views.flight import FLIGHT
+from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.notice import NOTICE, PROMPT
-from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed
+from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed, SetHand
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
@@ -44,12 +42,11 @@ from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import SharedServices, TabContext
-from explorer.widgets.controls import DesignControls, SessionCallbacks
+from explorer.widgets.controls import SessionCallbacks
 from explorer.widgets.design_files import FilePanel, add_rotor_upload
-from explorer.widgets.display import Display
 from explorer.widgets.export_panel import ExportPanel
 from explorer.widgets.history_panel import HistoryPanel
-from explorer.widgets.layout import Keyboard, Layout, Sections
+from explorer.widgets.layout import Sections
 from explorer.widgets.lecture.lecture_panel import LecturePanel
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from explorer.widgets.optimise.map_panel import MapPanel
@@ -59,42 +56,18 @@ from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
-from explorer.workers.background import LongWork
-from rotor import Design, Solution, solve
+from rotor import Solution, solve
 from rotor.support.user_input import brief
 
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
 AT_ONCE = BAR, PROMPT
 """Panels that follow a press before the update that it wakes."""
 PANELS = *AT_ONCE, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept", "deferred"]
+"""What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
+number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
+and kept at rest; what could wait."""
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
-
-
-def _context(
-    client: viser.ClientHandle, start: Inputs, view: ViewState, shared: SharedServices, callbacks: SessionCallbacks
-) -> TabContext:
-    """The frame of the page, the sliders of Explore, and what its parts share."""
-    bridge, tracker, analyses = Bridge(client), PowerTracker(), Analyses()
-    keyboard, layout = Keyboard(client, bridge), Layout(client.gui, bridge)
-    layout.watchers.append(callbacks.wake)
-    display = Display(bridge, view, callbacks.wake, callbacks.azimuth_changed)
-    with layout.in_mode("explore"):
-        controls = DesignControls(client.gui, bridge, start, tracker, callbacks)
-    return TabContext(
-        client,
-        bridge,
-        keyboard,
-        layout,
-        display,
-        controls,
-        tracker,
-        analyses,
-        Pinboard(analyses.solve),
-        shared.pool,
-        LongWork(shared.pool, callbacks.wake),
-        callbacks.wake,
-        callbacks.state,
-    )
 
 
 class Page:
@@ -110,66 +83,65 @@ class Page:
     ) -> None:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
-        problems: list[tuple[str, str]] = [] if facts.query is not None else [_NO_LINK]
+        if facts.query is None:
+            address.problems.append(_NO_LINK)
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
-        self._opening = start
-        start = address.read(share.DESIGN, inputs_from, start, "Link: design not used", problems)
-        view = address.read(VIEW, view_from, ViewState(), "Link: view not used", problems)
+        opening, start = start, address.read(share.DESIGN, inputs_from, start, "Link: design not used")
+        view = address.read(VIEW, view_from, ViewState(), "Link: view not used")
         theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
         banner = client.gui.add_folder(None)
-        self.context = _context(client, start, replace(view, dark=facts.dark), shared, callbacks)
+        self.latest = PageState(start, None, None, view=replace(view, dark=facts.dark))
+        """As of the last update; `now` has the rest."""
+        self.context = TabContext(client, self.latest, shared, callbacks)
         with banner:
             secret = facts.kept.get(PRESENT, "")
             presentation = PresentationBanner(self.context, shared.presentations, address, secret, facts.page)
         rotor = start.aircraft.rotor_for(start.preset)
         camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
-        self._now = PageState(start, None, None, analyses=self.context.analyses)
-        """As of the last update; `now` has the rest."""
-        self._add_rail(address, problems)
+        self._add_rail(address)
         self._add_drawers(address, facts, presentation)
-        self._listen()
-        self.file.begin(problems)
-        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
+        self._listen(opening)
+        for title, sentence in address.problems:  # Not closed by time: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
-    def _add_rail(self, address: Address, problems: list[tuple[str, str]]) -> None:
+    def _add_rail(self, address: Address) -> None:
         """What stands on the right beside the sliders of Explore."""
         context = self.context
-        with context.layout.in_mode("optimise"):
+        with context.layout.modes["optimise"]:
             tasks = Sections(context.gui, context.bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
-                self.optimise = OptimisePanel(context, address, problems)
+                self.optimise = OptimisePanel(context, address)
             with tasks["Map"]:
-                self.map = MapPanel(context, self.optimise)
+                power_map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
-                self.schedule = SchedulePanel(context, self.optimise)
-        with context.layout.in_mode("actuate"):
-            self.actuator = ActuatorPanel(context, address, problems)
-            self._actuator_inputs = self._acting()
+                schedule = SchedulePanel(context, self.optimise)
+        context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
+        with context.layout.modes["actuate"]:
+            self.actuator = ActuatorPanel(context, address)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
     def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
         """What stands on the left, and the panels."""
-        context, start = self.context, self._now.inputs
+        context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
         texts = {**drawer_texts(context), **self.actuator.texts}
-        with layout.in_drawer("probe"):
+        with layout.drawers["probe"]:
             probe = ProbePanel(context, self.scene)
-        with layout.in_drawer("open"):
+        with layout.drawers["open"]:
             opened = Sections(gui, context.bridge, "opened", ("Files", "History"))
             with opened["Files"]:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
-        with layout.in_drawer("share"):
+        with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"])
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
-        with layout.in_drawer("lecture"):
-            self.lecture = LecturePanel(context, self.scene.camera, self._views)
-        with layout.in_drawer("settings"):
+        with layout.drawers["lecture"]:
+            lecture = LecturePanel(context, self.scene.camera, self._views)
+        with layout.drawers["settings"]:
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
             PANELS,
@@ -182,19 +154,18 @@ class Page:
             self._pressed,
             self._perform,
         )
-        self._tabs = probe.show, settings.show, self.history.show, self.lecture.show, presentation.show
-        """What follows the panels; that of the probe first, which follows the azimuth too."""
-        with layout.in_drawer("lecture"):
-            presentation.begin(self.lecture, self._views, self._hold)
+        context.following += [probe.show, settings.show, self.history.show, lecture.show, presentation.show]
+        with layout.drawers["lecture"]:
+            presentation.begin(lecture, self._views, partial(self._hold, lecture))
 
-    def _listen(self) -> None:
+    def _listen(self, opening: Inputs) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
         context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
-        context.keyboard.bind("reset", self._reset)
-        bridge.on("default", self._default)
+        context.keyboard.bind("reset", partial(self._reset, opening))
+        bridge.on("default", partial(self._default, opening))
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: camera.come_back())
         bridge.on("taken", lambda _: camera.let_go())
@@ -205,44 +176,28 @@ class Page:
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
-        self._refresh(Reading(self.context.inputs(), self.context.view()))
+        self.latest = replace(self.latest, inputs=self.context.inputs())
+        self._refresh()
         self.follower.follow(AT_ONCE.__contains__)
-
-    def answer_when_idle(self, wait: Callable[[bool], None]) -> None:
-        """Give the page its number back once `wait` has returned (`RX.idle` of frame.js)."""
-
-        def answer(asked: IdlePress) -> None:
-            wait(asked.wholly)
-            self.context.bridge.set(idle=asked.serial)
-
-        self.context.bridge.on("idle", answer)
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
         for leave in self.context.leaving:
             leave()
 
-    def read(self) -> tuple[Inputs, ViewState]:
-        """What the widgets mean now. A change of inputs becomes a step of undo."""
-        tracker = self.context.tracker
-        tracker.pause = self.context.controls.pauses.longest()
-        with self.context.whole:
-            self._actuator_inputs = self._acting()
-            return self.history.read(tracker.pause), self.context.display.view()
+    def read(self) -> PageState:
+        """What the widgets mean now, without what follows from it. A change of inputs becomes a step of undo.
 
-    def _acting(self) -> ActuatorInputs:
-        """The actuator as set; at rest outside Actuate, where the design is that of sliders, link and search."""
-        inputs = self.actuator.inputs()
-        return inputs if self.context.layout.mode == "actuate" else replace(inputs, drives=AT_REST)
-
-    def driven(self, design: Design) -> Design:
-        """The design with the actuator's twist; ValueError with one sentence where it cannot drive this blade."""
-        return self._actuator_inputs.apply(design)
-
-    @property
-    def pin(self) -> Pinned | None:
-        """A of A/B."""
-        return self.context.pinboard.pinned
+        Outside Actuate the actuator is at rest: there the design is that of sliders, link and search.
+        """
+        tracker, context = self.context.tracker, self.context
+        tracker.pause = context.controls.pauses.longest()
+        with context.whole:
+            hand = self.actuator.hand()
+            if context.layout.mode != "actuate":
+                hand = replace(hand, actuator=replace(hand.actuator, drives=AT_REST))
+            inputs, view = self.history.read(tracker.pause), context.display.view
+        return replace(self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem="")
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
@@ -252,43 +207,40 @@ class Page:
             self.context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
             self.context.set_inputs(outcome.inputs)
-        self.context.display.allow_difference(self.pin is not None)
+        self.context.display.allow_difference(self.context.pinboard.pinned is not None)
         return outcome.inputs is not None
 
-    def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
-        """A beside the present design; None when nothing is pinned. `hurried`: a newer update waits."""
-        return self.context.pinboard.solve(present, hurried)
-
-    def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
+    def draw(self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
         """Draw a converged solution and send it. Nothing else belongs here: it is the delay that the user feels.
 
         `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
         """
-        overlay = overlay_of(reading.sliders if reading.previewed else None, self.pin)
+        overlay = overlay_of(None if now.preview is None else now.sliders, self.context.pinboard.pinned)
         self.scene.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
         if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
-            self.scene.draw(solution, reading.view, overlay, pinned)
+            self.scene.draw(solution, now.view, overlay, pinned)
         if not only_azimuth:
-            self._views.show_plan(solution, reading.view, at_rest=False)
-        self.scene.camera.ride(math.radians(reading.view.azimuth_deg))
+            self._views.show_plan(solution, now.view, at_rest=False)
+        psi = math.radians(now.view.azimuth_deg)
+        self.scene.camera.ride(psi)
         # Only at harmonics does the lifted blade turn with the marked one.
         if not only_azimuth or solution.design.active_twist is not None:
-            design = reading.sliders or solution.design
-            self.actuator.draw(self._actuator_inputs, design, solution, math.radians(reading.view.azimuth_deg))
+            self.actuator.draw(now.hand.actuator, now.sliders or solution.design, solution, psi)
+        self.context.tracker.solved(now.inputs, solution.power.total)
 
     def now(self) -> PageState:
         """All that is known, for the panels that are functions of it; safe from any thread."""
         context = self.context
         return replace(
-            self._now,
+            self.latest,
             ui=OpenPanels(context.layout.mode, context.layout.drawer, context.held, self.actuator.lifted),
             pins=context.pinboard.now,
             steps=self.history.steps,
             station=self._curve.held,
             change=context.tracker.change,
             optimised=self.optimise.rival.solution,
-            searching=self.optimise.notice(self._now.sliders),
+            searching=self.optimise.notice(self.latest.sliders),
             memory=self.follower.memory,
             answers=self.follower.answers(),
         )
@@ -299,49 +251,50 @@ class Page:
         sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
         return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
 
-    def solved(self, inputs: Inputs, solution: Solution) -> None:
-        """A point of how power changes with the sliders."""
-        self.context.tracker.solved(inputs, solution.power.total)
-
-    def take(self, reading: Reading, state: SessionState) -> None:
-        """A converged state is what the page shows from now on."""
-        self.solved(state.inputs, state.solution)
-        self.context.analyses.forget_others(state.solution, state.reference, self.optimise.rival.solution)
-        self.follower.memory = self.follower.memory.then(state, self._now.state)
-        self._now = replace(self._read(reading), state=state, problem="")
-        self.file.follow(state)  # With the frame: whoever loads the page anew has what was seen.
-
-    def _read(self, reading: Reading) -> PageState:
-        """What was read in this update, in place of that of the last."""
-        hand = replace(self.actuator.hand(), actuator=self._actuator_inputs)
-        return replace(self._now, inputs=reading.inputs, sliders=reading.sliders, hand=hand)
-
-    def show_power_number(self) -> None:
-        """Power and what stands beside the hand, of a step whose charts are left out."""
-        self._learn()
-        self.follower.follow((POWER, HAND).__contains__)
-
-    def show_azimuth(self, state: SessionState) -> None:
-        """Only the azimuth of the reference blade changed."""
-        self._now = replace(self._now, state=state)
-        self.follower.follow(lambda panel: panel.turns)
-        self._tabs[0](state)
-
-    def show_results(self, reading: Reading, state: SessionState, curve: PowerCurve) -> None:
-        """Update what stands beside the picture, after every frame, and the tabs that start long work."""
-        self._now = replace(self._now, state=state, curve=curve)
-        with self.context.client.atomic():  # Each message by itself would wake the thread that sends.
-            self.optimise.rival.show(state)
-            self._refresh(reading)
-            self._curve.show(state)
-            self._learn()
-            self.follower.follow()
-            self.context.display.show(state)
-
-    def show_power(self, curve: PowerCurve) -> None:
-        """Draw power over advance ratio anew."""
-        self._now = replace(self._now, curve=curve)
-        self.follower.follow((STRIP,).__contains__)
+    def show(self, now: PageState, urgency: Urgency, stop: Callable[[], bool] = lambda: False) -> None:
+        """Have what is as urgent as this follow a converged state; what takes long ends at `stop`."""
+        last, self.latest, context, follow = self.latest.state, now, self.context, self.follower.follow
+        state = now.state
+        if state is None:
+            return
+        match urgency:
+            case "azimuth":
+                follow(lambda panel: panel.turns)
+                self._views.probe.show(state)
+            case "address":
+                context.analyses.forget_others(state.solution, state.reference, self.optimise.rival.solution)
+                self.follower.memory = self.follower.memory.then(state, last)
+                self.file.follow(state)
+            case "number":
+                self._learn()
+                follow((POWER, HAND).__contains__)
+            case "results":
+                with context.client.atomic():  # Each message by itself would wake the thread that sends.
+                    self.optimise.rival.show(state)
+                    self._refresh()
+                    self._curve.show(state)
+                    self._learn()
+                    follow()
+                    context.display.show(state)
+            case "tabs":
+                for show in context.following:
+                    show(state)
+            case "power":
+                follow((STRIP,).__contains__)
+            case "rest":  # Vortices, slopes of power and how sure it is.
+                self.scene.draw_at_rest()
+                self._views.show_plan(state.solution, state.view, at_rest=True)
+                self.follower.work(stop, soon=True)
+                if self._curve.held is not None:
+                    self._learn()
+                    follow((HAND,).__contains__)
+            case "kept":
+                self.file.follow(state)
+                self.file.keep()
+                self.history.store()
+            case "deferred":
+                self.history.solve_waiting(stop)
+                self.follower.work(stop, soon=False)
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""
@@ -349,43 +302,14 @@ class Page:
         if now.state is not None:
             self._curve.learn(now.state.inputs, now.state.solution.power.total, twist_slopes(now))
 
-    def follow(self, state: SessionState) -> None:
-        """Update what follows the panels."""
-        for show in self._tabs:
-            show(state)
-
-    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """Nothing moves: vortices, slopes of power and how sure it is."""
-        self.scene.draw_at_rest()
-        self._views.show_plan(state.solution, state.view, at_rest=True)
-        self.follower.work(stop, soon=True)
-        if self._curve.held is not None:
-            self._learn()
-            self.follower.follow((HAND,).__contains__)
-
-    def keep(self, state: SessionState) -> None:
-        """Keep what must survive a reload; before the power curve, since an early reload must find it."""
-        self.file.follow(state)
-        self.file.keep()
-        self.history.store()
-
-    def solve_deferred(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """Nothing has moved since: compute and save what could wait, until `stop`."""
-        self.rest(state, stop)
-        self.keep(state)
-        self.history.solve_waiting(stop)
-        self.follower.work(stop, soon=False)
-
-    def show_failure(self, failure: FailedTrim, curve: PowerCurve | None) -> None:
-        """The last converged picture stays, grey, beneath the sentence."""
-        reading = failure.reading
-        self._now = replace(self._read(reading), problem=failure.message, curve=curve)
-        self._refresh(reading)
+    def show_failure(self, now: PageState, good: Solution | None) -> None:
+        """Inputs without a solution: the picture, of the last converged one, stays, grey, beneath the sentence."""
+        self.latest = now
+        self._refresh()
         self.follower.follow()
-        for show in self._tabs:
+        for show in self.context.following:
             show(None)
-        pinned = self.context.pinboard.answer if reading.view.difference else None
-        self.scene.fade(failure.good, reading.view, pinned)
+        self.scene.fade(good, now.view, self.context.pinboard.answer if now.view.difference else None)
 
     def _nearest_trim(self) -> None:
         """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
@@ -394,7 +318,7 @@ class Page:
 
             def trims(inputs: Inputs) -> bool:
                 try:
-                    return solve(self.driven(inputs.design()), state.solution).converged
+                    return solve(self.latest.hand.actuator.apply(inputs.design()), state.solution).converged
                 except ValueError:
                     return False
 
@@ -402,25 +326,24 @@ class Page:
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
-        self._now = replace(self._now, problem=brief(sentence))
+        self.latest = replace(self.latest, problem=brief(sentence))
         self.follower.follow()
 
-    def _refresh(self, reading: Reading) -> None:
+    def _refresh(self) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
-        inputs, shown = reading.inputs, None
-        if reading.previewed and reading.design is not None:
-            shown = replace(with_optimum(inputs, reading.design), advance_ratio=reading.design.condition.advance_ratio)
-        self.context.controls.follow(shown)
-        self.context.controls.refresh(inputs, self.context.units)
-        self.optimise.refresh(reading.sliders)
-        self.map.refresh(reading.sliders)
-        self.schedule.refresh()
+        inputs, preview, shown, context = self.latest.inputs, self.latest.preview, None, self.context
+        if preview is not None:
+            shown = replace(with_optimum(inputs, preview), advance_ratio=preview.condition.advance_ratio)
+        context.controls.follow(shown)
+        context.controls.refresh(inputs, context.units)
+        for refresh in context.refreshing:
+            refresh(self.latest.sliders)
 
-    def _hold(self, held: bool) -> None:
+    def _hold(self, lecture: LecturePanel, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         context = self.context
-        context.held = held
-        for part in (context.controls, self.optimise, self.actuator, context.display, self.lecture, context.keyboard):
+        context.held = context.keyboard.held = held
+        for part in (context.controls, self.optimise, self.actuator.controls.form, context.display, lecture):
             part.hold(held)
         self.follower.follow(AT_ONCE.__contains__)
 
@@ -453,18 +376,18 @@ class Page:
             case _:
                 self.actuator.perform(effect)
 
-    def _default(self, label: str) -> None:
+    def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""
         mode = self.context.layout.mode
         if not self.context.held and mode == "explore":
-            self.context.controls.default(label, self._opening)
+            self.context.controls.default(label, opening)
         elif not self.context.held:
             (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(label)
 
-    def _reset(self) -> None:
+    def _reset(self, opening: Inputs) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""
         self.context.tracker.reset()
         self.optimise.withdraw()
-        self.actuator.reset()
+        self.actuator.perform(SetHand(BY_HAND, {"drives": AT_REST}))
         self.optimise.rival.begin(None)
-        self.context.controls.set_inputs(self._opening)
+        self.context.controls.set_inputs(opening)

@@ -11,21 +11,24 @@ import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import viser
 
 from explorer.charts.measured import set_shown
-from explorer.charts.plots import PowerCurve, PowerCurves
+from explorer.charts.plots import PowerCurves
 from explorer.hosting.messages import PageFacts
 from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
-from explorer.model.session_state import FailedTrim, Reading, SessionState
-from explorer.page import Page
+from explorer.model.session_state import SessionState
+from explorer.page import Page, Urgency
+from explorer.parts.presses import IdlePress
+from explorer.views.page_state import PageState
 from explorer.widgets.context import SharedServices
 from explorer.widgets.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
-from rotor import Solution
+from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
 from rotor.trim import DEFAULT_OPTIONS
 
@@ -44,8 +47,7 @@ class Session:
         self._latest: Solution | None = None
         self._good: Solution | None = None
         """The last converged solution: what the picture shows."""
-        self._state: SessionState | None = None
-        self._shown = threading.Event()
+        self.shown = threading.Event()
         """Set once the page has its first solution, or the sentence why there is none."""
         self._all_changed = True
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
@@ -55,12 +57,12 @@ class Session:
         # A link with A wakes it before the page is whole.
         self._worker = NewestWins(self._update, self._failed, held=True)
         self._client = client
-        callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
+        callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self.page.latest.state)
         self.page = Page(client, start, facts, shared, callbacks)
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
-        self.page.answer_when_idle(self._until_idle)
+        self.page.context.bridge.on("idle", self._answer_when_idle)
         self.page.start()
         self._wake()
         self._worker.release()
@@ -70,35 +72,34 @@ class Session:
         self.page.stop()
         self._worker.stop()
 
-    def until_shown(self, patience: float) -> None:
-        """Wait until the first solution is shown, at most `patience` [s]."""
-        self._shown.wait(patience)
-
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self) -> Iterator[float] | None:
         """One slider step up to its frame; returns the steps that follow, None where only the blade was turned."""
         before, self._begun = self._begun, time.monotonic()
         everything, self._all_changed = self._all_changed, False
-        reading = self._read()
-        solution = self._solve(reading)
+        now, design = self._read()
+        solution = self._solve(now, design)
         if solution is None:
             return iter(())
-        self._draw(reading, solution, everything)
+        page, pinboard, view = self.page, self.page.context.pinboard, now.view
+        # A is solved before the frame only where the scene shows it.
+        shown = view.difference or view.wipe
+        pinned = pinboard.solve(solution.design, self._overtaken()) if shown else None
+        page.draw(now, solution, pinned, only_azimuth=not everything)
         if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
-            self.page.solved(reading.inputs, solution)
             return iter(())
         as_built = baseline_of(solution.design)
         baseline = solution if as_built == solution.design else self._baseline.solve(as_built)
-        pinned = self.page.solve_pinned(solution.design, self._overtaken())
-        state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, self.page.pin)
-        last, self._state = self._state, state
-        if not everything and state.only_turned(last):
-            self.page.show_azimuth(state)
+        pinned = pinboard.solve(solution.design, self._overtaken())
+        state = SessionState(now.inputs, view, solution, baseline, pinned, pinboard.pinned)
+        now = replace(now, state=state)
+        if not everything and state.only_turned(page.latest.state):
+            page.show(now, "azimuth")
             return None
-        self.page.take(reading, state)
+        page.show(now, "address")
         if UPDATES.busy:  # The number goes with the frame: charts wait for those of other pages, and for their sweeps.
-            self.page.show_power_number()
-        return self._in_turn(self._follow(reading, state, self._begun - before < _DRAGGED))
+            page.show(now, "number")
+        return self._in_turn(self._follow(state, self._begun - before < _DRAGGED))
 
     @staticmethod
     def _in_turn(steps: Iterator[float]) -> Iterator[float]:
@@ -110,21 +111,20 @@ class Session:
                 return
             yield pause
 
-    def _read(self) -> Reading:
-        page = self.page
-        inputs, view = page.read()
+    def _read(self) -> tuple[PageState, Design | None]:
+        """What the page asks for at this instant, and the design to solve; None where it asks for none."""
+        now = self.page.read()
         try:
-            sliders = inputs.design()
-            design = page.driven(sliders)
+            sliders = now.inputs.design()
+            design = now.hand.actuator.apply(sliders)
         except ValueError as error:
-            return Reading(inputs, view, problem=str(error))
+            return replace(now, problem=str(error)), None
         # The designs of a search are shown without actuator, so a driven actuator takes precedence.
-        preview = page.optimise.preview(sliders) if design == sliders else None
-        return Reading(inputs, view, sliders, preview or design, preview is not None)
+        preview = self.page.optimise.preview(sliders) if design == sliders else None
+        return replace(now, sliders=sliders, preview=preview), preview or design
 
-    def _solve(self, reading: Reading) -> Solution | None:
+    def _solve(self, now: PageState, design: Design | None) -> Solution | None:
         """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""
-        design = reading.design
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
@@ -134,76 +134,70 @@ class Session:
                 return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
             self._latest = answer
         solution = self._latest
-        inputs = with_optimum(reading.inputs, design) if design and reading.previewed else reading.inputs
+        inputs = now.inputs if now.preview is None else with_optimum(now.inputs, now.preview)
         if self.page.pin_or_swap(inputs, solution):
             return None
         if solution is None or not solution.converged:
-            self._show_failure(FailedTrim(reading, solution, self._good))
+            self._show_failure(now if solution is None else replace(now, problem=solution.message))
             return None
         self._good = solution
         return solution
 
-    def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
-        """Solution → the frame. A is solved before the frame only where the scene shows it."""
-        wanted = reading.view.difference or reading.view.wipe
-        pinned = self.page.solve_pinned(solution.design, self._overtaken()) if wanted else None
-        self.page.show_frame(reading, solution, pinned, only_azimuth=not everything)
+    def _follow(self, state: SessionState, dragged: bool) -> Iterator[float]:
+        """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one.
 
-    def _follow(self, reading: Reading, state: SessionState, dragged: bool) -> Iterator[float]:
-        """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one."""
+        Each step shows the latest state: the blade may have been turned since.
+        """
         page, design, reference = self.page, state.solution.design, state.reference.design
 
-        def known() -> PowerCurve:
-            return self._curves.known(design, reference)
+        def show(*urgencies: Urgency) -> None:
+            for urgency in urgencies:
+                page.show(page.latest, urgency, self._overtaken)
 
-        def show_power() -> None:
-            page.show_power(known())
+        def show_with_curve(urgency: Urgency) -> None:
+            page.show(replace(page.latest, curve=self._curves.known(design, reference)), urgency)
 
         def sweep() -> bool:
             # On a test stand measured points take the place of power over µ.
             tested = set_shown(state.solution) is not None
-            return tested or self._curves.sweep(design, reference, self._overtaken, show_power)
+            return tested or self._curves.sweep(design, reference, self._overtaken, partial(show_with_curve, "power"))
 
-        page.show_results(reading, self._turned(state), known())
+        show_with_curve("results")
         yield 0.0
-        page.follow(self._turned(state))
-        self._shown.set()
+        show("tabs")
+        self.shown.set()
         yield 0.0
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
-        page.rest(self._turned(state), self._overtaken)
+        show("rest")
         yield 0.0
-        page.keep(self._turned(state))
+        show("kept")  # Before the power curve, since an early reload must find it.
         self._worker.answer()
         yield 0.0
         if sweep() and not self._overtaken():
             yield 0.0
-            page.solve_deferred(self._turned(state), self._overtaken)
+            show("rest", "kept", "deferred")
             yield 0.0
             if self._curves.widen(design, self._overtaken):
-                show_power()
+                show_with_curve("power")
 
-    def _turned(self, state: SessionState) -> SessionState:
-        """The state with the blade where it was turned to since."""
-        now = self._state
-        return now if now is not None and now.solution is state.solution else state
-
-    def _show_failure(self, failure: FailedTrim) -> None:
+    def _show_failure(self, now: PageState) -> None:
         """The last converged picture stays, grey, with the sentence."""
-        last = self._state
+        last = now.state
         curve = None if last is None else self._curves.known(last.solution.design, last.reference.design)
-        self.page.show_failure(failure, curve)
-        self._shown.set()
+        self.page.show_failure(replace(now, curve=curve), self._good)
+        self.shown.set()
 
     def _wake(self) -> None:
         self._all_changed = True
         self._worker.wake()
 
-    def _until_idle(self, wholly: bool) -> None:
-        """Wait until all that the page sent before is answered; `wholly`: and nothing is computed for it any more."""
+    def _answer_when_idle(self, asked: IdlePress) -> None:
+        """Give the page its number back once all that it sent before is answered (`RX.idle` of frame.js)."""
         wait_for_callbacks(self._client)
-        self._worker.until_answered(wholly)
+        self._worker.until_answered(asked.wholly)
+        self.page.context.bridge.set(idle=asked.serial)
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""
@@ -211,7 +205,7 @@ class Session:
 
     def _failed(self, error: Exception) -> None:
         """Nothing that the update may have left half done is used by the next."""
-        self._shown.set()
+        self.shown.set()
         self._latest = self._good = None
         self._all_changed = True
         self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()

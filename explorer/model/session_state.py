@@ -1,4 +1,4 @@
-"""A of A/B, the pinned design; and what one update of a session reads, solves and shows, as values."""
+"""A of A/B, the pinned design; and what one update of a session solves, as a value."""
 
 from collections import deque
 from dataclasses import dataclass, field, replace
@@ -245,35 +245,3 @@ class SessionState:
     def reference(self) -> Solution:
         """The solution that the read-outs compare with."""
         return self.baseline if self.pinned is None else self.pinned
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """What the page asks for at one instant: the design on the sliders, or why there is none, in one sentence.
-
-    `design`: what to solve, that on the sliders with the actuator's twist or, if `previewed`, one that a search found.
-    """
-
-    inputs: Inputs
-    view: ViewState
-    sliders: Design | None = None
-    design: Design | None = None
-    previewed: bool = False
-    problem: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class FailedTrim:
-    """Inputs without a solution: the one that did not converge, None where they mean no design.
-
-    `good`: the last converged one, which the picture still shows.
-    """
-
-    reading: Reading
-    solution: Solution | None
-    good: Solution | None
-
-    @property
-    def message(self) -> str:
-        """Why there is no solution, in one sentence."""
-        return self.reading.problem if self.solution is None else self.solution.message

@@ -331,14 +331,14 @@ class Address:
         self._waiting: threading.Timer | None = None
         self._unread: dict[str, list[str | None]] = {}
         """Names whose value could not be read, with what the page opened with instead, once that is known."""
+        self.problems: list[tuple[str, str]] = []
+        """A title and a sentence for each value that could not be read."""
 
     def __getitem__(self, name: str) -> str | None:
         return parameter(self.query, name)
 
-    def read(
-        self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
-    ) -> _Part:
-        """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`.
+    def read(self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str) -> _Part:
+        """The meaning of a name's value; `usual` where there is none or a bad one, a problem under `title`.
 
         A bad value stays in the address until the page shows something else than it opened with: whoever wrote it can
         mend it there.
@@ -350,7 +350,7 @@ class Address:
             with refusing(f"What the address holds as {name!r}", "ask for a new link"):
                 return meaning(value)
         except ValueError as error:
-            problems.append((title, str(error)))
+            self.problems.append((title, str(error)))
             self._unread[name] = []
             return usual
 

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import HandSettings
-from explorer.model.inputs import Inputs
+from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionState
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
@@ -63,6 +63,9 @@ class PageState:
     """The design that the inputs mean, without the actuator's twist; None where they mean none."""
     state: SessionState | None
     """The last converged one; None before the first."""
+    view: ViewState = field(default_factory=ViewState)
+    preview: Design | None = None
+    """That of a search which is shown in place of the sliders."""
     problem: str = ""
     """Why the present inputs have no solution, in one sentence; empty where they have one."""
     ui: OpenPanels = OpenPanels()

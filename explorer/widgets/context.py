@@ -4,20 +4,22 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import viser
 
 from explorer.hosting.browser import Bridge
-from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Analyses, Pinboard, SessionState
+from explorer.model.inputs import Inputs
+from explorer.model.session_state import Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import Units, units_of
 from explorer.sharing.presentation import Presentations
-from explorer.widgets.controls import DesignControls
+from explorer.views.page_state import PageState
+from explorer.widgets.controls import DesignControls, SessionCallbacks
 from explorer.widgets.display import Display
 from explorer.widgets.layout import Keyboard, Layout
 from explorer.workers.background import LongWork
+from rotor import Design
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
@@ -35,35 +37,31 @@ class SharedServices:
     presentations: Presentations
 
 
-@dataclass
 class TabContext:
-    """One page's. What a part may call is safe from any thread."""
+    """One page's: its frame, the sliders of Explore, and what its parts share. Safe from any thread."""
 
-    client: viser.ClientHandle
-    bridge: Bridge
-    keyboard: Keyboard
-    layout: Layout
-    display: Display
-    controls: DesignControls
-    tracker: PowerTracker
-    analyses: Analyses
-    pinboard: Pinboard
-    pool: Processes
-    work: LongWork
-    wake: Callable[[], None]
-    """Have the page follow."""
-    state: Callable[[], SessionState | None]
-    """The last converged state; None before the first."""
-    leaving: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]])
-    """Called once the browser has left: end threads and jobs."""
-    held: bool = False
-    """Whether a presenter moves the page."""
-    whole: threading.RLock = field(default_factory=threading.RLock)
-    """Held while the page is put into another state, or read: no update sees half of one."""
-
-    @property
-    def gui(self) -> viser.GuiApi:
-        return self.client.gui
+    def __init__(
+        self, client: viser.ClientHandle, start: PageState, shared: SharedServices, callbacks: SessionCallbacks
+    ) -> None:
+        self.client, self.gui, self.bridge, self.pool = client, client.gui, Bridge(client), shared.pool
+        self.wake, self.state = callbacks.wake, callbacks.state
+        self.tracker, self.pinboard = PowerTracker(), Pinboard(start.analyses.solve)
+        self.analyses, self.work = start.analyses, LongWork(shared.pool, callbacks.wake)
+        self.keyboard, self.layout = Keyboard(client, self.bridge), Layout(client.gui, self.bridge)
+        self.layout.watchers.append(callbacks.wake)
+        self.display = Display(self.bridge, start.view, callbacks.wake, callbacks.azimuth_changed)
+        with self.layout.modes["explore"]:
+            self.controls = DesignControls(client.gui, self.bridge, start.inputs, self.tracker, callbacks)
+        self.refreshing: list[Callable[[Design | None], None]] = []
+        """Called after every frame with the design on the sliders; None: they mean none."""
+        self.following: list[Callable[[SessionState | None], None]] = []
+        """Called once the panels have followed an update; None: the inputs have no solution."""
+        self.leaving: list[Callable[[], None]] = []
+        """Called once the browser has left: end threads and jobs."""
+        self.held = False
+        """Whether a presenter moves the page."""
+        self.whole = threading.RLock()
+        """Held while the page is put into another state, or read: no update sees half of one."""
 
     def inputs(self) -> Inputs:
         return self.controls.inputs()
@@ -78,12 +76,9 @@ class TabContext:
         self.tracker.touch()
         self.controls.set_inputs(inputs)
 
-    def view(self) -> ViewState:
-        return self.display.view()
-
     @property
     def units(self) -> Units:
-        return units_of(self.display.view().units, self.controls.aircraft)
+        return units_of(self.display.view.units, self.controls.aircraft)
 
     def pin(self, inputs: Inputs | None) -> None:
         """Pin these inputs as A, whatever is on the sliders; None removes the pin."""

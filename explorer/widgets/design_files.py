@@ -135,6 +135,10 @@ class FilePanel:
         context.keyboard.bind("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())
         self._load.on_upload(self._loaded)
+        inputs_from = partial(share.inputs_from, kept=kept.get(share.PINNED))
+        pinned = address.read(share.PINNED, inputs_from, None, "Link: A not used")
+        if pinned is not None:
+            context.pin(pinned)
 
     def follow(self, state: SessionState) -> None:
         """Bring the address into line with the design, with the one that is pinned, and with the view."""
@@ -162,13 +166,6 @@ class FilePanel:
         except ValueError:
             self._records[name] = design.to_dict()
             return share.KEPT
-
-    def begin(self, problems: list[tuple[str, str]]) -> None:
-        """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read."""
-        inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED))
-        pinned = self._address.read(share.PINNED, inputs_from, None, "Link: A not used", problems)
-        if pinned is not None:
-            self._context.pin(pinned)
 
     def copy_link(self) -> None:
         """The link of what is shown into the clipboard; the address is the same."""

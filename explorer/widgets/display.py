@@ -29,10 +29,12 @@ class Display:
         """`changed`: something is shown otherwise. `turned`: it was only the reference blade."""
         self._bridge, self._changed, self._turned = bridge, changed, turned
         self._lock = threading.RLock()
-        self._view = replace(start, difference=False)
+        self.view = replace(start, difference=False)
         self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
-        self._allowed = self._held = self._playing = self._fitted = self._faded = False
+        self._allowed = self._held = self._playing = self._faded = False
+        self.fitted = False
+        """Whether a fitted colour range was asked for, not the field's own."""
         self._stalled = ""
         self._fields = list(FIELDS)
         self._range: tuple[Field, tuple[float, float]] | None = None
@@ -43,20 +45,17 @@ class Display:
         bridge.on("azimuth", self._turn_by_hand)
         self._show_turn()
 
-    def view(self) -> ViewState:
-        return self._view
-
     def set_view(self, view: ViewState) -> None:
         with self._lock:
             self._awaited = view.difference and not self._allowed
-            self._view = replace(view, difference=view.difference and self._allowed)
+            self.view = replace(view, difference=view.difference and self._allowed)
         self._show_turn()
         self._show_field()
         self._changed()
 
     def turn(self, azimuth_deg: float) -> None:
         with self._lock:
-            self._view = replace(self._view, azimuth_deg=azimuth_deg % 360.0)
+            self.view = replace(self.view, azimuth_deg=azimuth_deg % 360.0)
         self._show_turn()
         self._turned()
 
@@ -69,10 +68,6 @@ class Display:
         self._held = held
         self._show_turn()
         self._show_field()
-
-    def order_range(self, order: str) -> None:
-        """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
-        self._fitted = order == "Rescale"
 
     def show_range(
         self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
@@ -94,9 +89,9 @@ class Display:
             if allowed == self._allowed:
                 return
             self._allowed = allowed
-            wanted = allowed and (self._awaited or self._view.difference)
+            wanted = allowed and (self._awaited or self.view.difference)
             self._awaited = False
-            self._view = replace(self._view, difference=wanted)
+            self.view = replace(self.view, difference=wanted)
         self._show_field()
         self._changed()
 
@@ -104,25 +99,25 @@ class Display:
         if self._held:
             return
         with self._lock:
-            self._view = replace(self._view, **values)
+            self.view = replace(self.view, **values)
         self._show_field()
         self._changed()
 
     def _switch_region(self, name: str) -> None:
         if name in REGIONS or (name == "wipe" and self._allowed):
-            self._change(**{name: not getattr(self._view, name)})
+            self._change(**{name: not getattr(self.view, name)})
 
     def _turn_by_hand(self, azimuth_deg: float) -> None:
         if not self._held:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        self._bridge.set(turn=TurnPart(self._view.azimuth_deg, self._playing, self._held))
+        self._bridge.set(turn=TurnPart(self.view.azimuth_deg, self._playing, self._held))
 
     def _show_field(self) -> None:
         if self._range is None:
             return
-        (field, range_), view = self._range, self._view
+        (field, range_), view = self._range, self.view
         self._bridge.set(
             field=FieldPart(
                 fields=[title for title in FIELDS if title in self._fields or title == view.field],
@@ -131,7 +126,7 @@ class Display:
                 colours=_bar(field.colours),
                 ticks=bar_ticks(*range_),
                 faded=self._faded,
-                fitted=self._fitted,
+                fitted=self.fitted,
                 regions={name: getattr(view, name) for name in REGIONS},
                 stalled=self._stalled,
                 difference=view.difference if self._allowed else None,

@@ -82,7 +82,7 @@ class ExportPanel:
         """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
         client, view = self._context.client, state.view
         height = round(_WIDTH / client.camera.aspect)
-        self._actuator.show_leaders(False)  # To labels, which are not in the scene.
+        self._actuator.blade.show_leaders(False)  # To labels, which are not in the scene.
         try:
             pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
             if pixels.shape[:2] != (height, _WIDTH):
@@ -90,7 +90,7 @@ class ExportPanel:
         except RuntimeError as error:  # The browser has left, or cannot draw.
             raise ValueError(f"The page sent no picture ({error}): press again.") from None
         finally:
-            self._actuator.show_leaders(True)
+            self._actuator.blade.show_leaders(True)
         above, below = self._scene.camera.covered
         seen = pixels[round(above * height) : height - round(below * height)]
         return view_png(seen, state.solution, self._scene.scale, self._context.units, view.dark, self._driven())

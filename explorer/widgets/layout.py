@@ -44,13 +44,15 @@ class Layout:
         self.watchers: list[Callable[[], None]] = []
         """Called after another mode or drawer is shown."""
         gui.main_panel.dock_right()
-        self._modes = {mode: gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        self.modes = {mode: gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        """Where the widgets of each mode go, as a context."""
         self._panel = gui.add_panel(visible=False)
-        self._drawers: dict[str, viser.GuiFolderHandle] = {}
+        self.drawers: dict[str, viser.GuiFolderHandle] = {}
+        """Where the widgets of each drawer go, as a context."""
         with self._panel.add_tab("Drawer"):
             for name, title in DRAWERS.items():
-                self._drawers[name] = gui.add_folder(None, visible=False)
-                with self._drawers[name]:
+                self.drawers[name] = gui.add_folder(None, visible=False)
+                with self.drawers[name]:
                     close = tag("button", "×", data_do="drawer", data_value="", aria_label="Close", title="Close (Esc)")
                     gui.add_html(tag("div.rxp-title", title, close, data_explorer="drawer", data_name=name))
         self._panel.dock_left()
@@ -58,28 +60,20 @@ class Layout:
         bridge.on("mode", self.show_mode)
         bridge.on("drawer", self.show_drawer)
 
-    def in_mode(self, mode: Mode) -> viser.GuiFolderHandle:
-        """Where the widgets of a mode go, as a context."""
-        return self._modes[mode]
-
-    def in_drawer(self, name: str) -> viser.GuiFolderHandle:
-        """Where the widgets of a drawer go, as a context; KeyError for a name without one."""
-        return self._drawers[name]
-
     def show_mode(self, mode: Any) -> None:
         """Change what the rail holds; a name that is no mode is passed over."""
         if mode not in MODES:
             return
         self.mode = mode
-        for name, folder in self._modes.items():
+        for name, folder in self.modes.items():
             folder.visible = name == mode
         self._tell()
 
     def show_drawer(self, name: str) -> None:
         """Open a drawer in place of another; one that is open, or the empty name, closes it."""
-        name = "" if name == self.drawer or name not in self._drawers else name
+        name = "" if name == self.drawer or name not in self.drawers else name
         before, self.drawer = self.drawer, name
-        for title, folder in self._drawers.items():
+        for title, folder in self.drawers.items():
             if title in (before, name):
                 folder.visible = title == name
         self._panel.visible = bool(name)
@@ -186,7 +180,8 @@ class Keyboard:
     def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
-        self._held = False
+        self.held = False
+        """Whether a presenter has what is the presenter's."""
         self._acting = threading.Lock()
         """Two keys pressed at once must not both read the inputs before either has written them."""
         bridge.set(coarse=COARSE)
@@ -205,16 +200,12 @@ class Keyboard:
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
 
         def act(_: Any) -> None:
-            if not (self._held and is_for_presenter(name)):
+            if not (self.held and is_for_presenter(name)):
                 with self._acting:
                     action()
 
         command.on_trigger(act)
         self._commands[name] = command
-
-    def hold(self, held: bool) -> None:
-        """Leave to a presenter what is the presenter's, or give it back."""
-        self._held = held
 
     def show(self) -> None:
         """The list of keys, over the page; shown a second time it goes."""

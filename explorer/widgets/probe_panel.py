@@ -134,8 +134,7 @@ class RideAlong:
         self._shown: Solution | None = None
 
     def begin(self, solution: Solution, r: float, psi_deg: float) -> None:
-        if self._scene.camera is not None:
-            self._scene.camera.hold(True)
+        self._scene.camera.hold(True)
         self._context.layout.show_drawer("")
         self._scene.play(True)
         self._at, self._shown = (r, psi_deg), None
@@ -153,8 +152,7 @@ class RideAlong:
         self._context.bridge.set(ride=None)
         if not self._playing():
             self._scene.play(False)
-        if self._scene.camera is not None:
-            self._scene.camera.hold(False)
+        self._scene.camera.hold(False)
 
 
 LONGEST = 600.0
@@ -176,7 +174,8 @@ class ProbePanel:
 
     def __init__(self, context: TabContext, scene: SceneController) -> None:
         client, self._context, self._scene = context.client, context, scene
-        self._seen = True
+        self.seen = True
+        """Whether the disk is in the scene, to be clicked."""
         self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = Markup()
         self._cursor = ProbeCursor(client.scene, context.bridge)
@@ -220,7 +219,7 @@ class ProbePanel:
             return
         if self._follow.value:
             # Where the blade is by now: an older place would pull a slider that is dragged back.
-            self._psi.value = self._context.view().azimuth_deg
+            self._psi.value = self._context.display.view.azimuth_deg
         solution = state.solution
         self._ride.show(solution)
         # The first step of r/R on the blade.
@@ -264,10 +263,6 @@ class ProbePanel:
         self._panel.content = faded(self._html)
         self._cursor.hide()
 
-    def set_seen(self, seen: bool) -> None:
-        """Whether the disk is in the scene, to be clicked."""
-        self._seen = seen
-
     def point(self, at: SectionPress) -> None:
         """A place on the disk was clicked: the drawer shows the section there."""
         self._set(at.r, float(round(at.psi) % 360))
@@ -306,7 +301,7 @@ class ProbePanel:
         with self._hand:
             if not self._player.playing:
                 return
-            now = self._context.view().azimuth_deg
+            now = self._context.display.view.azimuth_deg
             self._left -= seconds
             if (self._walked is not None and now != self._walked) or self._left <= 0.0:
                 self._pause()  # The user has taken the blade, or gone.
@@ -315,7 +310,7 @@ class ProbePanel:
             self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
-        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
+        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self.seen, self._opened.value)
 
     def _set(self, r: float, psi_deg: float | None = None) -> None:
         """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
@@ -346,10 +341,10 @@ class ProbePanel:
 
     def _clicked(self, event: viser.SceneClickEvent) -> None:
         state = self._context.state()
-        if state is None or not self._seen:
+        if state is None or not self.seen:
             return
         origin = np.array(event.ray_origin) - self._scene.scene.rotor.frame.position
-        on_blade = pick_blade(state.solution, self._context.view(), origin, event.ray_direction)
+        on_blade = pick_blade(state.solution, self._context.display.view, origin, event.ray_direction)
         picked = on_blade or pick(state.solution, origin, event.ray_direction)
         if picked is not None:
             self._set(picked[0], picked[1] if on_blade else round(math.degrees(picked[1])) % 360)

@@ -17,11 +17,11 @@ def drawer_texts(context: TabContext) -> Mapping[str, Callable[[Any], None]]:
     def text(content: Markup) -> Callable[[Markup], None]:
         return partial(setattr, gui.add_html(content), "content")
 
-    with layout.in_drawer("details"):
+    with layout.drawers["details"]:
         power, trim = text(Markup()), text(Markup())
         gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", WATERFALL_WORDS))
         waterfall = text(waterfall_chart(()))
-    with layout.in_drawer("trust"):
+    with layout.drawers["trust"]:
         status, doubts = text(status_panel(None)), text(Markup())
         gui.add_html(trust_page())
     return {

@@ -38,7 +38,7 @@ _TIMES = {f"×{times:g}": times for times in (1.0, 2.0, 4.0)}
 class SettingsPanel:
     def __init__(self, context: TabContext) -> None:
         self._context, gui, bind = context, context.gui, context.keyboard.bind
-        view = context.view()
+        view = context.display.view
         self._themed = view.dark
         self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
@@ -50,15 +50,15 @@ class SettingsPanel:
         self._big.on_update(lambda _: self._enlarge())
         words = tag("p", "Keys: press ", tag("b", "?"), " for the list, Ctrl+K to find a command.")
         gui.add_html(tag("div.rx.rx-dim.rx-small", words))
-        bind("units", lambda: self._change(units=_after(tuple(UNITS), context.view().units)))
-        bind("dark", lambda: self._change(dark=not context.view().dark))
+        bind("units", lambda: self._change(units=_after(tuple(UNITS), context.display.view.units)))
+        bind("dark", lambda: self._change(dark=not context.display.view.dark))
         bind("field_next", lambda: self._step_field(1))
         bind("field_previous", lambda: self._step_field(-1))
 
     def show(self, state: SessionState | None) -> None:
         """Follow the view, which keys change too."""
         del state
-        view = self._context.view()
+        view = self._context.display.view
         if view.dark != self._themed:
             self._themed = view.dark
             theme(self._context.client, view.dark)
@@ -67,11 +67,11 @@ class SettingsPanel:
 
     def _change(self, **values: object) -> None:
         display = self._context.display
-        display.set_view(replace(display.view(), **values))  # pyright: ignore[reportArgumentType]
+        display.set_view(replace(display.view, **values))  # pyright: ignore[reportArgumentType]
 
     def _step_field(self, step: int) -> None:
         """The next quantity that there is, or the one before."""
-        state, shown = self._context.state(), self._context.view().field
+        state, shown = self._context.state(), self._context.display.view.field
         titles = [t for t in FIELDS if state is None or t == shown or FIELDS[t].exists(state.solution)]
         self._change(field=_after(tuple(titles), shown, step))
 
@@ -93,7 +93,7 @@ _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": 
 
 class SceneViews:
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
-        self._context, self._scene, self._probe, self._actuator = context, scene, probe, actuator
+        self._context, self._scene, self.probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
         self._mode = context.layout.mode
         self._on_blade: Callable[[float], Camera] | None = None
@@ -119,14 +119,14 @@ class SceneViews:
         """What is on screen, searches apart: the design is the user's own."""
         context, hand = self._context, self._actuator.hand()
         return ScreenState(
-            context.inputs(), context.view(), context.pinboard.inputs, context.layout.mode, self.now, hand
+            context.inputs(), context.display.view, context.pinboard.inputs, context.layout.mode, self.now, hand
         )
 
     def put(self, wanted: ScreenState) -> None:
         """Show this, all at once. Units and theme stay, because they belong to the room, not to the design."""
         context, layout = self._context, self._context.layout
         with context.whole:
-            view = context.view()
+            view = context.display.view
             if view != (other := replace(wanted.view, units=view.units, dark=view.dark)):
                 context.display.set_view(other)
             if wanted.against != context.pinboard.inputs:
@@ -183,7 +183,7 @@ class SceneViews:
 
     def _colour(self, order: str) -> None:
         """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
-        self._context.display.order_range(order)
+        self._context.display.fitted = order == "Rescale"
         self._scene.order_range(order)
         self._context.wake()
 
@@ -204,7 +204,7 @@ class SceneViews:
             return
         self._actuator.lift(out)
         self._scene.set_behind(out)
-        self._probe.set_seen(not out)
+        self.probe.seen = not out
         if out:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)

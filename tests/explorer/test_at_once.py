@@ -69,7 +69,7 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
 
 def answers(session: Session) -> tuple[float, float]:
     """Relative difference of the page's power and of its gradient from those of the same design solved alone."""
-    state = session._state
+    state = session.page.latest.state
     alone = solve(state.solution.design).require()
     here, there = power_gradient(state.solution).by_element, power_gradient(alone).by_element
     power = abs(state.solution.power.total / alone.power.total - 1.0)
@@ -118,7 +118,8 @@ def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, se
     notices, sessions = ran(visit, seconds + 4.0 * PATIENCE)
     assert notices == []
     assert len(sessions) == pages
-    designs = {session._state.solution.design for session in sessions if session._state is not None}
+    states = [session.page.latest.state for session in sessions]
+    designs = {state.solution.design for state in states if state is not None}
     assert len(designs) == pages
     assert sum(design.models.bending for design in designs) == pages // 2
     for session in sessions:

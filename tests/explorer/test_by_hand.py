@@ -14,7 +14,8 @@ from explorer.page import Page
 from explorer.parts.presses import PRESSES
 from explorer.sharing.presentation import follow_name
 from explorer.sharing.share import code_of
-from tests.tools.visitor import Visitor, arrived, ran
+from explorer.widgets.lecture.lecture_panel import LecturePanel
+from tests.tools.visitor import Visitor, arrived, part_of, ran
 
 SENT: dict[str, Any] = {
     "along": False, "hold": True, "field": "Lift", "region": "stall", "mode": "actuate", "drawer": "open",
@@ -97,9 +98,10 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
-    view, hand = page.context.display.view(), page.actuator.hand()
-    return (page.context.controls.inputs(), page.pin, page.optimise.run, page.optimise.rival.solution, hand.on_stage,
-            hand.actuator.drives, view.field, view.difference, page.lecture.place)  # fmt: skip
+    view, hand = page.context.display.view, page.actuator.hand()
+    run, optimised, place = page.optimise.run, page.optimise.rival.solution, part_of(page, LecturePanel).place
+    return (page.context.controls.inputs(), page.context.pinboard.pinned, run, optimised, hand.on_stage,
+            hand.actuator.drives, view.field, view.difference, place)  # fmt: skip
 
 
 def test_no_press_changes_a_page_that_a_presenter_holds(app: App):
@@ -159,7 +161,10 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
         for a, b in ((-3.0, 0.0), (0.0, -3.0)):
             await visitor.press("swap")
             await visitor.idle()
-            assert (page.pin.inputs.built_inner, page.context.controls.inputs().built_inner) == (a, b)
+            assert (page.context.pinboard.pinned.inputs.built_inner, page.context.controls.inputs().built_inner) == (
+                a,
+                b,
+            )
 
     visited(app, swap)
 

@@ -141,17 +141,16 @@ def test_the_changed_twist_as_built_is_again_on_its_sliders():
 
 
 class TestUnreadable:
-    def opened(self, query: str) -> tuple[Address, list[str], list[tuple[str, str]]]:
+    def opened(self, query: str) -> tuple[Address, list[str]]:
         written: list[str] = []
-        problems: list[tuple[str, str]] = []
         address = Address(query, written.append, pause=0.0)
-        assert address.read(DESIGN, inputs_from, OPENING, "Link: design not used", problems) == OPENING
-        return address, written, problems
+        assert address.read(DESIGN, inputs_from, OPENING, "Link: design not used") == OPENING
+        return address, written
 
     def test_it_is_said_and_stays_in_the_address_until_the_design_changes(self):
-        address, written, problems = self.opened("?d=1;bent:3;mu=0.3&v=1;field=mach")
-        assert [title for title, _ in problems] == ["Link: design not used"]
-        assert "'bent:3' is not known" in problems[0][1]
+        address, written = self.opened("?d=1;bent:3;mu=0.3&v=1;field=mach")
+        assert [title for title, _ in address.problems] == ["Link: design not used"]
+        assert "'bent:3' is not known" in address.problems[0][1]
         opening = code_of(OPENING.design())
         for _ in range(3):
             address[DESIGN] = opening
@@ -164,7 +163,7 @@ class TestUnreadable:
         assert written[1:] == [f"?d={changed}", f"?d={opening}"]
 
     def test_a_copied_link_holds_what_is_shown(self):
-        address, _, _ = self.opened("?d=1;bent:3")
+        address, _ = self.opened("?d=1;bent:3")
         opening = code_of(OPENING.design())
         address[DESIGN] = opening
         address.write_over()

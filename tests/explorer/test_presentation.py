@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-from typing import Any
 
 import pytest
 
@@ -12,7 +11,7 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import ScreenState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
-from tests.tools.visitor import Visitor, ran
+from tests.tools.visitor import Visitor, part_of, ran
 
 SHOWN = PresentedView(ScreenState(Inputs(), ViewState()))
 
@@ -31,8 +30,7 @@ def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str
         await visitor.open(app.address)
         await visitor.until(lambda: len(app.sessions) == 1)
         page = app.sessions[0].page
-        follows: list[Any] = [getattr(show, "__self__", None) for show in page._tabs]
-        (banner,) = (one for one in follows if isinstance(one, PresentationBanner))
+        banner = part_of(page, PresentationBanner)
         await asyncio.to_thread(banner.present)
         page.file.copy_link()
         assert banner._secret

@@ -3,7 +3,6 @@
 import threading
 import time
 from dataclasses import replace
-from inspect import signature
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,64 +12,57 @@ from explorer import session as session_module
 from explorer.charts import plots
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
-from explorer.model.session_state import Analyses, FailedTrim, Reading, SessionState
-from explorer.page import Page
+from explorer.model.session_state import Analyses
+from explorer.page import Urgency
 from explorer.session import Session
+from explorer.views.page_state import PageState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
-from rotor import Design, Solution
+from rotor import Design, Solution, solve
+from tests.fake_bridge import Bridge
 
 
 class RecordingPage:
-    """A page without widgets: its inputs are set by the test, its calls are listed."""
+    """A page without widgets: the test sets what it reads, and what the session has it show is listed."""
 
     def __init__(self, *_: Any) -> None:
         self.inputs, self.view = Inputs(), ViewState()
+        self.latest = PageState(self.inputs, None, None)
         self.calls: list[str] = []
+        """In order; a call of `show` by its urgency."""
         self.frames: list[SimpleNamespace] = []
         """What each frame showed."""
-        self.states: list[SessionState] = []
-        self.failures: list[FailedTrim] = []
+        self.states: list[PageState] = []
+        """What was shown beside a frame, or in its place."""
         self.found: Design | None = None
         self.moves_sliders = False
-        self.pin = None
-        self.context = SimpleNamespace(analyses=Analyses())
+        pinboard = SimpleNamespace(pinned=None, solve=lambda *_: self.calls.append("solve A"))
+        self.context = SimpleNamespace(analyses=Analyses(), pinboard=pinboard, bridge=Bridge())
         self.optimise = SimpleNamespace(preview=lambda design: self.found)
 
-    def __getattr__(self, name: str) -> Any:
-        """Any call that `Page` answers, with arguments that it takes."""
-        called = signature(getattr(Page, name))
-
-        def record(*arguments: Any, **named: Any) -> None:
-            called.bind(self, *arguments, **named)
-            self.calls.append(name)
-
-        return record
-
-    def read(self) -> tuple[Inputs, ViewState]:
+    def read(self) -> PageState:
         self.calls.append("read")
-        return self.inputs, self.view
-
-    def driven(self, design: Design) -> Design:
-        return design
+        return replace(self.latest, inputs=self.inputs, view=self.view, sliders=None, preview=None, problem="")
 
     def pin_or_swap(self, *_: Any) -> bool:
         self.calls.append("pin_or_swap")
         return self.moves_sliders
 
-    def solve_pinned(self, *_: Any) -> None:
-        self.calls.append("solve_pinned")
+    def draw(self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
+        self.calls.append("draw")
+        self.frames.append(SimpleNamespace(now=now, solution=solution, only_azimuth=only_azimuth))
 
-    def show_frame(self, reading: Reading, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
-        self.calls.append("show_frame")
-        self.frames.append(SimpleNamespace(reading=reading, solution=solution, only_azimuth=only_azimuth))
+    def show(self, now: PageState, urgency: Urgency, stop: Any = None) -> None:
+        self.latest = now
+        self.calls.append(urgency)
+        self.states.append(now)
 
-    def show_results(self, _: Any, state: SessionState, curve: Any) -> None:
-        self.calls.append("show_results")
-        self.states.append(state)
-
-    def show_failure(self, failure: FailedTrim, curve: Any) -> None:
+    def show_failure(self, now: PageState, good: Solution | None) -> None:
+        self.latest, self.good = now, good
         self.calls.append("show_failure")
-        self.failures.append(failure)
+        self.states.append(now)
+
+    def show_error(self, sentence: str) -> None:
+        self.latest = replace(self.latest, problem=sentence)
 
 
 @pytest.fixture
@@ -108,12 +100,12 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
             time.sleep(0.05)
             super().__init__(*arguments)
 
-        def answer_when_idle(self, wait: Any) -> None: ...
-
         def start(self) -> None: ...
 
-        def follow(self, *arguments: Any) -> None:
-            shown.set()
+        def show(self, now: PageState, urgency: Urgency, stop: Any = None) -> None:
+            super().show(now, urgency)
+            if urgency == "tabs":
+                shown.set()
 
     monkeypatch.setattr(session_module, "Page", WakingPage)
     monkeypatch.setattr(Session, "_failed", lambda _, error: failures.append(error))
@@ -127,11 +119,10 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
 
 def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
-    assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
-    assert page.calls[3:7] == ["solve_pinned", "take", "show_results", "follow"]
-    assert page.calls[-1] == "solve_deferred"
-    assert page.calls.index("follow") < page.calls.index("solve_deferred")
-    assert page.frames[-1].solution is page.states[-1].solution
+    assert page.calls[:3] == ["read", "pin_or_swap", "draw"]
+    assert page.calls[3:7] == ["solve A", "address", "results", "tabs"]
+    assert page.calls[-1] == "deferred"
+    assert page.frames[-1].solution is page.states[-1].state.solution
 
 
 def test_inputs_without_a_design_keep_the_last_picture(session: Session):
@@ -140,20 +131,21 @@ def test_inputs_without_a_design_keep_the_last_picture(session: Session):
     page.inputs = replace(Inputs(), law="three", three_inner_break=0.7, three_outer_break=0.6)
     update(session)
     assert page.calls == ["read", "pin_or_swap", "show_failure"]
-    failure = page.failures[-1]
-    assert failure.good is good
-    assert failure.solution is None
-    assert "out of order" in failure.message
+    assert page.good is good
+    assert page.latest.state.solution is good
+    assert page.latest.sliders is None
+    assert "out of order" in page.latest.problem
 
 
 def test_trim_that_does_not_converge_shows_its_own_sentence(session: Session):
     page: Any = session.page
     page.inputs = replace(Inputs(), advance_ratio=0.45, mass_t=11.0, altitude_m=4000.0, inflow="drees")
     update(session)
-    failure = page.failures[-1]
-    assert not failure.solution.converged
-    assert failure.message == failure.solution.message
-    assert "show_frame" not in page.calls
+    refused = solve(page.inputs.design())
+    assert not refused.converged
+    assert page.latest.problem == refused.message
+    assert page.latest.state is None
+    assert "draw" not in page.calls
 
 
 def test_azimuth_alone_updates_little(session: Session):
@@ -162,7 +154,7 @@ def test_azimuth_alone_updates_little(session: Session):
     page.view = replace(page.view, azimuth_deg=75.0)
     session._all_changed = False
     assert session._update() is None
-    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_azimuth"]
+    assert page.calls == ["read", "pin_or_swap", "draw", "solve A", "azimuth"]
     assert page.frames[-1].only_azimuth
 
 
@@ -170,10 +162,9 @@ def test_search_is_shown_in_place_of_the_sliders(session: Session):
     page: Any = session.page
     page.found = replace(Inputs(), two_inner=-9.0).design()
     update(session)
-    reading = page.frames[-1].reading
-    assert reading.previewed
-    assert page.frames[-1].solution.design == page.found
-    assert reading.sliders == Inputs().design()
+    now = page.frames[-1].now
+    assert now.preview == page.frames[-1].solution.design == page.found
+    assert now.sliders == Inputs().design()
 
 
 def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -181,7 +172,7 @@ def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: 
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
     update(session)
-    assert page.calls[-4:] == ["rest", "keep", "sweep", "solve_deferred"]
+    assert page.calls[-6:] == ["rest", "kept", "sweep", "rest", "kept", "deferred"]
 
 
 def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -189,7 +180,7 @@ def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, mon
     monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3, busy=True))
     page: Any = session.page
     session._update()
-    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "take", "show_power_number"]
+    assert page.calls == ["read", "pin_or_swap", "draw", "solve A", "address", "number"]
 
 
 def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
@@ -199,11 +190,12 @@ def test_steps_show_the_blade_where_it_was_turned_to_since(session: Session):
     page.view = replace(page.view, azimuth_deg=75.0)
     assert session._update() is None
     next(steps)
-    assert page.states[-1].view.azimuth_deg == 75.0
+    assert page.calls[-1] == "results"
+    assert page.states[-1].state.view.azimuth_deg == 75.0
 
 
 def test_nothing_of_an_update_that_failed_is_used_by_the_next(session: Session):
     update(session)
     session._failed(ZeroDivisionError("made to fail"))
     assert (session._good, session._latest) == (None, None)
-    assert update(session).states[-1].solution.converged
+    assert update(session).states[-1].state.solution.converged

@@ -11,8 +11,10 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
+from explorer.page import Page
 from tests.tools import wire
 
+Part = TypeVar("Part")
 Result = TypeVar("Result")
 BLADE = "/rotor/blade_0"
 """The reference blade: the pitch of its rings tells which twist a frame shows."""
@@ -191,6 +193,12 @@ class Visitor:
                     self._keep(told[1], *json.loads(f"[{told[2]}]"))
             case _ if "props" in message and "uuid" in message:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
+
+
+def part_of(page: Page, kind: type[Part]) -> Part:
+    """The part of a page that has this class."""
+    shows: list[Any] = [*page.context.refreshing, *page.context.following]
+    return next(part for show in shows if isinstance(part := show.__self__, kind))
 
 
 async def arrived(address: str, **options: Any) -> Visitor:

@@ -4,14 +4,7 @@ import threading
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.actuator_inputs import (
-    AT_REST,
-    ActuatorInputs,
-    HandSettings,
-    Outcome,
-    verdict_inputs_of,
-    verdict_tasks,
-)
+from explorer.model.actuator_inputs import ActuatorInputs, HandSettings, Outcome, verdict_inputs_of, verdict_tasks
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
 from explorer.views.flight import BY_HAND, after_flight
@@ -29,12 +22,12 @@ from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 class ActuatorPanel:
     """What is shown of it are panels of `explorer/views`."""
 
-    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
-        """`address` may hold a supposed actuator; `problems` get a title and a sentence where it cannot be read."""
+    def __init__(self, context: TabContext, address: Address) -> None:
+        """`address` may hold a supposed actuator."""
         self._context, self._address = context, address
-        self._blade = LiftedScene(context.client, context.bridge)
-        context.leaving.append(self._blade.stop)
-        place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used", problems)
+        self.blade = LiftedScene(context.client, context.bridge)
+        context.leaving.append(self.blade.stop)
+        place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used")
         self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
         self.lifted = False
         """Whether the blade is wanted outside the rotor."""
@@ -49,10 +42,6 @@ class ActuatorPanel:
         self.controls = ActuatorControls(context.gui, context.wake, lambda: self._set(**BY_HAND))
         self.texts = {**self.controls.texts, "actuator.pays": self._light}
         self.inputs = self.controls.inputs
-
-    def hold(self, held: bool) -> None:
-        """Take the widgets from the user, or give them back."""
-        self.controls.form.hold(held)
 
     def hand(self) -> HandSettings:
         """What the hand has set by now."""
@@ -96,16 +85,12 @@ class ActuatorPanel:
         task = verdict_tasks(question)[question.actuator]
         return all_known().get(task) or task.run()
 
-    def show_leaders(self, seen: bool) -> None:
-        """Lines from the lifted blade to its labels."""
-        self._blade.show_leaders(seen)
-
     def lift(self, out: bool) -> None:
         """Lift one blade out towards the viewer, or let it fly back."""
         self.lifted, self._opened = out, self._opened or out
         if out:
             self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
-            self._blade.hold(self._radius)
+            self.blade.hold(self._radius)
         else:
             self._release()
         self._context.wake()
@@ -133,13 +118,9 @@ class ActuatorPanel:
         alone = self._undriven.solve(design) if inputs.driven and design.elastic else solution
         picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi), pays=self._pays)
         with self._context.client.atomic():
-            self._blade.hold(self._radius)
-            self._blade.show(picture)
+            self.blade.hold(self._radius)
+            self.blade.show(picture)
         self._context.client.flush()
-
-    def reset(self) -> None:
-        """Nothing driven."""
-        self.perform(SetHand(BY_HAND, {"drives": AT_REST}))
 
     def _light(self, pays: bool) -> None:
         self._pays = pays
@@ -147,5 +128,5 @@ class ActuatorPanel:
             self.draw(*self._shown)
 
     def _release(self) -> None:
-        self._blade.release(self._radius)
+        self.blade.release(self._radius)
         self._drawn = None

@@ -115,7 +115,7 @@ class LecturePanel:
         self._stand_at(StoryPlace(step, self._guesses.get(step), wanted.control.start))
         self._stage()
         inputs, self._against = self._designs()
-        view, look = view_of(wanted, self._context.view()), "actuator" if wanted.mode == "actuate" else "3d"
+        view, look = view_of(wanted, self._context.display.view), "actuator" if wanted.mode == "actuate" else "3d"
         self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look))
         if wanted.mode == "explore":
             self._camera.hold_shot(wanted.shot)
@@ -232,7 +232,7 @@ class LecturePanel:
             self._send()
 
     def _send(self) -> None:
-        place, bridge, units = self.place, self._context.bridge, UNITS[self._context.view().units]
+        place, bridge, units = self.place, self._context.bridge, UNITS[self._context.display.view.units]
         if place is None:
             bridge.set(lecture=None)
             return

@@ -54,10 +54,9 @@ def same_but_twist(optimised: Design, present: Design) -> bool:
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
-        """`address`, `problems`: as for `OptimisedDesign`."""
+    def __init__(self, context: TabContext, address: Address) -> None:
         self._context, self._work, gui, bridge = context, context.work, context.gui, context.bridge
-        self.rival = OptimisedDesign(context, address, problems)
+        self.rival = OptimisedDesign(context, address)
         """What is to be beaten by hand."""
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
@@ -273,11 +272,10 @@ class OptimisePanel:
 class OptimisedDesign:
     """One session's. The design is kept, never its power: whoever opens the link computes it again."""
 
-    def __init__(self, context: TabContext, address: Address, problems: list[tuple[str, str]]) -> None:
-        """`problems` get a title and a sentence where the address cannot be read."""
+    def __init__(self, context: TabContext, address: Address) -> None:
         self._context, self._address = context, address
         self._solved = BaselineCache(by=context.analyses.solve)
-        self._design = address.read(OPTIMISED, design_from, None, "Link: optimum not used", problems)
+        self._design = address.read(OPTIMISED, design_from, None, "Link: optimum not used")
         self.solution: Solution | None = None
         """The optimiser's trim in the present flight; None without one."""
         context.bridge.on("rival_take", lambda _: self._take())

@@ -79,7 +79,7 @@ class SchedulePanel:
         else:
             self._work.begin(NAME, ScheduleTask(plan), TIME_LIMIT, _URGENCY)
 
-    def refresh(self) -> None:
+    def refresh(self, _: Design | None) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")

@@ -53,10 +53,9 @@ LINKS = [
 
 @pytest.mark.parametrize("code", LINKS, ids=lambda code: code[:24])
 def test_a_link_opens_the_page_with_a_sentence(code: str):
-    problems: list[tuple[str, str]] = []
     address = Address("?d=" + code, lambda query: None)
-    assert address.read(share.DESIGN, share.inputs_from, OPENING, "Not the design", problems) == OPENING
-    ((_, sentence),) = problems
+    assert address.read(share.DESIGN, share.inputs_from, OPENING, "Not the design") == OPENING
+    ((_, sentence),) = address.problems
     assert len(sentence) < 450
     assert "9" * 100 not in sentence
     with pytest.raises(ValueError, match=r"\w"):  # As A of a link, which is read elsewhere.
@@ -67,9 +66,9 @@ def test_any_failure_of_a_reader_leaves_the_page_standing():
     def fail(code: str) -> ViewState:
         raise ZeroDivisionError(code)
 
-    problems: list[tuple[str, str]] = []
-    assert Address("?v=1", lambda query: None).read("v", fail, ViewState(), "No", problems) == ViewState()
-    assert len(problems) == 1
+    address = Address("?v=1", lambda query: None)
+    assert address.read("v", fail, ViewState(), "No") == ViewState()
+    assert len(address.problems) == 1
     with pytest.raises(ValueError, match="version"):
         view_from("q" * 7000)
 
