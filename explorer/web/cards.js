@@ -79,8 +79,8 @@
             .map(words => `<span>${words}</span>`).join(''),
           'With its mass. ± from uncertain inputs; vibration: range over inflow models. Blades bend here.')}
       </div>
-      <p class="rxf-pays"><span data-explorer="said">${text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}
-      </p>`);
+      <p class="rxf-pays"><span data-explorer="said">${
+        text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);
   });
   // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
   const suppose = paced(place => RX.send('suppose', place), 80);
