@@ -119,7 +119,7 @@ def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> t
     """The section with the inflow that balances its annulus; as `section.section`, with the rows `HOVER_PAIRS`."""
     theta = c[TH, :, 0].copy()
     inflow, answer = _balanced(theta, data.start, data.annuli, data.section)
-    data.start[:] = np.where(np.isnan(inflow), 0.0, inflow)
+    data.start[:] = np.nan_to_num(inflow) if data.annuli.windmill else inflow
     channels, turning = _channels(theta, inflow, data.annuli)
     f, d, s = section(channels, data.section, slopes, flow)
     f = np.concatenate([f, inflow[None, :, None]])
