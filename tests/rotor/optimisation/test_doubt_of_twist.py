@@ -43,7 +43,7 @@ def best_rate(design: Design) -> float:
 def test_the_best_twist_moves_as_new_searches_find(name: str, condition: str, patch: Patch):
     """Half the difference between an input larger and one smaller by its size; within 15 % of the whole band."""
     design = rotor.make_design(**CONDITIONS[condition])  # type: ignore[arg-type]
-    patch("rotor.optimisation.doubt.MOST", 99)
+    patch("rotor.optimisation.doubt.MOST_INPUTS", 99)
     (band,) = rotor.optimise(design, "linear", starts=1).doubt_band
     expected = dict(band.causes)[{row.name: row.words for row in UNCERTAIN}[name]]
     ends = [best_rate(changed) for changed in either_side(name, design, patch)]
