@@ -163,9 +163,14 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
     np.testing.assert_allclose(tip, expected, atol=0.02)
     page.evaluate("() => RX.send('play', '')")
     page.wait_for_function("() => !RX.state.turn.playing")
-    shown = watched.at_rest(lambda: round(page.evaluate(AZIMUTH), 3))
-    stands = math.radians(float(page.evaluate("() => RX.state.turn.psi")))
-    assert math.remainder(shown - stands, 2 * math.pi) == pytest.approx(0.0, abs=0.02)
+
+    def off() -> float:
+        """From where the view has the blades to where they are drawn [rad]: late on a machine that draws slowly."""
+        shown, stands = page.evaluate(f"() => [({AZIMUTH})(), RX.state.turn.psi]")
+        return abs(math.remainder(shown - math.radians(float(stands)), 2 * math.pi))
+
+    watched.until(lambda: off() < 0.02)
+    assert watched.at_rest(lambda: round(off(), 3)) < 0.02
 
 
 @pytest.mark.slow
