@@ -190,7 +190,7 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
                 f"inflow exceeds momentum theory above {-VORTEX_RING_ONSET:g}, and the vortex ring state begins at "
                 f"{edge:.2f}."
             )
-    if power.main_rotor < 0.0:
+    if power.main_rotor < 0.0 and design.models.trim != "free-rotor":  # A free rotor's power is zero but for rounding.
         found["beyond-autorotation"] = (
             "The air drives the rotor: above the rate of descent of autorotation, power is negative, and with the "
             "engine off the rotor speeds up."

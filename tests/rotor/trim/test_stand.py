@@ -95,6 +95,14 @@ def test_hover_at_a_collective_and_without_thrust():
     assert 0.006 < 8.0 * solution.cp / solution.design.rotor.solidity < 0.016
 
 
+def test_a_free_rotor_is_not_said_to_speed_up():
+    """Its power is zero but for rounding, of either sign."""
+    loads = [replace(bench("free-thrust").condition, stand=Stand(ct_over_sigma=ct, flapping="free"))
+             for ct in (0.03, 0.045, 0.055, 0.06, 0.065)]  # fmt: skip
+    found = [solve(replace(bench("free-thrust"), condition=load)).require() for load in loads]
+    assert not any(caveat.name == "beyond-autorotation" for one in found for caveat in one.caveats)
+
+
 def test_shaft_power_of_a_free_rotor_has_no_gradient():
     solution = solve(bench("free-thrust"))
     with pytest.raises(RuntimeError, match="no power from its shaft"):
