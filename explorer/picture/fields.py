@@ -112,8 +112,8 @@ def _circulation(drawn: DrawnSolution, grid: PolarGrid) -> Array:
 
 
 def _dissipation(disk: DiskFields) -> Array:
-    """U dD = U_T dF_x − U_P dF_z."""
-    return disk.u_t * disk.dcq - disk.u_p * disk.dct
+    """V dD = U_T dF_x − U_P dF_z + U_R dF_r."""
+    return disk.u_t * disk.dcq - disk.u_p * disk.dct + disk.u_r * disk.dcr
 
 
 _thrust = _per_metre("thrust_unit", lambda disk: disk.dct)
@@ -121,13 +121,12 @@ _power = _per_metre("power_unit", lambda disk: disk.r[:, None] * disk.dcq)
 _induced_power = _per_metre("power_unit", lambda disk: disk.induced * disk.dct)
 """λ_i dF_z, as `rotor.trim.power` sums it; without the swirl of hover."""
 _profile_power = _per_metre("power_unit", _dissipation)
-"""Without the friction of the flow along the blade."""
 
 
 def _drag(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
     rotor, disk = drawn.design.rotor, drawn.disk
-    speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3))
+    speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2 + disk.u_r**2), 1e-3))
     force = grid.refine(_dissipation(disk)) / speed
     return np.maximum(force, 0.0) * (drawn.design.thrust_unit / (rotor.blades * rotor.radius))
 

@@ -65,20 +65,33 @@ def _blend(out: Any, row: int, j: int, share: float, value: float) -> None:
 
 
 @_compile
-def look_up(tables: Any, which: int, cells: Any, places: Any, share: float, slopes: bool, out: Any) -> None:
-    """Blend a section into coefficients and slopes by α [rad] and Mach of one row, out[3 × coefficient] + 0, 1, 2.
+def look_up(
+    tables: Any,
+    first: int,
+    last: int,
+    which: int,
+    cells: Any,
+    places: Any,
+    share: float,
+    slopes: bool,
+    out: Any,
+    row: int,
+) -> None:
+    """Blend coefficients first … last − 1 of a section and their slopes by α [rad] and Mach into one row of azimuths.
 
     tables: (sections, α cells, Mach cells, coefficients, 4, 4). cells, places: along α, then along Mach; the third row
-    of places is ∂place/∂M. share: of this section, 1 for the first of two. Slopes only where they are asked for.
+    of places is ∂place/∂M. share: of this section, 1 for the first of two. out[row] and the two after are those of the
+    first coefficient; slopes only where they are asked for.
     """
-    for k in range(tables.shape[3]):
+    for k in range(first, last):
+        at = row + 3 * (k - first)
         if slopes:
             for j in range(places.shape[1]):
                 value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
-                _blend(out, 3 * k, j, share, value)
-                _blend(out, 3 * k + 1, j, share, by_u * INVERSE_ALPHA)
-                _blend(out, 3 * k + 2, j, share, by_v * places[2, j])
+                _blend(out, at, j, share, value)
+                _blend(out, at + 1, j, share, by_u * INVERSE_ALPHA)
+                _blend(out, at + 2, j, share, by_v * places[2, j])
         else:
             for j in range(places.shape[1]):
                 value, _, _ = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
-                _blend(out, 3 * k, j, share, value)
+                _blend(out, at, j, share, value)

@@ -60,8 +60,6 @@ class Problem:
     drag: float
     """Horizontal part of the fuselage drag over ρA(ΩR)²."""
     inflow: InflowModel
-    friction: float
-    """c_f for the flow along the blade; 0 where it is left out."""
     unloaded: Booleans | None
     """Elements that carry no load, (elements, azimuths): the reverse-flow region r < −µ sin ψ, where it is switched
     off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
@@ -147,7 +145,7 @@ class Problem:
             cos_sweep=disk.cos_sweep,
             sin_sweep=disk.sin_sweep,
             tip_mach=self.tip_mach,
-            friction=self.friction,
+            yawed=self.design.models.has("radial_friction"),
             lossy=(LOSS, "loss") in self.inflow_terms.live and not self.design.hovering,
             unloaded=_ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
             added=NO_INCREMENTS,
@@ -200,7 +198,6 @@ def build_problem(design: Design) -> Problem:
         inflow=inflow,
         expected=flow,
         course=expected_course(design, flow, flap),
-        friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=_unloaded(design, disk),
         torsion=torsion,
         bending=bending,
@@ -267,12 +264,6 @@ def given_torsion(torsion: BladeTorsion, twist: Array, waves: Array, acceleratio
     return torsion.gain[:, None] * forcing
 
 
-def _reynolds(design: Design) -> float:
-    """Reynolds number of the chord at 0.75 R in hover."""
-    condition, rotor = design.condition, design.rotor
-    return condition.density * 0.75 * rotor.tip_speed * rotor.reference_chord / condition.viscosity
-
-
 def expected_flow(design: Design) -> DiskFlow:
     """The flow of momentum theory when the disk is normal to the resultant of weight and drag.
 
@@ -302,11 +293,6 @@ def expected_course(design: Design, flow: DiskFlow, flap: FlapDynamics) -> WakeC
     core = tip_core(chord, thrust, rotor.blades, reynolds)
     flapping = {"coning": coning, "flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
     return WakeCourse(flow.mu_x, flow.mu_z, flow.lambda0, **flapping, core=core)
-
-
-def skin_friction(reynolds: float) -> float:
-    """c_f of both sides of a turbulent flat plate, 0.91/(log10 Re)^2.58 (Prandtl and Schlichting); Re of the chord."""
-    return 0.91 / math.log10(max(reynolds, 1e4)) ** 2.58
 
 
 @compiled(error_model="numpy")

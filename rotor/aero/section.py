@@ -4,15 +4,19 @@ With velocities over ΩR, the flow along the blade U_R, U² = U_T² + U_P² and 
 special case),
 
     α = θ − φ,      M = M_tip √((U_T cos Λ − U_R sin Λ)² + U_P²)
-    dC_T/dr = F_z = ½σ U (F C_l U_T − C_d U_P)                              (2.15), (2.17), (3.9)
-    dC_Q/dr = F_x = ½σ U (F C_l U_P + C_d U_T) + ½σ c_f (V − |U_T|) U_T     (2.16), (2.18), (3.10)
-              F_r = ½σ c_f V U_R
-    dC_M/dr = M   = ½σ (c/R) U² C_m − x F_z − d U θ' − ½ j sin 2θ
+    V² = U² + U_R²,      sin α' = sin α U/V
+    dC_T/dr = F_z = ½σ (U F C_l(α) U_T − V C_d(α') U_P)                     (2.15), (2.17), (3.9)
+    dC_Q/dr = F_x = ½σ (U F C_l(α) U_P + V C_d(α') U_T)                     (2.16), (2.18), (3.10)
+              F_r = ½σ V C_d(α') U_R
+    dC_M/dr = M   = ½σ (c/R) U² C_m(α) − x F_z − d U θ' − ½ j sin 2θ
 
-F: loss factor on lift. Λ: sweep of the quarter chord. V² = U_T² + U_R²: skin friction follows the yawed velocity
-(Harris, J. AHS 11(3), 1966; Johnson, Helicopter Theory, 1980), C_d holds it for the flow across the blade. M is nose up
-about the pitch axis: x is how far the quarter chord lies behind it, d = N_b (c/R)³/8 the damping −πρb³Uθ̇ of
-thin-airfoil theory (Theodorsen, NACA Report 496), j the propeller moment.
+F: loss factor on lift. Λ: sweep of the quarter chord. Drag is along the whole velocity V, with the coefficient of the
+section along the stream, at α' (after Harris, J. AHS 11(3), 1966, which could not be obtained; the closed forms of
+Johnson, Helicopter Theory, 1980, follow for constant C_d); with U_R left out it is that of the section's plane. α' is beyond 90° where the stream meets the trailing edge first; where it is within 15° of
+the blade's axis, C_d goes smoothly from that of one edge to that of the other.
+
+M is nose up about the pitch axis: x is how far the quarter chord lies behind it, d = N_b (c/R)³/8 the damping −πρb³Uθ̇
+of thin-airfoil theory (Theodorsen, NACA Report 496), j the propeller moment.
 """
 
 import math
@@ -31,7 +35,7 @@ PAIRS = (
     *((FZ, c) for c in (TH, UT, UP, UR, LOSS)),
     *((FX, c) for c in (TH, UT, UP, UR, LOSS)),
     *((M, c) for c in (TH, UT, UP, UR, LOSS, RATE)),
-    *((FR, c) for c in (UT, UR)),
+    *((FR, c) for c in (TH, UT, UP, UR)),
 )
 """Force and channel of each row of the partial derivatives."""
 FLOW = (ALPHA, MACH, CL, CD, CD_MACH) = tuple(range(5))
@@ -54,8 +58,8 @@ class SectionData(NamedTuple):
     cos_sweep: Array
     sin_sweep: Array
     tip_mach: float
-    friction: float
-    """c_f; 0 without friction of the flow along the blade."""
+    yawed: bool
+    """Whether drag is along the whole velocity; else along that in the section's plane."""
     lossy: bool
     """Whether F differs from 1."""
     unloaded: Booleans
@@ -99,8 +103,16 @@ fix(NO_MOMENT)  # As those of a blade that twists: kernels are compiled for eith
 _compile = compiled(error_model="numpy")
 _inline = compiled(error_model="numpy", inline="always")
 
-(_U, _K, _LIFT, _DRAG, _LIFT_A, _LIFT_M, _T_OVER, _P_OVER, _BACK, _BY_T, _BY_P, _BY_R, _ONE, _TWO) = range(14)
-"""Rows of work: U, ½σU, F C_l, C_d, F ∂C_l/∂α, F ∂C_l/∂M, U_T/U², U_P/U², −U_T/U², ∂M/∂(U_T, U_P, U_R)."""
+(_U, _V, _S, _C, _G, _SIN, _COS, _STREAM) = range(8)
+(_LIFT, _DRAG, _BY_T, _BY_P, _BY_R, _ONE, _TWO, _MACH) = range(8, 16)
+"""Rows of work: U, V; U sin α, U cos α and √((U cos α)² + U_R²); sin θ, cos θ; α'; ½σU F C_l, ½σV C_d; ∂M/∂(U_T, U_P,
+U_R); three more."""
+_LIFT_BY, _DRAG_BY = 16, 20
+"""First rows of the derivatives of ½σU F C_l and ½σV C_d by θ, U_T, U_P and U_R."""
+_TURN = 9
+"""Row of coefficients: ∂C_d/∂(C/G) of `_other_edge`, followed by two to work in."""
+_FADES = 0.25
+"""C/G below which C_d goes to that of the stream from the other edge."""
 
 
 @_compile
@@ -110,44 +122,51 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
     Derivatives and flow have no elements where they are not asked for. Units: dC_T/dr and so on; see this file's head.
     """
     n, m = c.shape[1:]
-    f, d = np.empty((4, n, m)), np.empty((18, n if slopes else 0, m))
+    f, d = np.zeros((4, n, m)), np.zeros((20, n if slopes else 0, m))
     s = np.empty((5, n if flow else 0, m))
     elastic, masked = len(data.moment_gain) > 0, len(data.unloaded) > 0
-    w, alpha, mach = np.empty((14, m)), np.empty(m), np.empty(m)
-    cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((9, m))
+    w, alpha, mach = np.empty((_DRAG_BY + 4, m)), np.empty(m), np.empty(m)
+    cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((12, m))
     for i in range(n):
         t, p, r = c[UT, i], c[UP, i], c[UR, i]
-        _speeds(t, p, data.half_solidity[i], w)
         angles_of_attack(c[TH, i], t, p, alpha)
+        _speeds(t, p, w[_U])
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
         scattered = len(data.scatter) > 0
-        _coefficients(data, i, alpha, mach, slopes or flow or scattered, cells, places, coeffs)
+        by_angle = slopes or flow or scattered
+        _coefficients(data, i, alpha, mach, by_angle, cells, places, coeffs)
+        speed, between = w[_U], False
+        if data.yawed:
+            speed, between = w[_V], _streamwise(c[TH, i], t, p, r, w)
+            _drag(data, i, w[_STREAM], by_angle, cells, places, coeffs, 3)
+        if between:
+            _other_edge(data, i, by_angle, w, cells, places, coeffs)
         if scattered:
             _scatter(data.scatter, coeffs)
         if data.added.shape[1] > 0:
             for k in range(3):
                 for j in range(m):
                     coeffs[3 * k, j] += data.added[k, i, j]
-        lift = coeffs[0]
+        for j in range(m):
+            w[_LIFT, j] = data.half_solidity[i] * w[_U, j] * coeffs[0, j]
         if data.lossy:
-            lift = w[_LIFT]
-            _times(c[LOSS, i], coeffs[0], lift)
-        _resolve(t, p, w, lift, coeffs[3], f[FZ, i], f[FX, i])
-        f[M, i] = 0.0
+            if slopes:
+                _times(w[_LIFT], t, d[_Z + LOSS, i])
+                _times(w[_LIFT], p, d[_X + LOSS, i])
+                _times(c[LOSS, i], coeffs[1], coeffs[1])
+                _times(c[LOSS, i], coeffs[2], coeffs[2])
+            _times(c[LOSS, i], w[_LIFT], w[_LIFT])
+        for j in range(m):
+            w[_DRAG, j] = data.half_solidity[i] * speed[j] * coeffs[3, j]
+        _resolve(t, p, w[_LIFT], w[_DRAG], f[FZ, i], f[FX, i])
+        if data.yawed:
+            _times(w[_DRAG], r, f[FR, i])
         if elastic:
             _moment(c, i, data, coeffs, w, f)
         if slopes:
-            _force_slopes(c, i, data, mach, coeffs, w, f, d)
+            _force_slopes(c, i, data, between, mach, coeffs, w, d)
             if elastic:
                 _moment_slopes(c, i, data, coeffs, w, d)
-        if data.friction > 0.0:
-            _along_blade(t, r, data.friction * data.half_solidity[i], w, f[FX, i], f[FR, i])
-            if slopes:
-                _along_blade_slopes(t, r, data.friction * data.half_solidity[i], w, i, d)
-        else:
-            f[FR, i] = 0.0
-            if slopes:
-                d[_R:, i] = 0.0
         if flow:
             for j in range(m):  # Rows assigned as a whole take numba longer to compile.
                 s[ALPHA, i, j], s[MACH, i, j] = alpha[j], mach[j]
@@ -158,11 +177,10 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
 
 
 @_inline
-def _speeds(t: Any, p: Any, half_solidity: float, w: Any) -> None:
-    """U and ½σU of one row."""
-    for j in range(w.shape[1]):
-        w[_U, j] = math.sqrt(t[j] * t[j] + p[j] * p[j] + _TINY)
-        w[_K, j] = half_solidity * w[_U, j]
+def _speeds(t: Any, p: Any, out: Any) -> None:
+    """U of one row."""
+    for j in range(len(out)):
+        out[j] = math.sqrt(t[j] * t[j] + p[j] * p[j] + _TINY)
 
 
 _EIGHTH_TURN = 0.25 * _PI
@@ -209,9 +227,48 @@ def _mach_numbers(air: Any, cos: float, sin: float, tip_mach: float, out: Any) -
         out[j] = math.sqrt(normal * normal + p[j] * p[j] + _TINY) * tip_mach
 
 
+@_inline
+def _streamwise(theta: Any, t: Any, p: Any, r: Any, w: Any) -> bool:
+    """V and the streamwise angles of one row; whether any of its drag is between those of the two edges.
+
+    With S = U sin α and C = U cos α, α' is the arctangent of S/G or, where C < 0, π less that; G² = C² + U_R².
+    """
+    m, between = w.shape[1], 0
+    for j in range(m):
+        w[_SIN, j], w[_COS, j] = of_double_angle(0.5 * theta[j])
+    for j in range(m):
+        w[_S, j] = t[j] * w[_SIN, j] - p[j] * w[_COS, j]
+    for j in range(m):
+        w[_C, j] = t[j] * w[_COS, j] + p[j] * w[_SIN, j]
+    for j in range(m):
+        w[_G, j] = math.sqrt(w[_C, j] * w[_C, j] + r[j] * r[j] + _TINY)
+        w[_V, j] = math.sqrt(w[_U, j] * w[_U, j] + r[j] * r[j])
+    for j in range(m):
+        front = arctangent(w[_S, j], w[_G, j])
+        w[_STREAM, j] = front if w[_C, j] >= 0.0 else _PI - front
+    for j in range(m):
+        between += 1 if abs(w[_C, j]) < _FADES * w[_G, j] else 0
+    return between > 0
+
+
+@_inline
+def _other_edge(data: Any, i: int, slopes: bool, w: Any, cells: Any, places: Any, coeffs: Any) -> None:
+    """Mix C_d of one row with that of the stream from the other edge, and fill `_TURN`; half of each where C = 0."""
+    for j in range(w.shape[1]):
+        w[_ONE, j] = _PI - w[_STREAM, j]
+    _drag(data, i, w[_ONE], slopes, cells, places, coeffs, _TURN)
+    for j in range(w.shape[1]):
+        x = min(abs(w[_C, j]) / (_FADES * w[_G, j]), 1.0)
+        share, drag = 0.5 - 0.25 * x * (3.0 - x * x), coeffs[_TURN, j] - coeffs[3, j]
+        coeffs[3, j] += share * drag
+        coeffs[4, j] -= share * (coeffs[_TURN + 1, j] + coeffs[4, j])
+        coeffs[5, j] += share * (coeffs[_TURN + 2, j] - coeffs[5, j])
+        coeffs[_TURN, j] = drag * (0.75 / _FADES) * (x * x - 1.0)
+
+
 @_compile
 def _coefficients(data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, coeffs: Any) -> None:
-    """C_l, C_d and C_m of one row, blended from the two sections at its element, each followed by ∂/∂α and ∂/∂M.
+    """C_l, C_m and, without yaw, C_d of one row, blended from the two sections at its element, with ∂/∂α and ∂/∂M.
 
     cells (2, azimuths), places (3, azimuths): memory to work in.
     """
@@ -221,9 +278,19 @@ def _coefficients(data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells:
         if share > 0.0:
             places_along_alpha(alpha, data.offset[i, which], cells[0], places[0])
             table = data.section[i, which]
-            look_up(data.tables, table, cells, places, share, slopes, coeffs[:6])
+            look_up(data.tables, 0, 1 if data.yawed else 2, table, cells, places, share, slopes, coeffs, 0)
             if len(data.moment_gain) > 0:
-                look_up(data.moment_tables, table, cells, places, share, slopes, coeffs[6:])
+                look_up(data.moment_tables, 0, 1, table, cells, places, share, slopes, coeffs, 6)
+
+
+@_inline
+def _drag(data: Any, i: int, angle: Any, slopes: bool, cells: Any, places: Any, coeffs: Any, row: int) -> None:
+    """C_d of one row with ∂/∂α' and ∂/∂M, at the places along Mach of `_coefficients`."""
+    for which in range(2):
+        share = data.weight[i] if which == 1 else 1.0
+        if share > 0.0:
+            places_along_alpha(angle, data.offset[i, which], cells[0], places[0])
+            look_up(data.tables, 1, 2, data.section[i, which], cells, places, share, slopes, coeffs, row)
 
 
 @_inline
@@ -234,6 +301,7 @@ def _scatter(scatter: Any, coeffs: Any) -> None:
         for k in range(3):
             coeffs[k, j] *= 1.0 + scatter[MORE_LIFT]
             coeffs[3 + k, j] *= 1.0 + scatter[MORE_DRAG]
+        coeffs[_TURN, j] *= 1.0 + scatter[MORE_DRAG]
         coeffs[6, j] += scatter[MORE_MOMENT]
 
 
@@ -244,21 +312,12 @@ def _times(factor: Any, other: Any, out: Any) -> None:
 
 
 @_inline
-def _resolve(t: Any, p: Any, w: Any, lift: Any, drag: Any, z: Any, x: Any) -> None:
-    """½σU (l U_T − d U_P) and ½σU (l U_P + d U_T): lift and drag, or their derivatives, in axes of the shaft."""
+def _resolve(t: Any, p: Any, lift: Any, drag: Any, z: Any, x: Any) -> None:
+    """Lift and drag over U and V, or their derivatives, in axes of the shaft."""
     for j in range(len(z)):
-        z[j] = w[_K, j] * (lift[j] * t[j] - drag[j] * p[j])
+        z[j] = lift[j] * t[j] - drag[j] * p[j]
     for j in range(len(x)):
-        x[j] = w[_K, j] * (lift[j] * p[j] + drag[j] * t[j])
-
-
-@_inline
-def _along_blade(t: Any, r: Any, rub: float, w: Any, fx: Any, fr: Any) -> None:
-    """F_r of one row, and friction of the flow along the blade in F_x; rub: ½σ c_f."""
-    for j in range(len(fx)):
-        w[_ONE, j] = rub * math.sqrt(t[j] * t[j] + r[j] * r[j] + _TINY)
-        fx[j] += (w[_ONE, j] - rub * abs(t[j])) * t[j]
-    _times(w[_ONE], r, fr)
+        x[j] = lift[j] * p[j] + drag[j] * t[j]
 
 
 @_inline
@@ -275,57 +334,78 @@ _Z, _X, _N, _R = 0, 5, 10, 16
 
 
 @_inline
-def _force_slopes(c: Any, i: int, data: Any, mach: Any, coeffs: Any, w: Any, f: Any, d: Any) -> None:
-    """Derivatives of F_z and F_x of one row, without friction: ∂α/∂U_T = U_P/U², ∂α/∂U_P = −U_T/U²."""
+def _force_slopes(c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: Any, w: Any, d: Any) -> None:
+    """Derivatives of F_z, F_x and F_r of one row, from those of ½σU F C_l and ½σV C_d."""
     m, cos, sin, square = w.shape[1], data.cos_sweep[i], data.sin_sweep[i], data.tip_mach * data.tip_mach
-    t, p, r, lift, lift_a, lift_m = c[UT, i], c[UP, i], c[UR, i], coeffs[0], coeffs[1], coeffs[2]
-    if data.lossy:
-        lift, lift_a, lift_m = w[_LIFT], w[_LIFT_A], w[_LIFT_M]
-        _times(c[LOSS, i], coeffs[1], lift_a)
-        _times(c[LOSS, i], coeffs[2], lift_m)
+    t, p, r, half = c[UT, i], c[UP, i], c[UR, i], data.half_solidity[i]
     for j in range(m):
-        w[_T_OVER, j] = t[j] / (w[_U, j] * w[_U, j])
-        w[_P_OVER, j] = p[j] / (w[_U, j] * w[_U, j])
-        w[_BACK, j] = -w[_T_OVER, j]
-        w[_BY_T, j] = square / mach[j] * (t[j] * cos - r[j] * sin)
-        w[_BY_R, j] = -sin * w[_BY_T, j]
-        w[_BY_T, j] *= cos
+        by_normal = square / mach[j] * (t[j] * cos - r[j] * sin)
+        w[_BY_T, j], w[_BY_R, j] = by_normal * cos, -sin * by_normal
+    for j in range(m):
         w[_BY_P, j] = square / mach[j] * p[j]
-    _resolve(t, p, w, lift_a, coeffs[4], d[_Z + TH, i], d[_X + TH, i])
-    _resolve(t, p, w, lift_m, coeffs[5], w[_ONE], w[_TWO])  # By the Mach number.
-    _times(w[_K], coeffs[3], w[_DRAG])
-    _times(w[_K], lift, w[_LIFT])
-    _by_velocities(w, f[FZ, i], w[_ONE], w[_LIFT], w[_DRAG], -1.0, i, d[_Z:_X])
-    _by_velocities(w, f[FX, i], w[_TWO], w[_DRAG], w[_LIFT], 1.0, i, d[_X:_N])
-    if data.lossy:
-        for j in range(m):
-            d[_Z + LOSS, i, j] = w[_K, j] * coeffs[0, j] * t[j]
-            d[_X + LOSS, i, j] = w[_K, j] * coeffs[0, j] * p[j]
-
-
-@_inline
-def _by_velocities(w: Any, f: Any, by_mach: Any, with_t: Any, with_p: Any, sign: float, i: int, d: Any) -> None:
-    """Derivatives of a force ½σU (a U_T ± b U_P) or the moment by U_T, U_P and U_R, from those by θ and by Mach.
-
-    with_t, with_p: ½σU a and ½σU b, with the sign of b; d: rows of this force.
-    """
-    by_alpha = d[TH, i]
-    for j in range(w.shape[1]):
-        d[UT, i, j] = w[_T_OVER, j] * f[j] + w[_P_OVER, j] * by_alpha[j] + with_t[j] + by_mach[j] * w[_BY_T, j]
-        d[UP, i, j] = w[_P_OVER, j] * f[j] + w[_BACK, j] * by_alpha[j] + sign * with_p[j] + by_mach[j] * w[_BY_P, j]
-    _times(by_mach, w[_BY_R], d[UR, i])
-
-
-@_inline
-def _along_blade_slopes(t: Any, r: Any, rub: float, w: Any, i: int, d: Any) -> None:
-    """Derivatives of F_r of one row, and those of friction in F_x."""
-    m = w.shape[1]
+    _by_air(t, p, half, w[_U], w[_LIFT], coeffs[:3], w, w[_LIFT_BY:_DRAG_BY])
+    if data.yawed:
+        _by_yawed_air(t, p, r, half, between, coeffs, w, w[_DRAG_BY:])
+    else:
+        _by_air(t, p, half, w[_U], w[_DRAG], coeffs[3:6], w, w[_DRAG_BY:])
+    for k in range(4):
+        lift, drag = w[_LIFT_BY + k], w[_DRAG_BY + k]
+        _resolve(t, p, lift, drag, d[_Z + k, i], d[_X + k, i])
+        if data.yawed:
+            _times(drag, r, d[_R + k, i])
     for j in range(m):
-        w[_ONE, j] = math.sqrt(t[j] * t[j] + r[j] * r[j] + _TINY)  # V
-        d[_X + UT, i, j] += rub * (w[_ONE, j] + t[j] * t[j] / w[_ONE, j] - 2.0 * abs(t[j]))
-        d[_R, i, j] = rub * t[j] * r[j] / w[_ONE, j]
-        d[_X + UR, i, j] += d[_R, i, j]
-        d[_R + 1, i, j] = rub * (w[_ONE, j] + r[j] * r[j] / w[_ONE, j])
+        d[_Z + UT, i, j] += w[_LIFT, j]
+        d[_X + UP, i, j] += w[_LIFT, j]
+    for j in range(m):
+        d[_Z + UP, i, j] -= w[_DRAG, j]
+        d[_X + UT, i, j] += w[_DRAG, j]
+    for j in range(m if data.yawed else 0):
+        d[_R + UR, i, j] += w[_DRAG, j]
+
+
+@_inline
+def _by_air(t: Any, p: Any, half: float, speed: Any, value: Any, coeffs: Any, w: Any, out: Any) -> None:
+    """Derivatives of ½σU C by θ, U_T, U_P and U_R, with ∂α/∂U_T = U_P/U² and ∂α/∂U_P = −U_T/U²."""
+    for j in range(len(t)):
+        w[_ONE, j] = half * coeffs[1, j] / speed[j]
+        w[_TWO, j] = value[j] / (speed[j] * speed[j])
+    for j in range(len(t)):
+        w[_MACH, j] = half * speed[j] * coeffs[2, j]
+        out[TH, j] = half * speed[j] * coeffs[1, j]
+    for j in range(len(t)):
+        out[UT, j] = w[_TWO, j] * t[j] + w[_ONE, j] * p[j] + w[_MACH, j] * w[_BY_T, j]
+    for j in range(len(t)):
+        out[UP, j] = w[_TWO, j] * p[j] - w[_ONE, j] * t[j] + w[_MACH, j] * w[_BY_P, j]
+    _times(w[_MACH], w[_BY_R], out[UR])
+
+
+@_inline
+def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: Any, w: Any, out: Any) -> None:
+    """Those of ½σV C_d: ∂α'/∂θ = C/G, by air (C U_P + U_R² sin θ, −C U_T − U_R² cos θ, −S U_R)/(G V²)."""
+    for j in range(len(t)):
+        w[_ONE, j] = math.copysign(half, w[_C, j]) * coeffs[4, j] / (w[_V, j] * w[_G, j])
+    for j in range(len(t)):
+        w[_TWO, j] = w[_DRAG, j] / (w[_V, j] * w[_V, j])
+        w[_MACH, j] = half * w[_V, j] * coeffs[5, j]
+    for j in range(len(t)):
+        out[TH, j] = w[_ONE, j] * w[_C, j] * (w[_V, j] * w[_V, j])
+    for j in range(len(t)):
+        out[UT, j] = w[_TWO, j] * t[j] + w[_ONE, j] * w[_C, j] * p[j] + w[_MACH, j] * w[_BY_T, j]
+    for j in range(len(t)):
+        out[UP, j] = w[_TWO, j] * p[j] - w[_ONE, j] * w[_C, j] * t[j] + w[_MACH, j] * w[_BY_P, j]
+    for j in range(len(t)):
+        out[UR, j] = (w[_TWO, j] - w[_ONE, j] * w[_S, j]) * r[j] + w[_MACH, j] * w[_BY_R, j]
+    for j in range(len(t)):
+        w[_ONE, j] *= r[j] * r[j]
+    for j in range(len(t)):
+        out[UT, j] += w[_ONE, j] * w[_SIN, j]
+        out[UP, j] -= w[_ONE, j] * w[_COS, j]
+    for j in range(len(t) if between else 0):
+        turn = math.copysign(half, w[_C, j]) * w[_V, j] * coeffs[_TURN, j] * r[j] / (w[_G, j] * w[_G, j] * w[_G, j])
+        out[TH, j] -= turn * r[j] * w[_S, j]
+        out[UT, j] += turn * r[j] * w[_COS, j]
+        out[UP, j] += turn * r[j] * w[_SIN, j]
+        out[UR, j] -= turn * w[_C, j]
 
 
 @_inline
@@ -337,10 +417,12 @@ def _moment_slopes(c: Any, i: int, data: Any, coeffs: Any, w: Any, d: Any) -> No
             coeffs[k, j] *= gain * w[_U, j] * w[_U, j]
     for j in range(m):
         d[_N + TH, i, j] = coeffs[7, j]
-        w[_ONE, j] = 2.0 * coeffs[6, j] - damping * c[RATE, i, j] * w[_U, j]
-        w[_TWO, j] = 0.0
-    _by_velocities(w, w[_ONE], coeffs[8], w[_TWO], w[_TWO], 1.0, i, d[_N:_R])
-    for j in range(m):
+        over = 1.0 / (w[_U, j] * w[_U, j])
+        own = over * (2.0 * coeffs[6, j] - damping * c[RATE, i, j] * w[_U, j])
+        turned = over * coeffs[7, j]
+        d[_N + UT, i, j] = own * c[UT, i, j] + turned * c[UP, i, j] + coeffs[8, j] * w[_BY_T, j]
+        d[_N + UP, i, j] = own * c[UP, i, j] - turned * c[UT, i, j] + coeffs[8, j] * w[_BY_P, j]
+        d[_N + UR, i, j] = coeffs[8, j] * w[_BY_R, j]
         d[_N + TH, i, j] -= inertia * of_double_angle(c[TH, i, j])[1]
         d[_N + RATE, i, j] = -damping * w[_U, j]
         d[_N + LOSS, i, j] = 0.0

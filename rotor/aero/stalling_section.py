@@ -27,7 +27,7 @@ from rotor.aero.dynamic_stall import (
 )  # fmt: skip
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
-from rotor.aero.section import FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
+from rotor.aero.section import FR, FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
 from rotor.airfoil.stall_onset import ZERO
 from rotor.engine.memory import LagFactors, Lags
 from rotor.support.arrays import Array
@@ -127,13 +127,14 @@ def _memory(c: Array, data: StallingData, forces: int) -> LagFactors:
     """How forces follow what is added, with the inputs around the azimuth."""
     section = data.section
     _, _, turn, by_angle, (linked, decays, factors, places), right = _added(c, data, True)
-    t, p = c[UT], c[UP]
+    t, p, r = c[UT], c[UP], c[UR] if section.yawed else np.zeros_like(c[UR])
     u = np.hypot(t, p)
-    k = section.half_solidity[:, None] * u
+    k, along = section.half_solidity[:, None] * u, section.half_solidity[:, None] * np.hypot(u, r)
     lift = c[LOSS] if section.lossy else 1.0
     left = np.zeros((forces, 3, *c.shape[1:]))
-    left[FZ, 0], left[FZ, 1] = k * lift * t, -k * p
-    left[FX, 0], left[FX, 1] = k * lift * p, k * t
+    left[FZ, 0], left[FZ, 1] = k * lift * t, -along * p
+    left[FX, 0], left[FX, 1] = k * lift * p, along * t
+    left[FR, 1] = along * r
     if len(section.moment_gain):
         left[M] = -section.lag[:, None] * left[FZ]
         left[M, 2] += section.moment_gain[:, None] * u * u

@@ -96,7 +96,7 @@ class Models:
     swept_tip: bool = True
     """Whether a swept tip sees the Mach number normal to its quarter chord. Off: as if straight."""
     radial_friction: bool = True
-    """Whether air that flows along the blade rubs on it. Off: friction of the flow across the blade only."""
+    """Whether section drag is along the whole velocity, yawed. Off: along that in the section's plane."""
     download: bool = True
     """Whether the rotor's wake presses on the fuselage. Off: thrust carries the weight alone."""
     surface_drag: bool = True

@@ -146,12 +146,13 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         psi=disk.psi,
         **{
             name: getattr(e, name)
-            for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+            for name in ("theta", "u_t", "u_p", "u_r", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
         },
         inflow=e.induced + e.flow.mu_z,
         stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
         dct=e.fz,
         dcq=e.fx,
+        dcr=e.fr,
         elastic_twist=e.torsion.twist if e.torsion is not None else None,
         unsteady=e.unsteady,
         find_apparent=partial(apparent, e, problem.half_chord) if problem.unsteady else None,

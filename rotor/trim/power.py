@@ -1,11 +1,11 @@
 """Main-rotor power by parts, tail-rotor power, hub moment, and the textbook closed form of profile power.
 
-Induced Σ (λ_i dF_z + u dF_x) with the swirl u, profile Σ U dD (dissipation, friction of the flow along the blade
-included), parasite D·V. With periodic flapping and forces in balance their sum is the shaft power Σ Ωy dF_x (3.10),
-(3.13) as an identity of the discretised equations: from U_T dF_x + U_R dF_r = U_P dF_z + U dD and
+Induced Σ (λ_i dF_z + u dF_x) with the swirl u, profile Σ V dD (dissipation, with V the whole velocity at the section),
+parasite D·V. With periodic flapping and forces in balance their sum is the shaft power Σ Ωy dF_x (3.10),
+(3.13) as an identity of the discretised equations: from U_T dF_x + U_R dF_r = U_P dF_z + V dD and
 r = U_T + u − µ_x sin ψ,
 
-    P_shaft = Σ (λ_i dF_z + u dF_x + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V + W V_c.
+    P_shaft = Σ (λ_i dF_z + u dF_x + V dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V + W V_c.
 
 A gust w(r, ψ), which is in U_P, adds Σ w dF_z.
 
@@ -44,7 +44,7 @@ class PowerBudget:
     induced: float
     """Σ λ_i dF_z: the work of the induced velocity."""
     profile: float
-    """Σ U dD: what the drag of the sections dissipates."""
+    """Σ V dD: what the drag of the sections dissipates."""
     parasite: float
     """D·V of the airframe; in a climb also the power that lifts the download."""
     tail: float
@@ -81,7 +81,7 @@ class HubMoment:
 def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> PowerBudget:
     """Power [W] by parts, and torque × Ω; total: the sums over the disk.
 
-    U dD = U_T dF_x − U_P dF_z + U_R dF_r: the velocity at the section times the force on it.
+    V dD = U_T dF_x − U_P dF_z + U_R dF_r: the velocity at the section times the force on it.
     """
     design, disk = problem.design, problem.disk
     watts = design.power_unit

@@ -62,6 +62,8 @@ class DiskFields(OnDisk, ShortRepr):
     """In-plane velocity normal to the blade, over ΩR."""
     u_p: Array
     """Velocity down through the blade, over ΩR."""
+    u_r: Array
+    """Velocity outward along the blade, over ΩR."""
     induced: Array
     """λ_i, over ΩR."""
     inflow: Array
@@ -79,6 +81,8 @@ class DiskFields(OnDisk, ShortRepr):
     """dC_T/dr of the whole rotor as if smeared."""
     dcq: Array
     """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
+    dcr: Array
+    """Force outward along the blade, of the whole rotor as if smeared."""
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
     unsteady: Unsteady | None = None

@@ -71,7 +71,7 @@ _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 NOT_MODELLED = (
     "a tiltrotor's second rotor, download on its wing and axial cruise",
     "blade bending, unless switched on; torsion, if the rotor file has no blade structure",
-    "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
+    "lift and stall in yawed flow: radial flow changes the drag of the sections alone",
     "change of lift slope due to the swept tip",
     "the trailing-edge tab of the UH-60A, at 0.73 to 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
     "roll-up and contraction of the wake, which decide the value of twist up to µ 0.15 ([theory](theory.md), §9)",

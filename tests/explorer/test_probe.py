@@ -98,7 +98,7 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, steady: Solution):
 def test_loads_are_the_coefficients_times_the_pressure(fast: Solution):
     """q c C_l and q c C_d by hand; the lifting line takes no loss factor off.
 
-    Radial friction and, in unsteady flow, apparent mass would add.
+    Yawed drag is along another velocity, and apparent mass adds to lift in unsteady flow.
     """
     off = "radial_friction", "unsteady", "dynamic_stall"
     fast = solve(with_switches(fast.design, off), fast).require()

@@ -21,7 +21,7 @@ from rotor.aero.inflow.interface import DiskFlow, FlowTerms, InflowModel, Inflow
 from rotor.aero.inflow.linear import of_mean, scaled_half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import tip_factor
-from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
+from rotor.aero.section import CHANNELS, FORCES, FR, FX, FZ, LOSS, PAIRS, UP, M, section
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, STEADY
 from rotor.support.arrays import Array
@@ -93,14 +93,15 @@ def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Arra
         elif channel == GAIN:
             out[k] = d[PAIRS.index((force, UP))] * follows
         else:
-            out[k] = d[PAIRS.index((force, channel))] + d[PAIRS.index((force, UP))] * follows
+            own = d[PAIRS.index((force, channel))] if (force, channel) in PAIRS else 0.0
+            out[k] = own + d[PAIRS.index((force, UP))] * follows
     rest = [k for k, pair in enumerate(PAIRS) if pair not in SECTOR_PAIRS]
     return f, np.concatenate([out, d[rest]]), s
 
 
 _UP_ROW = PAIRS.index((FZ, UP))
 _FOLLOWED = tuple(channel for force, channel in PAIRS if force == FZ)
-SECTOR_PAIRS = tuple((force, channel) for force in (FZ, FX, M, BALANCED) for channel in (*_FOLLOWED, GAIN))
+SECTOR_PAIRS = tuple((force, channel) for force in (FZ, FX, FR, M, BALANCED) for channel in (*_FOLLOWED, GAIN))
 """Forces that follow the inflow, and the channels that the inflow follows."""
 
 

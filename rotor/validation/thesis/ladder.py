@@ -26,7 +26,7 @@ RUNGS = {
     "cyclic": "trim by cyclic for free flapping",
     "axial": "µ sin α in U_P, eq. (3.6)",
     "blade": "blade as built: SC1094 R8, hinge, masses",
-    "losses": "swirl, skin friction, swept tip, download",
+    "losses": "swirl, yawed drag, swept tip, download",
     "unsteady": "unsteady flow and dynamic stall",
     "elastic": "blade elastic in torsion",
 }

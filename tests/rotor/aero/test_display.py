@@ -100,7 +100,8 @@ class TestFields:
         for name in ("theta", "u_t", "u_p", "induced", "mach", "dct", "dcq", "elastic_twist"):
             expected = getattr(many.disk, name)
             error = np.abs(getattr(few.disk, name) - expected)
-            near = 8e-3 if name == "elastic_twist" else 5e-3  # Moments where the flow separates are not smooth.
+            # Moments where the flow separates are not smooth, nor is yawed drag about reverse flow.
+            near = {"elastic_twist": 8e-3, "dcq": 6e-3}.get(name, 5e-3)
             assert np.quantile(error, 0.99) < near * np.abs(expected).max(), name
         # Not so near the centre of reverse flow, where an angle of attack turns with the last digits of velocities.
         outside = many.disk.u_t > 0.1

@@ -56,8 +56,13 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
     speed = np.hypot(u_t, u_p)
     blade = p.design.rotor.blade
     along = mu_x * np.cos(psi[0])
-    reynolds = 0.75 * 27.0 * 8.1788 * 0.5273 * 1.225 / 1.789e-5  # Viscosity at 15 °C: ISO 2533.
-    friction = 0.91 / math.log10(reynolds) ** 2.58 if axial else 0.0
+    radial = along if axial else 0.0
+    whole = np.hypot(speed, radial)
+    chordwise = speed * np.cos(alpha)
+    front = np.arctan2(speed * np.sin(alpha), np.hypot(chordwise, radial))
+    share = np.clip(chordwise / (0.25 * np.hypot(chordwise, radial)), -1.0, 1.0)
+    share = 0.5 + 0.25 * share * (3.0 - share**2)  # Of C_d with the leading edge first.
+    assert ((share > 0.01) & (share < 0.99)).any() == axial
     for i in (0, 12, 22, 33, 39):
         inner, outer, weight = blade.section_at(float(disk.r[i]))
         parts = []
@@ -65,17 +70,20 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
             section = load_installed(name)
             sweep = math.radians(20.0) if axial and disk.r[i] > 0.965 else 0.0  # Half a chord beyond the kink.
             normal = np.hypot(u_t[i] * math.cos(sweep) - along * math.sin(sweep), u_p[i])
-            at = section.table(alpha[i] - section.incidence_offset, normal * p.tip_mach)
-            parts.append((at.cl, at.cd))
+            cl, first, last = (
+                getattr(section.table(angle[i] - section.incidence_offset, normal * p.tip_mach), name)
+                for angle, name in ((alpha, "cl"), (front, "cd"), (math.pi - front, "cd"))
+            )
+            parts.append((cl, share[i] * first + (1.0 - share[i]) * last))
         cl = (1.0 - weight) * parts[0][0] + weight * parts[1][0]
         cd = (1.0 - weight) * parts[0][1] + weight * parts[1][1]
-        lift, drag = (disk.half_solidity[i] * speed[i] ** 2 * c for c in (point.channels[LOSS, i] * cl, cd))
+        lift = disk.half_solidity[i] * speed[i] ** 2 * point.channels[LOSS, i] * cl
+        drag = disk.half_solidity[i] * whole[i] * cd
         assert_allclose(elements.cl[i], cl, rtol=1e-9, atol=1e-10)
         assert_allclose(elements.cd[i], cd, rtol=1e-9, atol=1e-10)
-        assert_allclose(elements.fz[i], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
-        rubbing = friction * disk.half_solidity[i] * (np.hypot(u_t[i], along) - np.abs(u_t[i])) * u_t[i]
-        expected = lift * np.sin(phi[i]) + drag * np.cos(phi[i]) + rubbing
-        assert_allclose(elements.fx[i], expected, rtol=1e-9, atol=1e-4 * np.abs(rubbing).max() + 1e-12)
+        assert_allclose(elements.fz[i], lift * np.cos(phi[i]) - drag * u_p[i], rtol=1e-9, atol=1e-12)
+        assert_allclose(elements.fx[i], lift * np.sin(phi[i]) + drag * u_t[i], rtol=1e-9, atol=1e-12)
+        assert_allclose(elements.fr[i], drag * radial, rtol=1e-9, atol=1e-12)
 
 
 def test_chord_ratio_and_droop_of_the_r8():

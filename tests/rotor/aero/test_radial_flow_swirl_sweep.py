@@ -1,4 +1,4 @@
-"""Radial friction, swirl, swept tip and download against textbook closed forms and hand calculations."""
+"""Yawed drag, swirl, swept tip and download against textbook closed forms and hand calculations."""
 
 import math
 from dataclasses import replace
@@ -9,45 +9,97 @@ from numpy.testing import assert_allclose
 
 from rotor import make_design, solve
 from rotor.aero.losses import loss_factor
-from rotor.aero.problem import Problem, build_problem, skin_friction
-from rotor.aero.section import FR, FX, UP, UR, UT, section
+from rotor.aero.problem import Problem, build_problem
+from rotor.aero.section import FR, FX, FZ, LOSS, MACH, PAIRS, TH, UP, UR, UT, M, section
 from rotor.aero.switches import no_effect, with_switches
 from rotor.design.design import BEYOND_DOCUMENT
 from rotor.support.arrays import Array
 from tests.solved import assert_same_trim
 
 
-def test_skin_friction_of_a_flat_plate():
-    """Schlichting, Boundary-Layer Theory, fig. 21.2: 0.0030 a side at Re 10⁷, 0.0045 at 10⁶ (Prandtl–Schlichting)."""
-    assert_allclose([skin_friction(1e7), skin_friction(1e6)], [0.0060, 0.0090], rtol=0.01)
-
-
-def friction_of(problem: Problem, mu: float) -> tuple[Array, Array]:
-    """What friction of the flow along the blade adds to F_x, and F_r, of an untwisted blade that does not flap."""
+def flow_at(problem: Problem, mu: float) -> Array:
+    """Channels of an untwisted blade that does not flap."""
     disk = problem.disk
     channels = np.zeros((6, *disk.shape))
     channels[UT], channels[UP], channels[UR] = disk.r[:, None] + mu * disk.sin, 0.01, mu * disk.cos
-    data = problem.section_data()
-    rubbed, clean = (section(channels, data._replace(friction=c), False, False)[0] for c in (data.friction, 0.0))
-    return rubbed[FX] - clean[FX], rubbed[FR]
+    channels[TH], channels[LOSS] = 0.1, 1.0
+    return channels
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.3, 0.5])
 def test_profile_power_and_drag_with_yawed_flow(mu: float):
-    """All drag friction: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
+    """Of constant C_d: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
     design = make_design(mu=mu)
     blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
     design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
     problem = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360)))
-    disk, (fx, radial) = problem.disk, friction_of(replace(problem, friction=1.0), mu)
+    disk, data = problem.disk, problem.section_data()
+    constant = np.zeros_like(data.tables)
+    constant[:, :, :, 1, 0, 0] = 1.0
+    forces = section(flow_at(problem, mu), data._replace(tables=constant), False, False)[0]
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
     width = disk.dr / len(disk.psi)
-    yawless = disk.half_solidity[:, None] * np.abs(across) * across
-    power = width @ ((yawless + fx) * across + radial * mu * disk.cos).sum(axis=1)
-    drag = width @ ((yawless + fx) * disk.sin + radial * disk.cos).sum(axis=1)
+    power = width @ (forces[FX] * across + forces[FR] * mu * disk.cos).sum(axis=1)
+    drag = width @ (forces[FX] * disk.sin + forces[FR] * disk.cos).sum(axis=1)
     unit = 2.0 * disk.half_solidity.mean() / 8.0
     assert_allclose(power / unit, 1.0 + 4.5 * mu**2 + 1.61 * mu**3.7, rtol=0.01)
     assert_allclose(drag / unit, 3.0 * mu + 1.98 * mu**2.7, rtol=0.02)
+
+
+def small_problem() -> Problem:
+    """Few elements of a blade with a swept tip, elastic in torsion."""
+    design = make_design(mu=0.4)
+    return build_problem(replace(design, models=replace(design.models, panels=8, line_azimuths=24)))
+
+
+def test_air_along_the_blade_alone_pulls_along_it():
+    """A plate in spanwise flow: F_r = ½σ U_R |U_R| times the mean of its drag with either edge first; no lift."""
+    problem = small_problem()
+    disk, data = problem.disk, problem.section_data()
+    channels = np.zeros((6, *disk.shape))
+    channels[LOSS], channels[UR] = 1.0, 0.3 * disk.cos
+    forces, _, flow = section(channels, data, False, True)
+    for i, r in enumerate(disk.r):
+        inner, outer, weight = problem.design.rotor.blade.section_at(float(r))
+        tables = [problem.design.rotor.blade.installed(name) for name in (inner, outer)]
+        mach = flow[MACH, i]
+        parts = [
+            0.5 * sum(each.table(angle - each.incidence_offset, mach).cd for angle in (0.0, math.pi)) for each in tables
+        ]
+        expected = (1.0 - weight) * parts[0] + weight * parts[1]
+        pull = disk.half_solidity[i] * np.abs(channels[UR, i]) * channels[UR, i] * expected
+        assert_allclose(forces[FR, i], pull, rtol=1e-9, atol=1e-15)
+    assert np.abs(forces[[FZ, FX]]).max() < 1e-15
+
+
+def test_without_yaw_the_section_is_that_of_its_plane():
+    problem = small_problem()
+    channels, data = flow_at(problem, 0.4), problem.section_data()
+    channels[UR] = 0.0
+    plane = data._replace(yawed=False)
+    for yawed, own in zip(section(channels, data, True, True), section(channels, plane, True, True), strict=True):
+        rows = [
+            k for k in range(len(own)) if len(own) < 6 or PAIRS[k] not in ((FR, UR), (FZ, LOSS), (FX, LOSS), (M, LOSS))
+        ]
+        assert_allclose(yawed[rows], own[rows], rtol=0, atol=1e-14)
+
+
+def test_slopes_of_yawed_drag_against_differences():
+    """All forces by all channels in reverse flow, stall and yaw up to 90°; the step that agrees best counts."""
+    problem, random = small_problem(), np.random.default_rng(4)
+    data, channels = problem.section_data(), flow_at(problem, 0.4)
+    channels[:3] += random.normal(scale=0.1, size=(3, *problem.disk.shape))
+    slopes = section(channels, data, True, False)[1]
+    for (force, channel), slope in zip(PAIRS, slopes, strict=True):
+        if channel != LOSS:
+            off = np.inf
+            for step in (1e-4, 1e-5, 1e-6):
+                ahead, behind = channels.copy(), channels.copy()
+                ahead[channel] += step
+                behind[channel] -= step
+                pair = (section(c, data, False, False)[0][force] for c in (ahead, behind))
+                off = np.minimum(off, np.abs((next(pair) - next(pair)) / (2.0 * step) - slope))
+            assert off.max() < 3e-7 * np.abs(slopes).max(), (force, channel)
 
 
 def test_swirl_is_what_the_torque_gives_the_air():

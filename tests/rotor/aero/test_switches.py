@@ -88,7 +88,7 @@ class TestReverseFlow:
 class TestCompressibility:
     def test_sections_are_those_of_one_mach_number(self):
         solution = solve(
-            with_switches(make_design(mu=0.35), ("compressibility", "swept_tip", "dynamic_stall"))
+            with_switches(make_design(mu=0.35), ("compressibility", "swept_tip", "dynamic_stall", "radial_friction"))
         ).require()
         disk = solution.disk
         for radius, section in ((0.2, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
@@ -181,7 +181,7 @@ class TestLossesAndFuselage:
         on = solve(make_design(mu=0.3)).require()
         off = solve(with_switches(make_design(mu=0.3), ("fuselage",))).require()
         assert off.power.parasite == 0.0
-        assert abs(off.controls.shaft_tilt) < math.radians(1.5) < on.controls.shaft_tilt
+        assert abs(off.controls.shaft_tilt) < math.radians(1.6) < on.controls.shaft_tilt
         thesis = with_switches(make_design(preset="thesis", mu=0.3), ("fuselage",))
         assert solve(thesis).require().controls.shaft_tilt == 0.0
 

@@ -71,7 +71,7 @@ CASES = {
     "dynamic stall in steady flow": flight(0.35, unsteady=False),
     "axial flow of the disk left out": flight(disk_axial_flow=False),
     "without swirl": flight(swirl=False),
-    "without friction": flight(radial_friction=False),
+    "without yawed drag": flight(radial_friction=False),
     "without tip sweep": flight(swept_tip=False),
     "one Mach number": flight(compressibility=False),
     "active twist": Case(active=ACTIVE, flap=(-0.02, 0.01)),

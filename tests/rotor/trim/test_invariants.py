@@ -27,8 +27,8 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
         })  # fmt: skip
 
     design = make_design(mu=0.25)
-    # Weight does not scale with a speed squared at fixed g, nor skin friction with the Reynolds number twice as large.
-    design = replace(design, models=replace(design.models, blade_weight=False, radial_friction=False))
+    # Weight does not scale with a speed squared at fixed g.
+    design = replace(design, models=replace(design.models, blade_weight=False))
     structure = grown(
         design.rotor.blade.structure, radius=1, stations=1, torsional_stiffness=4, mass_per_length=2,
         torsional_inertia=4, tension_gyration=2, clamp=1, control_stiffness=3, pitch_horn=1,
@@ -68,15 +68,18 @@ def test_low_speed_tends_to_symmetry(preset: str):
     assert_allclose(solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4)
 
 
-@pytest.mark.parametrize("mu", [0.1, 0.35])
+@pytest.mark.parametrize(("mu", "within"), [(0.1, 5e-5), (0.35, 6e-4)])
 @pytest.mark.parametrize("inflow", ["pitt-peters", "local-momentum"])
-def test_few_azimuths_stand_for_all(inflow: str, mu: float):
-    """The trim on a third of the azimuths, and its derivatives as a step on all: what is left of the error."""
+def test_few_azimuths_stand_for_all(inflow: str, mu: float, within: float):
+    """The trim on a third of the azimuths, and its derivatives as a step on all: what is left of the error.
+
+    Yawed drag changes within a few degrees of azimuth where reverse flow ends.
+    """
     design = make_design(mu=mu, inflow=inflow)
     whole = solve(design).require()
     few = solve(replace(design, models=replace(design.models, azimuths=LEAST_AZIMUTHS))).require()
     assert few.disk.theta.shape[1] == LEAST_AZIMUTHS
-    assert_allclose(few.power.total, whole.power.total, rtol=5e-5)
+    assert_allclose(few.power.total, whole.power.total, rtol=within)
     system, x = Analysis(whole).linear.point.system, Analysis(whole).linear.point.x
     assert system.thin.waves.azimuths == LEAST_AZIMUTHS
     matrices = [jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)]

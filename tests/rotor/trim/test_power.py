@@ -29,14 +29,14 @@ def test_energy_identity(inflow: str, mu: float, twist: str):
 
 
 def test_section_identity():
-    """U_T dF_x = U_P dF_z + U dD at every element: steady lift does no work on its own stream."""
+    """U_T dF_x + U_R dF_r = U_P dF_z + V dD at every element: steady lift does no work on its own stream."""
     design = make_design(mu=0.35)
-    models = replace(design.models, inflow="pitt-peters", radial_friction=False, unsteady=False, dynamic_stall=False)
+    models = replace(design.models, inflow="pitt-peters", unsteady=False, dynamic_stall=False)
     problem = build_problem(replace(design, models=models))
     elements = elements_at(problem, TrimState(0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01))
-    speed = np.hypot(elements.u_t, elements.u_p)
+    speed = np.hypot(np.hypot(elements.u_t, elements.u_p), elements.u_r)
     dissipation = problem.disk.half_solidity[:, None] * speed**3 * elements.cd
-    left = elements.u_t * elements.fx - elements.u_p * elements.fz
+    left = elements.u_t * elements.fx - elements.u_p * elements.fz + elements.u_r * elements.fr
     assert_allclose(left, dissipation, rtol=1e-9, atol=1e-15)
 
 
