@@ -107,8 +107,9 @@ def pitch_of_alpha(flow: Any) -> Array:
     return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
 
 
-def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float]:
-    """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled part of the thrust.
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float, float]:
+    """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled parts of the thrust
+    and of its moment about the hub, Σ r dT.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
@@ -118,11 +119,11 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
         beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
-        stalled, cells, lift = beyond & ~reverse, disk.cells, disk.dr[:, None] * elements.fz
+        stalled, cells, lift, r = beyond & ~reverse, disk.cells, disk.dr[:, None] * elements.fz, disk.r
     else:
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
         u_t, lift = matrix @ np.stack((elements.u_t, elements.fz))
-        reverse, cells = u_t < 0.0, cells / len(disk.psi)
+        reverse, cells, r = u_t < 0.0, cells / len(disk.psi), matrix @ disk.r
         if unsteady is None:
             limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
             pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
@@ -133,17 +134,19 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
         else:
             beyond = matrix @ unsteady.separation < STALLED
         stalled = beyond & ~reverse
-    thrust = float(lift.sum())
+    moment = r[:, None] * lift
+    of_lift, of_moment = (float(own[stalled].sum() / own.sum()) if own.any() else 0.0 for own in (lift, moment))
     reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
-    return reversed_area, area, float(lift[stalled].sum()) / thrust if thrust else 0.0
+    return reversed_area, area, of_lift, of_moment
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
-    """Stalled fractions of πR² and of the thrust on the azimuths that are shown."""
+    """Stalled fractions of πR² and of the lift's moment about the hub on the azimuths that are shown."""
     problem, e = as_asked(problem, elements)
     disk = problem.disk
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
-    return areas(disk, e, margin)[1:]
+    _, area, _, moment = areas(disk, e, margin)
+    return area, moment
 
 
 @bytes_cache

@@ -11,9 +11,10 @@ special case),
     dC_M/dr = M   = ½σ (c/R) U² C_m(α) − x F_z − d U θ' − ½ j sin 2θ
 
 F: loss factor on lift. Λ: sweep of the quarter chord. Drag is along the whole velocity V, with the coefficient of the
-section along the stream, at α' (after Harris, J. AHS 11(3), 1966, which could not be obtained; the closed forms of
-Johnson, Helicopter Theory, 1980, follow for constant C_d); with U_R left out it is that of the section's plane. α' is beyond 90° where the stream meets the trailing edge first; where it is within 15° of
-the blade's axis, C_d goes smoothly from that of one edge to that of the other.
+section along the stream, at α' (after Harris, J. AHS 11(3), 1966, which could not be obtained; closed forms of Johnson,
+Helicopter Theory, 1980, follow for constant C_d); with U_R left out it is that of the section's plane. α' is beyond 90°
+where the stream meets the trailing edge first; where the stream is within 15° of the blade's axis, C_d goes smoothly
+from that of one edge to that of the other.
 
 M is nose up about the pitch axis: x is how far the quarter chord lies behind it, d = N_b (c/R)³/8 the damping −πρb³Uθ̇
 of thin-airfoil theory (Theodorsen, NACA Report 496), j the propeller moment.
@@ -133,14 +134,17 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         _speeds(t, p, w[_U])
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
         scattered = len(data.scatter) > 0
-        by_angle = slopes or flow or scattered
-        _coefficients(data, i, alpha, mach, by_angle, cells, places, coeffs)
-        speed, between = w[_U], False
+        by_angle, speed, between = slopes or flow or scattered, w[_U], False
+        places_along_mach(mach, cells[1], places[1], places[2])
+        _coefficients(data, i, alpha, (0, 1 if data.yawed else 2), by_angle, cells, places, coeffs, 0)
         if data.yawed:
             speed, between = w[_V], _streamwise(c[TH, i], t, p, r, w)
-            _drag(data, i, w[_STREAM], by_angle, cells, places, coeffs, 3)
+            _coefficients(data, i, w[_STREAM], (1, 2), by_angle, cells, places, coeffs, 3)
         if between:
-            _other_edge(data, i, by_angle, w, cells, places, coeffs)
+            for j in range(m):
+                w[_ONE, j] = _PI - w[_STREAM, j]
+            _coefficients(data, i, w[_ONE], (1, 2), by_angle, cells, places, coeffs, _TURN)
+            _other_edge(w, coeffs)
         if scattered:
             _scatter(data.scatter, coeffs)
         if data.added.shape[1] > 0:
@@ -252,11 +256,8 @@ def _streamwise(theta: Any, t: Any, p: Any, r: Any, w: Any) -> bool:
 
 
 @_inline
-def _other_edge(data: Any, i: int, slopes: bool, w: Any, cells: Any, places: Any, coeffs: Any) -> None:
-    """Mix C_d of one row with that of the stream from the other edge, and fill `_TURN`; half of each where C = 0."""
-    for j in range(w.shape[1]):
-        w[_ONE, j] = _PI - w[_STREAM, j]
-    _drag(data, i, w[_ONE], slopes, cells, places, coeffs, _TURN)
+def _other_edge(w: Any, coeffs: Any) -> None:
+    """Mix C_d of one row with that of the stream from the other edge in `_TURN`; half of each where C = 0."""
     for j in range(w.shape[1]):
         x = min(abs(w[_C, j]) / (_FADES * w[_G, j]), 1.0)
         share, drag = 0.5 - 0.25 * x * (3.0 - x * x), coeffs[_TURN, j] - coeffs[3, j]
@@ -266,31 +267,21 @@ def _other_edge(data: Any, i: int, slopes: bool, w: Any, cells: Any, places: Any
         coeffs[_TURN, j] = drag * (0.75 / _FADES) * (x * x - 1.0)
 
 
-@_compile
-def _coefficients(data: Any, i: int, alpha: Any, mach: Any, slopes: bool, cells: Any, places: Any, coeffs: Any) -> None:
-    """C_l, C_m and, without yaw, C_d of one row, blended from the two sections at its element, with ∂/∂α and ∂/∂M.
-
-    cells (2, azimuths), places (3, azimuths): memory to work in.
-    """
-    places_along_mach(mach, cells[1], places[1], places[2])
-    for which in range(2):
-        share = data.weight[i] if which == 1 else 1.0
-        if share > 0.0:
-            places_along_alpha(alpha, data.offset[i, which], cells[0], places[0])
-            table = data.section[i, which]
-            look_up(data.tables, 0, 1 if data.yawed else 2, table, cells, places, share, slopes, coeffs, 0)
-            if len(data.moment_gain) > 0:
-                look_up(data.moment_tables, 0, 1, table, cells, places, share, slopes, coeffs, 6)
-
-
 @_inline
-def _drag(data: Any, i: int, angle: Any, slopes: bool, cells: Any, places: Any, coeffs: Any, row: int) -> None:
-    """C_d of one row with ∂/∂α' and ∂/∂M, at the places along Mach of `_coefficients`."""
+def _coefficients(
+    data: Any, i: int, angle: Any, kinds: Any, slopes: bool, cells: Any, places: Any, coeffs: Any, row: int
+) -> None:
+    """Coefficients of one row from kinds[0] to before kinds[1], with C_m beside C_l, blended from the two sections at
+    its element, each followed by ∂/∂α and ∂/∂M; cells (2, azimuths), places (3, azimuths): along Mach they are there.
+    """
     for which in range(2):
         share = data.weight[i] if which == 1 else 1.0
         if share > 0.0:
             places_along_alpha(angle, data.offset[i, which], cells[0], places[0])
-            look_up(data.tables, 1, 2, data.section[i, which], cells, places, share, slopes, coeffs, row)
+            table = data.section[i, which]
+            look_up(data.tables, *kinds, table, cells, places, share, slopes, coeffs, row)
+            if kinds[0] == 0 and len(data.moment_gain) > 0:
+                look_up(data.moment_tables, 0, 1, table, cells, places, share, slopes, coeffs, 6)
 
 
 @_inline

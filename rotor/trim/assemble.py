@@ -48,7 +48,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         )
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    reverse, stalled, stalled_thrust = areas(shown[0].disk, shown[1], fields.stall_margin)
+    reverse, stalled, stalled_thrust, stalled_moment = areas(shown[0].disk, shown[1], fields.stall_margin)
     refused = _refused(result, stalled) or implausible(problem, elements, total) or _impossible(design, power)
     solution = Solution(
         design=design,
@@ -65,6 +65,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         reverse_flow_area=reverse,
         stalled_area=stalled,
         stalled_thrust=stalled_thrust,
+        stalled_moment=stalled_moment,
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,

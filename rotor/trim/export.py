@@ -74,7 +74,11 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "reverse_flow_area_percent": 100.0 * solution.reverse_flow_area,
         "stalled_area_percent": 100.0 * solution.stalled_area,
         "dynamic_stall": solution.disk.unsteady is not None,
-        "stalled_percent": {"area": 100.0 * solution.stalled_area, "thrust": 100.0 * solution.stalled_thrust},
+        "stalled_percent": {
+            "area": 100.0 * solution.stalled_area,
+            "thrust": 100.0 * solution.stalled_thrust,
+            "moment": 100.0 * solution.stalled_moment,
+        },
         **(_elastic_record(solution.elastic) if solution.elastic else dict.fromkeys(_RIGID)),
     }
     return {

@@ -114,7 +114,7 @@ def trim(
     """Trim a forward-flight problem from a guess, or from simple estimates.
 
     Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as stalled sections
-    carry no more than `most_stalled` of the thrust.
+    carry no more than `most_stalled` of the lift's moment.
     """
     passes = 0
     best: TrimResult | None = None

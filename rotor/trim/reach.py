@@ -17,19 +17,19 @@ from rotor.trim.validity import MOST_STALLED
 _TOLERANCE = 0.02
 """How near the largest mass and speed are found, as a part of the way to them."""
 _UNTRIMMED_SHARE = 2.0 * MOST_STALLED
-"""Stalled part of the thrust that stands for no trim there."""
+"""Stalled part of the lift's moment that stands for no trim there."""
 _LEAST_POWER_SPEED = 0.15
 """Advance ratio from which the largest speed is looked for: the least power is near it."""
 
 
 def stall_limit(problem: Problem) -> float:
-    """Stalled part of the thrust beyond which trims do not count."""
+    """Stalled part of the lift's moment beyond which trims do not count."""
     by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
     return math.inf if by_document else MOST_STALLED
 
 
 def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:
-    """Mass and advance ratio to which the trim can be followed with no more of the thrust stalled; None where not."""
+    """Mass and advance ratio to which the trim can be followed with no more stall; None where not."""
     condition = solution.design.condition
     if condition.stand is not None:
         return None, None
@@ -40,8 +40,8 @@ def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, f
     return mass, mu
 
 
-def _stalled_thrust(result: TrimResult) -> float:
-    """Stalled part of the thrust of a trim; of none, too much."""
+def _stalled(result: TrimResult) -> float:
+    """Stalled part of the lift's moment of a trim; of none, too much."""
     return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _UNTRIMMED_SHARE
 
 
@@ -55,19 +55,19 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
     if easy >= wanted:
         return None
     result = trim_on_course(problem_at(easy), None, options)
-    if _stalled_thrust(result) > MOST_STALLED:
+    if _stalled(result) > MOST_STALLED:
         return None
     trims = {easy: result}
 
     def too_much(value: float) -> float:
-        """Stalled part of the thrust over what counts; what is wanted has too much, and so has what does not trim."""
+        """Stalled part of the lift's moment over what counts; too much where wanted and where none trims."""
         near = trims[max(trims)]
         if value == easy:
-            return _stalled_thrust(near) - MOST_STALLED
+            return _stalled(near) - MOST_STALLED
         if value == wanted or options.asked_to_stop:
             return _UNTRIMMED_SHARE - MOST_STALLED
         ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
-        share = _stalled_thrust(ahead)
+        share = _stalled(ahead)
         if share <= MOST_STALLED:
             trims[value] = ahead
         return share - MOST_STALLED

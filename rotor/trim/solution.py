@@ -183,6 +183,8 @@ class Solution:
     chord; reverse flow not counted (0…1)."""
     stalled_thrust: float
     """Part of the thrust that stalled sections carry; negative where they press down."""
+    stalled_moment: float
+    """Part of the lift's moment about the hub, Σ r dT, that they carry."""
     residual: float
     """Largest trim residual, as a fraction of the weight (moments: of weight × radius)."""
     passes: int

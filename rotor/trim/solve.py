@@ -59,11 +59,11 @@ def analyse(
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     found = _trim_branch(require_design(design), start, options, freedoms)
     solution = found.solution
-    if not solution.converged or design.hovering or solution.stalled_thrust <= stall_limit(found.linear.problem):
+    if not solution.converged or design.hovering or solution.stalled_moment <= stall_limit(found.linear.problem):
         return found
-    # Stalled sections carry more of the thrust than on rotors that were measured.
+    # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
     ends = largest(solution, options) if options.remedy else (None, None)
-    sentence = stalled_sentence(design, solution.stalled_thrust, *ends)
+    sentence = stalled_sentence(design, solution.stalled_moment, *ends)
     refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
     return Analysis(refused, found.linear)
 
@@ -102,7 +102,7 @@ def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOpti
 
 def is_suspect_branch(found: Analysis) -> bool:
     """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
-    return found.solution.stalled_thrust > MOST_STALLED or not found.solution.converged
+    return found.solution.stalled_moment > MOST_STALLED or not found.solution.converged
 
 
 def guess_of(design: Design, start: Start) -> Guess | None:

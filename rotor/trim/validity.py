@@ -39,9 +39,9 @@ NOSE_UP_TWIST = math.radians(1.0)
 STALL_SHARE = 0.02
 """Stalled part of the disk above which dynamic stall would change the results."""
 MOST_STALLED = 0.25
-"""Part of the thrust that stalled sections carry beyond which there is no power. Measured rotors have up to 22 % (a
-tilted XV-15). Beyond the largest lift a rotor balances the same weight once more, at a multiple of the power, with 33
-to 56 % of the thrust stalled and 19 to 44 % of the disk: the share of the disk does not tell the two apart."""
+"""Part of the lift's moment about the hub, Σ r dT, that stalled sections carry beyond which there is no power. Rotors
+compared with measurement have up to 21 % (an XV-15 tilted aft). Beyond the largest lift a rotor balances the same
+weight once more, at a multiple of the power, with 40 % and more: shares of thrust or disk do not tell them apart."""
 LEAST_ASPECT_RATIO = 10.0
 """R/c below which thrust at a given collective is not trusted. Our choice: that of Caradonna and Tung's rotor (NASA
 TM-81232) is 6, those of the other rotors compared here 10.7 and more."""
@@ -433,8 +433,8 @@ def stalled_sentence(design: Design, stalled: float, mass: float | None, mu: flo
         remedy = f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
         remedy = f"The largest that trims is {largest[0]}." if len(largest) == 1 else remedy
     return (
-        f"Not trimmed: {100.0 * stalled:.0f} % of the thrust comes from stalled sections, and beyond "
-        f"{100.0 * MOST_STALLED:.0f} % no measured rotor says what power it takes. {remedy}"
+        f"Not trimmed: {100.0 * stalled:.0f} % of the lift's moment about the hub comes from stalled sections; beyond "
+        f"{100.0 * MOST_STALLED:.0f} % no rotor here was compared with a measurement. {remedy}"
     )
 
 

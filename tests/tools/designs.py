@@ -87,11 +87,11 @@ class Outcome:
     first: bool = True
     """The first attempt finds the trim: no other start, continuation or branch is needed."""
     alone: bool = True
-    """Nor was one looked for, as it is where stalled sections carry much of the thrust."""
+    """Nor was one looked for, as it is where stalled sections carry much of the lift's moment."""
     plain: bool = False
     """Level flight within `TRIMMABLE`."""
     stalled: float = 0.0
-    """Part of the thrust from stalled sections, of the solution or where it ended."""
+    """Part of the lift's moment from stalled sections, of the solution or where it ended."""
 
 
 def try_design(asked: dict[str, Any]) -> Outcome:
@@ -108,11 +108,11 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     alone, plain = not tries, _plain(design)
     first = alone or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
     if wrong := _wrong(solution):
-        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_thrust)
+        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_moment)
     mu = design.condition.advance_ratio
     neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
     warm = solve(design, neighbour)
-    stalled = max(solution.stalled_thrust, warm.stalled_thrust)
+    stalled = max(solution.stalled_moment, warm.stalled_moment)
     kind, said = "trimmed", ""
     if solution.converged != warm.converged:
         kind = "at the limit" if "of the disk is stalled" in solution.message else "other status"

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from rotor import make_design, solve
 from rotor.aero.losses import loss_factor
 from rotor.aero.problem import Problem, build_problem
-from rotor.aero.section import FR, FX, FZ, LOSS, MACH, PAIRS, TH, UP, UR, UT, M, section
+from rotor.aero.section import FR, FX, FZ, LOSS, PAIRS, TH, UP, UR, UT, M, SectionData, section
 from rotor.aero.switches import no_effect, with_switches
 from rotor.design.design import BEYOND_DOCUMENT
 from rotor.support.arrays import Array
@@ -26,6 +26,13 @@ def flow_at(problem: Problem, mu: float) -> Array:
     return channels
 
 
+def with_drag_of_one(problem: Problem) -> SectionData:
+    """Sections without lift whose C_d is 1."""
+    tables = np.zeros_like(problem.section_data().tables)
+    tables[:, :, :, 1, 0, 0] = 1.0
+    return problem.section_data()._replace(tables=tables)
+
+
 @pytest.mark.parametrize("mu", [0.1, 0.3, 0.5])
 def test_profile_power_and_drag_with_yawed_flow(mu: float):
     """Of constant C_d: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
@@ -33,10 +40,7 @@ def test_profile_power_and_drag_with_yawed_flow(mu: float):
     blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
     design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
     problem = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360)))
-    disk, data = problem.disk, problem.section_data()
-    constant = np.zeros_like(data.tables)
-    constant[:, :, :, 1, 0, 0] = 1.0
-    forces = section(flow_at(problem, mu), data._replace(tables=constant), False, False)[0]
+    disk, forces = problem.disk, section(flow_at(problem, mu), with_drag_of_one(problem), False, False)[0]
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
     width = disk.dr / len(disk.psi)
     power = width @ (forces[FX] * across + forces[FR] * mu * disk.cos).sum(axis=1)
@@ -53,22 +57,13 @@ def small_problem() -> Problem:
 
 
 def test_air_along_the_blade_alone_pulls_along_it():
-    """A plate in spanwise flow: F_r = ½σ U_R |U_R| times the mean of its drag with either edge first; no lift."""
+    """A plate in spanwise flow: F_r = ½σ C_d U_R |U_R|, no lift, no torque."""
     problem = small_problem()
-    disk, data = problem.disk, problem.section_data()
-    channels = np.zeros((6, *disk.shape))
-    channels[LOSS], channels[UR] = 1.0, 0.3 * disk.cos
-    forces, _, flow = section(channels, data, False, True)
-    for i, r in enumerate(disk.r):
-        inner, outer, weight = problem.design.rotor.blade.section_at(float(r))
-        tables = [problem.design.rotor.blade.installed(name) for name in (inner, outer)]
-        mach = flow[MACH, i]
-        parts = [
-            0.5 * sum(each.table(angle - each.incidence_offset, mach).cd for angle in (0.0, math.pi)) for each in tables
-        ]
-        expected = (1.0 - weight) * parts[0] + weight * parts[1]
-        pull = disk.half_solidity[i] * np.abs(channels[UR, i]) * channels[UR, i] * expected
-        assert_allclose(forces[FR, i], pull, rtol=1e-9, atol=1e-15)
+    channels = np.zeros((6, *problem.disk.shape))
+    channels[LOSS], channels[UR] = 1.0, 0.3 * problem.disk.cos
+    forces = section(channels, with_drag_of_one(problem), False, False)[0]
+    pull = problem.disk.half_solidity[:, None] * np.abs(channels[UR]) * channels[UR]
+    assert_allclose(forces[FR], pull, rtol=1e-12, atol=1e-15)
     assert np.abs(forces[[FZ, FX]]).max() < 1e-15
 
 

@@ -64,7 +64,7 @@ def check(solution: Solution) -> None:
 
 @pytest.mark.slow
 def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
-    """Where stalled sections carry so much thrust that there is no power; the equations hold a little further."""
+    """Where stalled sections carry too much of the lift's moment; the equations hold a little further."""
     beyond = solve(make_design(mu=0.2, mass_kg=18_000.0))
     reached = re.search(r"A trim was found only up to (\d+) kg\.", beyond.message)
     assert reached
@@ -150,7 +150,7 @@ def test_the_trim_of_least_power_is_found():
     for mass in (6500.0, 8000.0, 9500.0, 10000.0, 10250.0, 10500.0):
         heavier = solve(at_mass(DEEP_STALL, mass), heavier)
     assert_allclose(cold.power.total, heavier.power.total, rtol=1e-6)
-    assert cold.stalled_thrust < MOST_STALLED
+    assert cold.stalled_moment < MOST_STALLED
 
 
 def test_a_start_deep_in_stall_comes_back():
@@ -223,7 +223,7 @@ def check_random(count: int, seed: int) -> None:
     plain = sum(one.plain for one in outcomes)
     # A hundred designs have some twenty in plain level flight, of which one is 5 %: a second one is chance.
     assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
-    # A free rotor has no equilibrium at many a load, and beyond 25 % of thrust stalled there is no power.
+    # A free rotor has no equilibrium at many a load, and beyond 25 % of the moment stalled there is no power.
     possible = [one for one in outcomes if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED]
     assert len(possible) > 0.5 * count
     assert sum(one.kind == "trimmed" for one in possible) > 0.95 * len(possible)
