@@ -210,7 +210,7 @@ def _along(element: int, data: Any, cells: Any, places: Any, x: Any, slopes: boo
     for which in range(2):
         share = data.weight[element] if which == 1 else 1.0
         if share > 0.0:
-            look_up(data.tables, 0, 2, data.section[element, which], cells, places, share, slopes, fm, 0)
+            look_up(data.tables, (0, 2), data.section[element, which], cells, places, share, slopes, fm, 0)
     fm[0, -1], fm[3, -1] = fm[0, 0], fm[3, 0]
 
 

@@ -66,25 +66,15 @@ def _blend(out: Any, row: int, j: int, share: float, value: float) -> None:
 
 @_compile
 def look_up(
-    tables: Any,
-    first: int,
-    last: int,
-    which: int,
-    cells: Any,
-    places: Any,
-    share: float,
-    slopes: bool,
-    out: Any,
-    row: int,
+    tables: Any, kinds: Any, which: int, cells: Any, places: Any, share: float, slopes: bool, out: Any, row: int
 ) -> None:
-    """Blend coefficients first … last − 1 of a section and their slopes by α [rad] and Mach into one row of azimuths.
+    """Blend coefficients kinds[0] to before kinds[1] of a section, with slopes by α [rad] and Mach, from out[row] on.
 
     tables: (sections, α cells, Mach cells, coefficients, 4, 4). cells, places: along α, then along Mach; the third row
-    of places is ∂place/∂M. share: of this section, 1 for the first of two. out[row] and the two after are those of the
-    first coefficient; slopes only where they are asked for.
+    of places is ∂place/∂M. share: of this section, 1 for the first of two. Slopes only where they are asked for.
     """
-    for k in range(first, last):
-        at = row + 3 * (k - first)
+    for k in range(*kinds):
+        at = row + 3 * (k - kinds[0])
         if slopes:
             for j in range(places.shape[1]):
                 value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])

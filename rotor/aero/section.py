@@ -279,9 +279,9 @@ def _coefficients(
         if share > 0.0:
             places_along_alpha(angle, data.offset[i, which], cells[0], places[0])
             table = data.section[i, which]
-            look_up(data.tables, *kinds, table, cells, places, share, slopes, coeffs, row)
+            look_up(data.tables, kinds, table, cells, places, share, slopes, coeffs, row)
             if kinds[0] == 0 and len(data.moment_gain) > 0:
-                look_up(data.moment_tables, 0, 1, table, cells, places, share, slopes, coeffs, 6)
+                look_up(data.moment_tables, (0, 1), table, cells, places, share, slopes, coeffs, 6)
 
 
 @_inline
@@ -344,12 +344,9 @@ def _force_slopes(c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: A
         _resolve(t, p, lift, drag, d[_Z + k, i], d[_X + k, i])
         if data.yawed:
             _times(drag, r, d[_R + k, i])
-    for j in range(m):
-        d[_Z + UT, i, j] += w[_LIFT, j]
-        d[_X + UP, i, j] += w[_LIFT, j]
-    for j in range(m):
-        d[_Z + UP, i, j] -= w[_DRAG, j]
-        d[_X + UT, i, j] += w[_DRAG, j]
+    for row, own, sign in ((_Z + UT, _LIFT, 1.0), (_X + UP, _LIFT, 1.0), (_Z + UP, _DRAG, -1.0), (_X + UT, _DRAG, 1.0)):
+        for j in range(m):
+            d[row, i, j] += sign * w[own, j]
     for j in range(m if data.yawed else 0):
         d[_R + UR, i, j] += w[_DRAG, j]
 
@@ -375,7 +372,6 @@ def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: An
     """Those of ½σV C_d: ∂α'/∂θ = C/G, by air (C U_P + U_R² sin θ, −C U_T − U_R² cos θ, −S U_R)/(G V²)."""
     for j in range(len(t)):
         w[_ONE, j] = math.copysign(half, w[_C, j]) * coeffs[4, j] / (w[_V, j] * w[_G, j])
-    for j in range(len(t)):
         w[_TWO, j] = w[_DRAG, j] / (w[_V, j] * w[_V, j])
         w[_MACH, j] = half * w[_V, j] * coeffs[5, j]
     for j in range(len(t)):
@@ -387,10 +383,8 @@ def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: An
     for j in range(len(t)):
         out[UR, j] = (w[_TWO, j] - w[_ONE, j] * w[_S, j]) * r[j] + w[_MACH, j] * w[_BY_R, j]
     for j in range(len(t)):
-        w[_ONE, j] *= r[j] * r[j]
-    for j in range(len(t)):
-        out[UT, j] += w[_ONE, j] * w[_SIN, j]
-        out[UP, j] -= w[_ONE, j] * w[_COS, j]
+        out[UT, j] += w[_ONE, j] * (r[j] * r[j]) * w[_SIN, j]
+        out[UP, j] -= w[_ONE, j] * (r[j] * r[j]) * w[_COS, j]
     for j in range(len(t) if between else 0):
         turn = math.copysign(half, w[_C, j]) * w[_V, j] * coeffs[_TURN, j] * r[j] / (w[_G, j] * w[_G, j] * w[_G, j])
         out[TH, j] -= turn * r[j] * w[_S, j]
