@@ -49,13 +49,13 @@ def test_lift_of_all_blades_is_the_thrust(which: str, request: pytest.FixtureReq
 
 
 def by_coefficients(solution: Solution) -> tuple[Distribution, np.ndarray, np.ndarray]:
-    """½ρ c U (C_l U_T − C_d U_P) of a lifting line, which has no loss factor, and ½ρ U² c."""
+    """½ρ c (U C_l U_T − V C_d U_P) of a lifting line, which has no loss factor, and ½ρ U² c."""
     disk, design, found = solution.disk, solution.design, distribution(solution)
     head = design.rotor
     chord = build_problem(design).disk.half_solidity[:, None] * 2.0 * math.pi * head.radius / head.blades
     speed = np.hypot(disk.u_t, disk.u_p)
     gain = 0.5 * design.condition.density * head.tip_speed**2 * chord
-    return found, gain * speed * (found.cl * disk.u_t - disk.cd * disk.u_p), gain * speed**2
+    return found, gain * (speed * found.cl * disk.u_t - np.hypot(speed, disk.u_r) * disk.cd * disk.u_p), gain * speed**2
 
 
 def test_lift_is_that_of_the_coefficients(steady: Solution):
