@@ -75,7 +75,7 @@ def test_response_is_that_of_the_trim(matrix: TMatrix, twist: str):
     assert_allclose(found.index, loads.index, atol=0.03 * base.index)
     for name, wave in found.loads.items():
         expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
-        assert abs(wave - expected) < 0.06 * max(abs(base.loads[name]), loads.amplitudes[name]), name
+        assert abs(wave - expected) < 0.09 * max(abs(base.loads[name]), loads.amplitudes[name]), name
 
 
 def test_slopes_of_power_and_index(matrix: TMatrix):
