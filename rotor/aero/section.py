@@ -113,7 +113,8 @@ _LIFT_BY, _DRAG_BY = 16, 20
 _TURN = 9
 """Row of coefficients: ∂C_d/∂(C/G) of `_other_edge`, followed by two to work in."""
 _FADES = 0.25
-"""C/G below which C_d goes to that of the stream from the other edge."""
+"""C/G below which C_d goes to that of the stream from the other edge; with half of it the UH-60A's power at µ 0.4 is
+0.01 % less."""
 
 
 @_compile

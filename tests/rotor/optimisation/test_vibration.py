@@ -22,8 +22,8 @@ LINEAR, LINE = "pitt-peters", "lifting-line"
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
 
 
-def bent(inflow: str, mu: float = 0.3, twist_per_rev: str = "") -> Design:
-    return rotor.make_design(mu=mu, inflow=inflow, bending=True, twist_per_rev=twist_per_rev)
+def bent(inflow: str, mu: float = 0.3, twist_per_rev: str = "", off: str = "") -> Design:
+    return rotor.make_design(mu=mu, inflow=inflow, bending=True, twist_per_rev=twist_per_rev, off=off)
 
 
 def loads_of(solution: Solution) -> HubLoads:
@@ -65,17 +65,25 @@ def test_slopes_are_those_of_trims(design: Design, column: int):
     assert_allclose(matrix.slopes[-1, column], slopes[-1], rtol=5e-3)
 
 
-@pytest.mark.parametrize("twist", ["2:1:240", "3:1:60", "4:1:90", "2:1:210,3:0.7:50"])
-def test_response_is_that_of_the_trim(matrix: TMatrix, twist: str):
-    """With a degree at rest; the linear part alone misses amplitudes by some per cent (reference: 1 to 6 %)."""
-    inflow = matrix.solution.design.models.inflow
-    solution, base = rotor.solve(bent(inflow, twist_per_rev=twist)).require(), matrix.response("")
-    found, loads = matrix.response(twist), loads_of(solution)
-    assert_allclose(found.power, solution.power.total, rtol=5e-3)  # Yawed drag of the inner blade bends more.
-    assert_allclose(found.index, loads.index, atol=0.03 * base.index)
-    for name, wave in found.loads.items():
-        expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
-        assert abs(wave - expected) < 0.09 * max(abs(base.loads[name]), loads.amplitudes[name]), name
+@pytest.mark.parametrize(
+    ("inflow", "off", "power", "index", "load"),
+    [(LINEAR, "", 0.002, 0.01, 0.05), (LINE, "", 0.005, 0.03, 0.09), (LINE, "dynamic-stall", 0.0015, 0.01, 0.02)],
+)
+def test_response_is_that_of_the_trim(inflow: str, off: str, power: float, index: float, load: float):
+    """With a degree at rest; the linear part alone misses amplitudes by some per cent (reference: 1 to 6 %).
+
+    What the quadratic response misses most with a lifting line is dynamic stall: see the last row.
+    """
+    matrix = rotor.t_matrix(bent(inflow, off=off))
+    base = matrix.response("")
+    for twist in ("2:1:240", "3:1:60", "4:1:90", "2:1:210,3:0.7:50"):
+        solution = rotor.solve(bent(inflow, twist_per_rev=twist, off=off)).require()
+        found, loads = matrix.response(twist), loads_of(solution)
+        assert_allclose(found.power, solution.power.total, rtol=power)
+        assert_allclose(found.index, loads.index, atol=index * base.index)
+        for name, wave in found.loads.items():
+            expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
+            assert abs(wave - expected) < load * max(abs(base.loads[name]), loads.amplitudes[name]), (twist, name)
 
 
 def test_slopes_of_power_and_index(matrix: TMatrix):
