@@ -20,7 +20,7 @@ from rotor import Aircraft, Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
 from rotor.support.markup import tag
-from rotor.support.user_input import refusing, shorten
+from rotor.support.user_input import refusing, shorten, text_of
 
 _ROTOR_FILE = ".toml"
 _MOST_FILES = 40
@@ -51,10 +51,9 @@ class UploadedFiles:
         if len(self.texts) >= _MOST_FILES and name not in self.texts:
             raise ValueError(f"{_MOST_FILES} files are loaded already: reload the page to start again.")
         try:
-            text = content.decode("utf-8-sig")
+            text = text_of(content)
         except UnicodeDecodeError:
-            raise ValueError(f"{name} is not UTF-8 text: save it as a text file.") from None
-        text = text.replace("\r\n", "\n")
+            raise ValueError(f"{name} is not text: save it as a text file.") from None
         if name.lower().endswith(_ROTOR_FILE):
             return self._rotor(name, {**self.texts, name: text})
         if self.rotor is not None:

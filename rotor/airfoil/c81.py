@@ -4,7 +4,8 @@ Card image: a title card (30 characters of name, then 6I2: number of Machs and o
 then for each coefficient the Mach cards (seven blanks, then nine fields a card) and for each angle one
 card of the angle and nine values, the rest on continuation cards that begin with seven blanks.
 Every field has seven characters and may touch its neighbour, so the cards are cut by column. Decks of other widths
-are read by their blanks. Lines above the title are left out, and a deck may have no c_m (counts 0 0).
+are read by their blanks. Lines above the title and words below the last card are left out, and a deck may have no c_m
+(counts 0 0).
 """
 
 import re
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rotor.airfoil.numbers import number_of
 from rotor.airfoil.polars import one_row_an_angle
 from rotor.support.arrays import Array
 
@@ -75,13 +77,8 @@ class _Cards:
         return ValueError(f"{self.name}, line {self.at}: {what}")
 
     def number(self, text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            width = "" if self.by_blanks else ": fields are seven characters wide"
-            raise self.fail(f"{text!r} is not a number{width}") from None
-        if not np.isfinite(value):
-            raise self.fail(f"{text!r} is not finite: give a number")
+        if (value := number_of(text)) is None:
+            raise self.fail(f"{text!r} is not a number{'' if self.by_blanks else ': fields are seven characters wide'}")
         return value
 
     def row(self, count: int, with_angle: bool) -> tuple[float, Array]:
@@ -156,9 +153,9 @@ def _deck(cards: _Cards) -> C81Deck:
     lift, drag = (_block(cards, _NAMES[k], counts[2 * k], counts[2 * k + 1]) for k in range(2))
     moment = _block(cards, "cm", counts[4], counts[5]) if counts[4] and counts[5] else None
     for rest in range(cards.at, len(cards.lines)):
-        if cards.lines[rest].strip():
+        if re.match(r"\s*[+-]?\.?\d", cards.lines[rest]):  # Words below the last card are left out.
             cards.at = rest + 1
-            raise cards.fail(f"text after the last card: {cards.remedy}")
+            raise cards.fail(f"numbers after the last card: {cards.remedy}")
     return C81Deck(title, lift, drag, moment)
 
 

@@ -91,6 +91,8 @@ class Contour:
 
     name: str
     points: Array
+    moved: str = ""
+    """What was done to a file's points to bring them to x 0 to 1."""
 
 
 def read_contour(path: Path, name: str | None = None) -> Contour:
@@ -100,7 +102,7 @@ def read_contour(path: Path, name: str | None = None) -> Contour:
 
 def parse_contour(text: str, name: str) -> Contour:
     """The outline in a coordinate file, see `read_coordinates`."""
-    return Contour(name, read_coordinates(text, name))
+    return Contour(name, *read_coordinates(text, name))
 
 
 @lru_cache(maxsize=32)

@@ -2,13 +2,13 @@
 
 Read are files that go round the section once from any point either way (Selig's begin at the trailing edge), and files
 with the two sides one after the other from nose or trailing edge (Lednicer's, with or without counts). Lines of words
-above the points, below them and between the two sides are left out.
+above the points, below them and between the two sides are left out; of points in space, the two coordinates that change
+are the section's.
 """
-
-import re
 
 import numpy as np
 
+from rotor.airfoil.numbers import number_of
 from rotor.support.arrays import Array
 
 _FEWEST, _MOST = 20, 2000
@@ -25,6 +25,10 @@ _TRAILING_EDGE = 0.05
 """[chord] ahead of the last point where a step up is that across a blunt trailing edge."""
 _LONGEST_OUTLINE = 3.0
 """[chord] round a section: 2 for a flat plate, 2.4 for an ellipse of 50 %. Points out of order need far more."""
+_OFF_PLACE, _OFF_CHORD = 0.05, 0.1
+"""[chord] by which nose and length of an outline may differ from 0 and 1 without being moved and scaled."""
+_EDGE, _BLUNTER = 0.03, 3.0
+"""[chord] from either end; where the rear is so many times thicker than the front, the nose is aft."""
 _LEAST_AREA = 0.22
 """Of a section, over thickness times chord: 0.69 for NACA sections, 0.5 for a diamond, 0.25 for Eppler 376, whose tail
 is thin; less if lines cross."""
@@ -32,11 +36,12 @@ _ORDER = "list the points from the trailing edge over the upper side to the nose
 _NOT_ROUND = f"does not go around a section exactly once: {_ORDER}"
 
 
-def read_coordinates(text: str, name: str) -> Array:
+def read_coordinates(text: str, name: str) -> tuple[Array, str]:
     """The outline in `text`, (n, 2): from the upper trailing edge forward around the nose, x aft and y up [chord].
 
-    Repeated points are dropped; a sharp trailing edge is both first and last. Coordinates in per cent or in millimetres
-    are divided by their width in x. Raises ValueError with one sentence that names the line of `name` and the remedy.
+    Repeated points are dropped; a sharp trailing edge is both first and last. An outline elsewhere, of another length
+    or with its nose aft is brought to x 0 to 1; beside the outline stands what was done, as words. Raises ValueError
+    with one sentence that names the line of `name` and the remedy.
     """
     points, lines, words = _rows(text, name)
     counts, left = points[0], len(points) - 1
@@ -61,33 +66,52 @@ def read_coordinates(text: str, name: str) -> Array:
         order = order[:-1]
     if len(runs) == 1 and np.hypot(*(points[order[0]] - points[order[-1]])) > _SIDE_GAP * chord:
         raise ValueError(f"{name} {_NOT_ROUND}")
-    loop = _from_trailing_edge(_once(points[order], chord), chord)
+    closed = _once(points[order], chord)
+    loop = _from_trailing_edge(closed, chord)
     off = _detours(loop) > _POINT_DETOUR * chord
     off[0] = off[-1] = off[int(np.argmin(loop[:, 0]))] = False  # A coarse outline turns back at nose and trailing edge.
     if off.any():
         line = lines[int(np.argmin(np.hypot(*(points - loop[np.argmax(off)]).T)))]
         raise ValueError(f"{name}, line {line}: the outline jumps to this point and back: correct it, or {_ORDER}")
-    chord = float(np.ptp(loop[:, 0]))
-    loop = loop / chord if chord >= 1.1 else loop
-    if chord <= 0.9 or np.abs(loop).max() >= 1.5:
-        raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
+    loop, moved = _placed(loop, closed)
     if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_OUTLINE or _area(loop) < _LEAST_AREA * _thickest(loop):
         raise ValueError(f"{name} {_NOT_ROUND}")
-    return loop
+    return loop, moved
+
+
+def _placed(loop: Array, closed: Array) -> tuple[Array, str]:
+    """An outline, opened and closed, with its nose at x 0 and its trailing edge at 1, and what was done to it."""
+    chord, begin, moved = float(np.ptp(loop[:, 0])), float(loop[:, 0].min()), list[str]()
+    unit = (loop - [begin, 0.0]) / chord
+    if _across(unit, 1.0 - _EDGE) > _BLUNTER * _across(unit, _EDGE):
+        loop = _from_trailing_edge(_once(closed * [-1.0, 1.0], chord), chord)
+        chord, begin, moved = float(np.ptp(loop[:, 0])), float(loop[:, 0].min()), ["turned round"]
+    if abs(begin) > _OFF_PLACE * chord:
+        loop, moved = loop - [begin, 0.0], [*moved, f"moved by {-begin:.3g}"]
+    if abs(chord - 1.0) > _OFF_CHORD:
+        loop, moved = loop / chord, [*moved, f"divided by its chord of {chord:.4g}"]
+    return loop, " and ".join(moved)
+
+
+def _across(loop: Array, place: float) -> float:
+    """Thickness of an opened loop of chord 1 that begins at x 0."""
+    nose = int(np.argmin(loop[:, 0]))
+    upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
+    return abs(float(np.interp(place, *upper.T)) - float(np.interp(place, *lower.T)))
 
 
 def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
     """The rows of two numbers, the line of each, and the lines of words by the row that follows."""
-    rows: list[tuple[float, float]] = []
+    rows: list[list[float]] = []
     lines: list[int] = []
     between: dict[int, int] = {}
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.partition("#")[0].replace(";", " ").replace(", ", " ").split()
         if len(words) == 1:
             words = words[0].split(",")
-        values = [value for word in words if (value := _number(word)) is not None]
-        if len(words) == len(values) == 2:
-            rows.append((values[0], values[1]))
+        values = [value for word in words if (value := number_of(word.removesuffix(","))) is not None]
+        if len(words) == len(values) and len(words) in ({2, 3} if not rows else {len(rows[0])}):
+            rows.append(values)
             lines.append(number)
         elif words and rows:
             if len(values) == len(words) or (values and len(words) == 2 and not words[0][0].isalpha()):
@@ -99,15 +123,13 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
         count = f"more than {_MOST}" if len(rows) > _MOST else len(rows)
         raise ValueError(f"{name} has {count} points: a section outline needs {_FEWEST} to {_MOST}")
     between.pop(len(rows), None)
-    return np.array(rows, dtype=np.float64), lines, between
-
-
-def _number(word: str) -> float | None:
-    """A finite number, also with a decimal comma."""
-    if re.fullmatch(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eEdD][+-]?\d{1,3})?,?", word[:40]) is None or len(word) > 40:
-        return None
-    value = float(word.rstrip(",").replace(",", ".").lower().replace("d", "e"))
-    return value if np.isfinite(value) else None
+    points = np.array(rows, dtype=np.float64)
+    if points.shape[1] == 3:
+        flat = np.flatnonzero(np.ptp(points, axis=0) <= _SAME_POINT * np.ptp(points))
+        if len(flat) != 1:
+            raise ValueError(f"{name} has three numbers a line, x y z, of no flat section: give `x y`")
+        points = np.delete(points, flat, axis=1)
+    return points, lines, between
 
 
 def _detours(loop: Array) -> Array:

@@ -132,7 +132,7 @@ def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
 
 def _record(content: bytes, name: str) -> dict[str, Any]:
     try:
-        record = json.loads(content.decode("utf-8"))
+        record = json.loads(content)
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
     except ValueError:

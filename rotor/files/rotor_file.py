@@ -291,5 +291,8 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
 
 
 def _read(path: Path) -> str:
-    remedy = "give a shipped rotor's name, or a UTF-8 text file of 2 MB at most"
-    return read_text(path, "rotor file", remedy, LARGEST_FILE)
+    if path.suffix.lower() == ".toml":
+        return read_text(
+            path, "rotor file", "give a shipped rotor's name, or a text file of 2 MB at most", LARGEST_FILE
+        )
+    return read_text(path, "section file", "save it as UTF-8 text of 2 MB at most", LARGEST_FILE)

@@ -115,7 +115,7 @@ def _outline(
     else:
         outline = _file(("sections", name, "outline"), given, texts, used)
         contour = parse_contour(outline, given)
-        shape = f"outline of {len(contour.points)} points"
+        shape = f"outline of {len(contour.points)} points{f', {contour.moved}' if contour.moved else ''}"
     measured, _, camber = thickness_and_camber(contour)
     if table.thickness is None and not THICKNESS[0] <= measured <= THICKNESS[1]:
         raise ValueError(

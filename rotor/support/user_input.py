@@ -1,5 +1,6 @@
 """Names and files that a user gives: files read within bounds and written where possible; errors in one sentence."""
 
+import codecs
 import csv
 import difflib
 import errno
@@ -135,12 +136,29 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
 
 
 def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> str:
-    """The content of a file as text; a byte-order mark at the beginning, which Notepad writes, is left out."""
+    """The content of a file as text, see `text_of`."""
     content = read_bytes(path, what, remedy, most)
     try:
-        return content.decode("utf-8-sig").replace("\r\n", "\n")
+        return text_of(content)
     except UnicodeDecodeError:
-        raise ValueError(f"{what} {shorten(str(path))!r} cannot be read (not UTF-8 text): {remedy}") from None
+        raise ValueError(f"{what} {shorten(str(path))!r} cannot be read (not text): {remedy}") from None
+
+
+def text_of(content: bytes) -> str:
+    """Text in UTF-8 or UTF-16 with a byte-order mark, as Windows writes it, in UTF-8, or else in Windows-1252.
+
+    Raises UnicodeDecodeError for other content.
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        text = content.decode("utf-16")
+    else:
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = content.decode("cp1252")
+    if "\0" in text:
+        raise UnicodeDecodeError("cp1252", content[:1], 0, 1, "holds zeros")
+    return text.replace("\r\n", "\n")
 
 
 def is_file(path: str | Path) -> bool:

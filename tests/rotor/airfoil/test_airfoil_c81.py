@@ -68,7 +68,7 @@ def test_bundled_deck_is_written_back_byte_by_byte(name: str) -> None:
         (("  0.300  0.400", "  0.400  0.300"), "line 2: the Mach numbers of cl do not increase"),
         (("-0.3880-0.3880\n", "-0.3880-0.3880 0.1000\n"), "line 3: more than 2 values"),
         ((" 2 2 2 2 2 2", " 2 2 2 2 2 3"), "ends after line 10, at angle 3 of 3 of cm: check the counts in line 1"),
-        (("  90.00 0.1000-0.1000\n", "  90.00 0.1000-0.1000\nmore\n"), "line 11: text after the last card"),
+        (("  90.00 0.1000-0.1000\n", "  90.00 0.1000-0.1000\n 120.00 0.1\n"), "line 11: numbers after the last card"),
     ],
 )
 def test_a_damaged_deck_is_refused_in_one_sentence(change: tuple[str, str], words: str) -> None:

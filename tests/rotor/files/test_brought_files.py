@@ -1,6 +1,7 @@
 """Files as other programs and people write them: own outlines, polars and decks in each form, with what they give."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import Contour, load_contour, parse_contour, resample, thickness_and_camber
 from rotor.airfoil.polars import Polar, parse_polars
 from rotor.airfoil.sections import load_section
+from rotor.support.user_input import read_text
 
 POINTS = resample(load_contour("naca2412"), 41).points
 UPPER, LOWER = POINTS[:21], POINTS[20:]
@@ -42,6 +44,12 @@ OUTLINES = {
     "commas": rows(POINTS, "{:.6f}, {:.6f}"),
     "decimal commas": rows(POINTS, "{:.6f};{:.6f}").replace(".", ","),
     "millimetres": rows(350.0 * POINTS),
+    "metres": rows(0.35 * POINTS),
+    "about the pitch axis": rows(POINTS - [0.3, 0.0]),
+    "nose aft, in inches": rows((POINTS - [1.0, 0.0]) * [-12.0, 12.0]),
+    "points in space": rows(np.insert(POINTS, 2, 0.4, axis=1), "{:.6f} {:.6f} {:.6f}"),
+    "points in space, y along the span": rows(np.insert(POINTS, 1, 0.0, axis=1), "{:.6f} {:.6f} {:.6f}"),
+    "minus signs of print, Fortran": rows(POINTS, "{:.6E} {:.6E}").replace("-", "−").replace("E", "D"),
 }
 
 
@@ -64,7 +72,7 @@ def test_an_outline_in_any_order_is_the_same(kind: str):
             rows(resample(load_contour("naca2412"), 81).points[:41]),
             "does not go around a section exactly once: list the points",
         ),
-        (rows(0.01 * POINTS), "does not run from x 0 to 1"),
+        (rows(np.insert(POINTS, 2, POINTS[:, 0] ** 2, axis=1), "{} {} {}"), "three numbers a line, x y z, of no flat"),
         (rows(np.tile(POINTS[3], (40, 1))), "x is"),
     ],
 )
@@ -99,7 +107,12 @@ POLAR_FILES = {
     + " 73 NumAlf\n!  Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n"
     + f"{table(BLANKS)}! end\n",
     "QBlade": f"REYNOLDS 3.24e6\nMACH 0.3\nAOA CL CD CM\n{table(BLANKS)}",
-}
+    "names of two words": "Mach 0,300  Re = 3,240 e 6\nAngle of attack CL CD Top Xtr Cm Xcp\n"
+    + table("{:.3f} {:.4f} {:.5f} 0.9 {:.4f} 0.3"),
+    "minus signs of print, Fortran": "Mach 0.3 Re 3.24 x 10^6\nAlpha (deg) CL CD CM\n"
+    + table("{:.5E} {:.5E} {:.5E} {:.5E}").replace("-", "−").replace("E", "D"),
+    "0 to 360": "mach,reynolds,alpha,cl,cd,cm\n" + table(f"0.3,3.24e6,{COMMAS}", COLUMNS[0] % 360.0, *COLUMNS[1:]),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", POLAR_FILES)
@@ -121,11 +134,38 @@ def test_several_reynolds_numbers_are_several_polars():
     assert found.assumed == ("names no Mach number: it is taken as incompressible", "has no cm: it is taken as 0")
 
 
+@pytest.mark.parametrize(
+    "words",
+    ["500,000", "500 000", "500'000", "500k", "0.5 million", "5x10^5", "5.0D+05", "0,500 e 6", "500 thousand"],
+)  # fmt: skip
+def test_a_reynolds_number_is_read_as_it_is_written(words: str):
+    (polar,) = parse_polars(
+        f"Reynolds number: {words} Mach number: 0,30\nalpha cl cd cm\n{table(BLANKS)}", "a.txt"
+    ).polars
+    assert (polar.mach, polar.reynolds) == (0.3, 5e5)
+
+
+def test_angles_in_radians_are_said():
+    text = (
+        f"Mach 0.3\nalpha (rad) cl cd cm\n{table('{:.9f} {:.4f} {:.5f} {:.4f}', np.deg2rad(COLUMNS[0]), *COLUMNS[1:])}"
+    )
+    found = parse_polars(text, "a.txt")
+    assert_allclose(found.polars[0].alpha_deg, COLUMNS[0], atol=1e-6)
+    assert found.assumed == ("has its angles in radians",)
+
+
 def kept(inside: np.ndarray) -> str:
     return polar_file(Polar(POLAR.mach, 3.24e6, *(column[inside] for column in COLUMNS)))
 
 
 LINES = len(XFOIL.splitlines())
+
+
+def wrong(column: int, value: float) -> str:
+    """A table with one wrong number where the lift is large."""
+    columns = [one.copy() for one in COLUMNS]
+    columns[column][np.argmax(COLUMNS[1])] = value
+    return table(BLANKS, *columns)
 
 
 @pytest.mark.parametrize(
@@ -135,11 +175,26 @@ LINES = len(XFOIL.splitlines())
         (kept((POLAR.alpha_deg < 9.0) | (POLAR.alpha_deg > 13.0)), "smaller steps of ASEQ, or remove those beyond"),
         (XFOIL + "  18 0.7 0.2 0 0\n", f"line {LINES + 1}: 18 deg again, with other values than in line {LINES}"),
         (XFOIL.replace("number fixed  ", "number ~ 1/sqrt(CL)  "), "a.txt: its Reynolds number changes with lift"),
+        (f"Mach 0.3 Re 500\nalpha cl cd cm\n{table(BLANKS)}", "Reynolds number 500 is not a blade's: give it in full"),
+        (f"alpha cl cd stall margin cm\n{table(BLANKS)}", "line 1: the heading names 6 columns, but line 2 has 4"),
+        (f"alpha cl cd cm\n{table(BLANKS)}90 0.1 1 -5\n", "cm -5 at 90 deg is not possible: remove the row"),
+        (f"alpha cl cd cm\n{wrong(1, -0.3)}", "deg, as no section does: correct the row"),
+        (f"alpha cl cd cm\n{wrong(2, 0.5)}", "a.txt, line 67: cd rises by 0.473 from 14 to 14.5 deg"),
     ],
 )  # fmt: skip
 def test_a_polar_that_cannot_be_trusted_is_refused(text: str, says: str):
     with pytest.raises(ValueError, match=re.escape(says)):
         mine('polars = "a.txt"', "a.txt", text)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_text_of_windows_is_read(encoding: str, tmp_path: Path):
+    path = tmp_path / "a.txt"
+    path.write_bytes(XFOIL.replace("NACA 0012", "Flügel, 20 °C").encode(encoding))
+    assert parse_polars(read_text(path, "section file", "save it as text"), "a.txt").polars[0].reynolds == 3.24e6
+    path.write_bytes(bytes(256))
+    with pytest.raises(ValueError, match=r"section file '.*a\.txt' cannot be read \(not text\): save it as text"):
+        read_text(path, "section file", "save it as text")
 
 
 def mine(keys: str, name: str, text: str) -> Aircraft:
@@ -177,6 +232,7 @@ DECKS = {
     "lines above the title": "1 0 0\n0\ncomment 2412 12\n\n" + FULL,
     "fields of ten": spaced(FULL, 10),
     "by blanks": spaced(FULL, 0),
+    "words below": FULL + "\nMade by hand in 1998\n",
     "counts apart": FULL.replace("                            3 9 3 9 3 9", "  3 9 3 9 3 9"),
     "an angle twice": FULL.replace(" 3 9 3 9 3 9", " 310 3 9 3 9").replace("   0.00", f"   0.00{'  0.0000' * 0}", 1),
 }
