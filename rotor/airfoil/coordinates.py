@@ -96,8 +96,8 @@ def _placed(loop: Array, closed: Array) -> tuple[Array, str]:
 def _across(loop: Array, place: float) -> float:
     """Thickness of an opened loop of chord 1 that begins at x 0."""
     nose = int(np.argmin(loop[:, 0]))
-    upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
-    return abs(float(np.interp(place, *upper.T)) - float(np.interp(place, *lower.T)))
+    sides = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
+    return float(np.ptp([np.interp(place, side[:, 0], side[:, 1]) for side in sides]))
 
 
 def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:

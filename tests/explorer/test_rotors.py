@@ -136,8 +136,8 @@ class TestShelf:
     @pytest.mark.parametrize(
         ("name", "content", "says"),
         [
-            ("photo.png", b"\x89PNG", "photo.png is not UTF-8 text"),
-            ("my.toml", b"\xff\xfe\x00", "my.toml is not UTF-8 text"),
+            ("photo.png", b"\x89PNG\r\n\x1a\n\0\0\0", "photo.png is not text: save it"),
+            ("my.toml", b"\xff\xfe\x00", "my.toml is not text: save it"),
             ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: the limit for rotor files is 2 MB"),
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
