@@ -57,6 +57,7 @@ from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
 from rotor import Solution, solve
+from rotor.support.markup import tag
 from rotor.support.user_input import brief
 
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
@@ -67,6 +68,7 @@ Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "r
 """What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
 and kept at rest; what could wait."""
+_NOT_USED = "The design of this link is not shown"
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
 
 
@@ -86,7 +88,7 @@ class Page:
         if facts.query is None:
             address.problems.append(_NO_LINK)
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
-        opening, start = start, address.read(share.DESIGN, inputs_from, start, "Link: design not used")
+        opening, start = start, address.read(share.DESIGN, inputs_from, start, _NOT_USED)
         view = address.read(VIEW, view_from, ViewState(), "Link: view not used")
         theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
@@ -104,7 +106,10 @@ class Page:
         self._add_drawers(address, facts, presentation)
         self._listen(opening)
         for title, sentence in address.problems:  # Not closed by time: the link does not show what it names.
-            client.add_notification(title, brief(sentence), color="red")
+            if title == _NOT_USED:
+                self._tell(sentence, opening)
+            else:
+                client.add_notification(title, brief(sentence), color="red")
 
     def _add_rail(self, address: Address) -> None:
         """What stands on the right beside the sliders of Explore."""
@@ -173,6 +178,14 @@ class Page:
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
         if self.actuator.hand().on_stage and not context.held:
             context.layout.show_mode("actuate")
+
+    def _tell(self, sentence: str, opening: Inputs) -> None:
+        """Over the whole page: the link's design is not the one behind this dialogue."""
+        modal = self.context.client.gui.add_modal(_NOT_USED)
+        with modal:
+            gui = self.context.client.gui
+            gui.add_html(tag("div.rx", brief(sentence)))
+            gui.add_button(f"Show the {opening.aircraft.name} instead").on_click(lambda _: modal.close())
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""

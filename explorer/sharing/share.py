@@ -4,23 +4,27 @@ A design holds the record of a design file, `1;segments:-14,-8@0.5;mu=0.25;mass=
 from the preset's own design. A plus sign is written `~`, as in `1;uh60a~segments:-2,1@0.5`: viser's client writes the
 query of the address anew without its escapes, after which a plus sign reads as a space.
 
+Of a rotor of one's own it holds the whole design file, compressed: `1;file=…`.
+
 A view, `1;field=mach;stall=off`, holds what differs from how a page begins, but for azimuth and dark page. Steps to
-undo are kept as codes of designs; one of a rotor of one's own, which no address holds, is left out.
+undo are kept as codes of designs; those of a rotor of one's own, which are long, are left out.
 
 The server keeps the query of the address, in which several parts of the page have a name: `Address`.
 """
 
+import base64
 import json
 import math
 import threading
 import time
 import unicodedata
+import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 from urllib.parse import parse_qsl, quote
 
-from explorer.model.inputs import LAWS, TWIST_SHOWN, TWISTS, Inputs, ViewState, inputs_of
+from explorer.model.inputs import LAWS, OWN, TWIST_SHOWN, TWISTS, Inputs, ViewState, inputs_of
 from explorer.model.sliders import SLIDERS, limits, slider
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
@@ -38,6 +42,11 @@ PINNED = "a"
 """Name of the design that is pinned beside it."""
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
+LONGEST_OWN = 8000
+"""Most characters of a design with a rotor of one's own: web servers take lines of 8 kB, and so do mail programs."""
+MOST_BYTES = 1_000_000
+"""A design file may have; written ones have a thousand."""
+_FILE = "file="
 
 MOST_ELEMENTS = 48
 """Most blade elements of a design on the page, which shares its server with others."""
@@ -74,9 +83,16 @@ _Part = TypeVar("_Part")
 
 def code_of(design: Design) -> str:
     """The design as text; ValueError with one sentence for one that does not fit into an address."""
-    if design.aircraft.files is not None:
-        raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send the file.")
     record = design.to_dict()
+    if design.aircraft.files is not None:
+        content = zlib.compress(json.dumps(record, separators=(",", ":")).encode(), 9)
+        code = f"{VERSION};{_FILE}{base64.urlsafe_b64encode(content).decode().rstrip('=')}"
+        if len(code) > LONGEST_OWN:
+            raise ValueError(
+                f"A link with your rotor has {len(code):,} characters, and mail and servers take {LONGEST_OWN:,}: save "
+                "the design as a file and send the file."
+            )
+        return code
     usual = _usual(record["preset"], design.aircraft)
     changed = {key: value for key, value in record.items() if key not in _LEFT_OUT and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
@@ -102,8 +118,11 @@ def design_from(code: str) -> Design:
         raise ValueError(
             f"The design in the address, {clipped(code)!r}, is not of version {VERSION}: ask for a new link."
         )
-    if len(code) > LONGEST:
-        raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
+    own, most = rest.startswith(_FILE), LONGEST_OWN if rest.startswith(_FILE) else LONGEST
+    if len(code) > most:
+        raise ValueError(f"The design in the address has {len(code)} characters; at most {most} are allowed.")
+    if own:
+        return parse_design(_unpacked(rest.removeprefix(_FILE)), "of this link")
     twist, *words = rest.replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
         raise ValueError(f"The twist {clipped(twist)!r} is a file on the sender's machine: ask for the design file.")
@@ -121,6 +140,18 @@ def design_from(code: str) -> Design:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
+def _unpacked(text: str) -> bytes:
+    """The design file of a code; ValueError for one that is damaged, or larger than a design file."""
+    try:
+        unpack = zlib.decompressobj()
+        content = unpack.decompress(base64.b64decode(text + "=" * (-len(text) % 4), b"-_", True), MOST_BYTES)
+    except (ValueError, zlib.error):
+        raise ValueError("The link is damaged or cut off: ask for it again, or for the design file.") from None
+    if not unpack.eof or unpack.unused_data:
+        raise ValueError("The link is damaged, cut off or too large: ask for the design file.")
+    return content
+
+
 @refusing("The design in the address", "ask for a new link")
 def inputs_from(code: str, kept: str | None = None) -> Inputs:
     """The slider positions of a text; ValueError also for a position outside a slider's range.
@@ -128,7 +159,9 @@ def inputs_from(code: str, kept: str | None = None) -> Inputs:
     `kept`: the design file that the page has where the text is `KEPT`.
     """
     if code == KEPT and kept is None:
-        raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
+        raise ValueError(
+            "Its rotor is the sender's own and too large for a link: ask for the design file, and load it in Files."
+        )
     record = kept if code == KEPT else None
     return within(inputs_of(parse_design(record.encode(), "of this page") if record else design_from(code)))
 
@@ -219,7 +252,9 @@ def read_history(text: str | None, start: Inputs) -> StoredHistory:
 
 @bytes_cache
 def _code(inputs: Inputs) -> str | None:
-    """The code of the design; None where the inputs mean none, or one that no address holds."""
+    """The code of the design; None where the inputs mean none, or one of a rotor of one's own."""
+    if inputs.rotor == OWN:
+        return None
     try:
         return code_of(inputs.design())
     except ValueError:

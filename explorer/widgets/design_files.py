@@ -105,8 +105,12 @@ def add_rotor_upload(context: TabContext) -> None:
     button.on_upload(uploaded)
 
 
-MOST_BYTES = 1_000_000
-"""A design file may have; written ones have a thousand."""
+def _about(fits: bool) -> str:
+    """What the button of the link will do."""
+    words = (
+        "Anyone with the link sees this design." if fits else "Too large for a link: save it as a file, and send that."
+    )
+    return tag("div.rx.rx-dim.rx-small", words)
 
 
 class FilePanel:
@@ -124,7 +128,7 @@ class FilePanel:
         """Designs that the address cannot hold now, by name in it."""
         gui = context.gui
         with gui.add_folder("Link"):
-            gui.add_html(tag("div.rx.rx-dim.rx-small", "Anyone with the link sees this design."))
+            self._about = gui.add_html(_about(True))
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
         with folder:
             self._load = gui.add_upload_button(
@@ -148,6 +152,9 @@ class FilePanel:
             except ValueError:
                 continue  # It cannot be written; the last one stays.
         self._address[VIEW] = view_code(state.view)
+        fits = share.DESIGN not in self._records
+        if self._link.disabled == fits:
+            self._about.content, self._link.disabled = _about(fits), not fits
 
     def keep(self) -> None:
         """Give the page, now that it rests, what its address cannot hold: designs with their decks are long."""
@@ -183,8 +190,10 @@ class FilePanel:
         file = event.target.value
         name = shorten(file.name)
         try:
-            if len(file.content) > MOST_BYTES:
-                raise ValueError(f"{name} has {len(file.content)} bytes: the limit for a design file is {MOST_BYTES}.")
+            if len(file.content) > share.MOST_BYTES:
+                raise ValueError(
+                    f"{name} has {len(file.content)} bytes: the limit for a design file is {share.MOST_BYTES}."
+                )
             with refusing(f"design file {name!r}", "check its values"):
                 design = parse_design(file.content, name)
                 inputs = share.within(inputs_of(design))

@@ -70,5 +70,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
     other = watched.page.context.new_page()  # Of another window, which does not.
     other.goto(address)
-    other.wait_for_selector("text=Its rotor is the sender's own")
+    other.wait_for_selector("text=Its rotor is the sender's own and too large for a link")
+    other.get_by_role("button", name="Show the UH-60A instead").click()
+    other.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]')
     other.close()

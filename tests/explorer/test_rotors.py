@@ -105,8 +105,14 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     with pytest.raises(ValueError, match=r"Mass \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, UploadedFiles().add("my.toml", GOOD.encode()).aircraft)
-    with pytest.raises(ValueError, match="A link cannot hold a rotor of your own: save the design as a file"):
-        share.code_of(own.design())
+    packed = share.code_of(own.design())
+    assert len(packed) < 2000
+    assert share.inputs_from(packed) == own
+    for damaged in (packed[:-9], packed[:60] + "~" + packed[60:], "1;file=", packed + packed[7:]):
+        with pytest.raises(ValueError, match=r"The link is damaged.*: ask for"):
+            share.inputs_from(damaged)
+    with pytest.raises(ValueError, match="characters; at most 8000 are allowed"):
+        share.inputs_from(packed + "A" * 8000)
     read = parse_design(json.dumps(own.design().to_dict()).encode(), "mine.json")
     assert inputs_of(read) == own
     assert share.inputs_from(share.KEPT, json.dumps(own.design().to_dict())) == own
