@@ -110,7 +110,7 @@ def total_power_chart(
     known = curve.current and math.isfinite(power[least])
     role: Role = "saving" if curve.current else "earlier"
     driven = role_line(role, mus, np.where(power < 0.0, power, np.nan), filled=True)
-    value = "autorotation" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
+    value = "driven by the air" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
     note, engines = autorotation_words(curve), []
     if design is not None and design.aircraft.installed_power is not None:
         installed = unit.of(design.aircraft.installed_power)

@@ -19,7 +19,7 @@ from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.polar import ALL_MARKS, NO_MARKS, DrawnSolution, RegionMarks, polar_grid, region_codes
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
-from rotor.design import ActiveTwist, TwistLaw
+from rotor.design import REFERENCE_RADIUS, ActiveTwist, TwistLaw
 from rotor.support.arrays import Array
 
 BENDING_SHOWN = 10.0
@@ -254,11 +254,23 @@ def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: 
     )
 
 
+_MOST_TURNED = math.radians(60.0)
+"""A section may be drawn turned against that at 0.75 R."""
+
+
+def drawn_times(design: Design, view: ViewState) -> float:
+    """How many times its twist a blade is drawn with: what the view asks for, or less, to 0.1, where a section of the
+    built-in twist would turn by more than `_MOST_TURNED`."""
+    r = np.linspace(design.rotor.blade.root_cutout, 1.0, 25)
+    most = float(np.abs(design.twist(r) - design.twist([REFERENCE_RADIUS])).max())
+    return min(view.exaggeration, max(1.0, math.floor(10.0 * _MOST_TURNED / max(most, 1e-9)) / 10.0))
+
+
 def flown_form(solution: Solution, view: ViewState, psi: float, bent: bool = True) -> BladeForm:
     """A blade in flight at ψ [rad]: its twist, and where `bent` its bending, enlarged."""
     shape = blade_shape(solution.design.rotor)
     bending = drawn_bending(solution, shape.r, psi) if bent else None
-    return BladeForm(shape.pitch(flown_twist(solution, psi), view.exaggeration), bending)
+    return BladeForm(shape.pitch(flown_twist(solution, psi), drawn_times(solution.design, view)), bending)
 
 
 def make_picture(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Picture:

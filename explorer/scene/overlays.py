@@ -15,7 +15,7 @@ from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
 from explorer.picture.blade_mesh import BladeForm, blade_shape, overlay_form, overlay_segments, straight
-from explorer.picture.picture import drawn_bending, flown_twist, overlay_twist
+from explorer.picture.picture import drawn_bending, drawn_times, flown_twist, overlay_twist
 from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, add_solid, set_mesh
 from rotor import Design, Rotor, Solution
@@ -69,7 +69,8 @@ class Overlay:
         if view.wipe:  # A itself is seen, left of the handle.
             self._surface.visible = self._lines.visible = False
             return {}
-        psi, exaggeration, shape = math.radians(view.azimuth_deg), view.exaggeration, blade_shape(other.rotor)
+        psi, shape = math.radians(view.azimuth_deg), blade_shape(other.rotor)
+        exaggeration = drawn_times(solution.design, view)
         twist, bent = flown_twist(solution, psi), drawn_bending(solution, shape.r, psi)
         differs = other.twist != solution.design.twist
         # Where only bending differs, the straight blade as flown: its jig shape would hide it.

@@ -5,7 +5,7 @@ from typing import Any
 
 from explorer.parts.results import InsetPart
 from explorer.picture.blade_mesh import inset_sections
-from explorer.picture.picture import flown_twist, follows_azimuth, overlay_twist
+from explorer.picture.picture import drawn_times, flown_twist, follows_azimuth, overlay_twist
 from explorer.text.design_words import against
 from explorer.views.page_state import PageState, Panel
 
@@ -30,7 +30,7 @@ def blade_inset(now: PageState) -> dict[str, Any]:
         hint += f", ψ {state.view.azimuth_deg:.0f}°." if turns else "."
         jig = "built-in", "The blade without the loads of flight."
         names = "in flight", hint, *((compared, _OVERLAY_HINT) if changed else jig)
-    shown = inset_sections(design.rotor, flown_twist(solution, psi), overlay, state.view.exaggeration)
+    shown = inset_sections(design.rotor, flown_twist(solution, psi), overlay, drawn_times(design, state.view))
     return {"inset": InsetPart(**vars(shown), **dict(zip(_NAMES, names, strict=True)))}
 
 

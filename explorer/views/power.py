@@ -96,8 +96,9 @@ def _status(state: SessionState, units: Units) -> Status:
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
     title = " ".join([*reasons, record.sentence])
-    if state.solution.power.total < 0.0:
-        words = "autorotation"
+    power = state.solution.power
+    if power.total < 0.0:
+        words = "autorotation" if power.total > -_TELLING * (power.induced + power.profile) else "driven by the air"
     elif installed is not None and any(caveat.name == "installed-power" for caveat in state.solution.caveats):
         words = f"engines give only {units.watts(installed)}"
     elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:

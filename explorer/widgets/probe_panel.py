@@ -21,7 +21,7 @@ from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.element import Probe, probe, turn_of
-from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, flown_twist, rotate
+from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, drawn_times, flown_twist, rotate
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
@@ -354,4 +354,4 @@ class ProbePanel:
 def _drawn_pitch(state: SessionState, here: Probe) -> float:
     """Twist of the reference blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
     twist = flown_twist(state.solution, math.radians(state.view.azimuth_deg))
-    return float(drawn_pitch(twist, [here.r], state.view.exaggeration)[0])
+    return float(drawn_pitch(twist, [here.r], drawn_times(state.solution.design, state.view))[0])

@@ -192,7 +192,7 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
             )
     if power.main_rotor < 0.0 and design.models.trim != "free-rotor":  # A free rotor's power is zero but for rounding.
         found["beyond-autorotation"] = (
-            "The air drives the rotor: above the rate of descent of autorotation, power is negative, and with the "
+            f"The air drives the rotor{_autorotation(design, power.main_rotor)}: power is negative, and with the "
             "engine off the rotor speeds up."
         )
     installed = design.aircraft.installed_power
@@ -284,6 +284,14 @@ def _held_reynolds(trim: CaveatInputs) -> str:
                     f"{name} at {end:,.0f} are used there."
                 )
     return " ".join(words)
+
+
+def _autorotation(design: Design, power: float) -> str:
+    """Where this aircraft sinks without power, to first order: each m/s of descent gives its weight times that."""
+    if design.condition.stand is not None:
+        return ""
+    rate = design.vertical_speed - power / design.condition.load
+    return f", which sinks by about {-rate:.0f} m/s in autorotation and by {-design.vertical_speed:.1f} here"
 
 
 def _beyond_stops(trim: CaveatInputs) -> list[str]:

@@ -14,7 +14,7 @@ from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
 from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Covered, View, fit
 from explorer.picture.fields import FIELDS
-from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, make_picture, rotate, tip_path_pose
+from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, drawn_times, make_picture, rotate, tip_path_pose
 from explorer.picture.polar import DrawnSolution, PolarGrid, RefinedFlow, polar_grid
 from rotor import Solution, make_design, solve
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
@@ -224,3 +224,13 @@ def _about_z(angle: float) -> np.ndarray:
     """Right-hand factor that turns points back by `angle`."""
     cos, sin = math.cos(angle), math.sin(angle)
     return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+
+
+@pytest.mark.parametrize(("rotor", "times"), [("uh60a", 4.0), ("xv15", 2.0), ("r22", 4.0)])
+def test_no_section_is_drawn_turned_by_more_than_60_degrees(rotor: str, times: float):
+    """The XV-15's root stood at 120° with four times its twist."""
+    design = make_design(rotor=rotor, mu=0.2)
+    found = drawn_times(design, ViewState())
+    assert found == pytest.approx(times, abs=0.5)
+    r = np.linspace(design.rotor.blade.root_cutout, 1.0, 9)
+    assert np.abs(found * (design.twist(r) - design.twist([0.75]))).max() <= math.radians(60.0) + 1e-9

@@ -127,7 +127,7 @@ class TestPowerChange:
         curve.design[:3] = math.nan
         chart = total_power_chart(curve, 0.15, -150e3)
         assert chart.span("y")[0] <= -150.0
-        assert chart.value == "autorotation"
+        assert chart.value == "driven by the air"
         assert chart.note == (
             "Autorotation between µ 0.1 and 0.2: the air drives the rotor. "
             "No solution below µ 0.075: vortex ring state."

@@ -230,8 +230,13 @@ def test_no_number_of_the_card_is_blank_in_descent(climb: float, outer: float):
 def test_autorotation_is_marked():
     found = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-13.0))
     assert found.total.startswith("−")
-    assert found.status.words == "autorotation"
-    assert "The air drives the rotor" in found.status.title
+    assert found.status.words == "driven by the air"
+    assert (
+        "The air drives the rotor, which sinks by about 11 m/s in autorotation and by 13.0 here" in found.status.title
+    )
+    slower = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-10.8))
+    assert slower.total.startswith("−")
+    assert slower.status.words == "autorotation"
     assert found.change == "0.0 kW"
     descent = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))
     assert descent.status.words != "autorotation"
