@@ -28,7 +28,7 @@ class Uncertain:
     @property
     def largest(self) -> float:
         """The largest size that a rotor file may state."""
-        return 90.0 if self.unit else 0.1
+        return max(90.0 if self.unit else 0.1, self.size)
 
 
 def _read() -> tuple[Uncertain, ...]:

@@ -4,7 +4,8 @@ At a trim x of a design, with the multipliers a of power, Jᵀ a = ∂P/∂x, a 
 
     ΔP = P(d', x) − P(d, x) − a·[R(d', x) − R(d, x)]:
 
-one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay.
+one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay. Only
+another path of the wake has a trim of its own: to first order its change would be up to three times too large.
 """
 
 import math
@@ -24,10 +25,13 @@ from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import Point, evaluate, with_data
 from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint, tail_gain
+from rotor.trim.forward import course_of
 from rotor.trim.low_speed import hover_share
+from rotor.trim.newton import newton
 from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
+WAKE_PATH = "wake_path_percent"
 _STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
 
@@ -46,6 +50,9 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
         if row.name in _POWERS:
             if power := _POWERS[row.name](solution):
                 changes[row.name] = 0.01 * row.size * power
+        elif row.name == WAKE_PATH:
+            if change := near.along_beddoes(0.01 * row.size):
+                changes[row.name] = change
         elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
             changes[row.name] = near.change(changed) / _STEP_SHARE
     return changes
@@ -72,7 +79,7 @@ class _PowerNearby:
     def __init__(self, adjoint: Adjoint) -> None:
         self.problem, self._point, self._terms = adjoint.problem, adjoint.point, adjoint.total_terms
         self._multipliers = adjoint.of_total
-        self._gain = tail_gain(adjoint.solution)
+        self._gain, self._guess = tail_gain(adjoint.solution), adjoint.solution.start
         self._start = self._main(self.problem, self._point.z, self._point.q)
 
     def _main(self, problem: Problem, z: Array, q: Array) -> float:
@@ -89,6 +96,15 @@ class _PowerNearby:
         x = point.x.copy()
         x[: len(system.numbers)] = system.numbers
         return self._difference(problem, evaluate(system, system.grid, x))
+
+    def along_beddoes(self, part: float) -> float:
+        """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; 0 without one."""
+        problem = self.problem
+        if course_of(problem) is None:
+            return 0.0
+        there = newton(replace(problem, course=replace(problem.course, beddoes=part)), self._guess)
+        change = self._main(there.problem, there.point.z, there.point.q) - self._start
+        return change * self._gain if there.converged else 0.0
 
     def _difference(self, problem: Problem, there: Point) -> float:
         point = self._point

@@ -1,4 +1,5 @@
-"""The computed number beside every measured point of rotors that were tested. Nothing is fitted to these points."""
+"""The computed number beside every measured point of rotors that were tested. Nothing is fitted to these points, but
+the wake path to the tip vortices of HART II."""
 
 from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, agreement, computed_curve, measured_curves
 from rotor.validation.compare import Comparison, MeasuredSet, compare, compare_point, design_at, load_set, sets_of

@@ -135,7 +135,8 @@ def summary(sets: Sequence[TrustSet]) -> str:
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        "No model was tuned to these points; the size of the band in hover was chosen with points known "
+        "No model was tuned to these points but the wake path, to the tip vortices of HART II; the size of the band in "
+        "hover was chosen with points known "
         f"([bands](validation/doubt.md)). {words}. How uncertain a power is, and what "
         "moves the best twist: [uncertainty](guide/doubt.md).",
         *parts,
@@ -158,7 +159,7 @@ def set_page(data: TrustSet) -> str:
         "Against": [row.against for row in data.rows],
         "Error": [row.shown for row in data.rows],
         "Target": [row.target for row in data.rows],
-        "Verdict": [_verdict(row.verdict) if row.target else "" for row in data.rows],
+        "Verdict": ["" if row.verdict == "no target" else _verdict(row.verdict) for row in data.rows],
         "Remark": remarks,
     }
     if len({*columns["Against"]}) == 1:

@@ -26,10 +26,11 @@ KINDS: dict[Kind, str] = {
     "document": "Statements of the thesis (python -m rotor reproduce)",
 }
 """Titles of the kinds of rows."""
-Verdict = Literal["met", "missed", "no target"]
+Verdict = Literal["met", "missed", "fitted", "no target"]
 VERDICTS: dict[Verdict, str] = {
     "met": "the error is within the target: at every point, or the rms where the page of the set judges that",
     "missed": "outside it; the page of the set states the reason if it is known",
+    "fitted": "a constant of the model was chosen by these very points, so they confirm nothing",
     "no target": "shown, not judged",
 }
 """What the verdicts mean."""

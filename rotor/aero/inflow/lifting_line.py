@@ -81,8 +81,9 @@ class LiftingLineInflow(InflowModel):
     name = "lifting-line"
     title = "Lifting line"
     explanation = (
-        "Each blade is a line of 24 vortex panels with its own wake, which lies along the trim and does not roll up: "
-        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.1 % here for −8° to −16°, −4 to −5 % rolled up)."
+        "Each blade is a line of 24 vortex panels with its own wake, which sinks as measured tip vortices did and does "
+        "not roll up: that decides what twist is worth at µ 0.05 to 0.15 (−1.2 to −3.0 % here for −8° to −16°, −4 to "
+        "−5 % rolled up)."
     )
     load_dependent = True
     fine_tip = True

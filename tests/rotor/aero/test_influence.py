@@ -32,7 +32,7 @@ HOVER = replace(COURSE, mu_x=0.0, mu_z=0.0, flap_1c=0.0, flap_1s=0.0)
 STEP = 2.0 * math.pi / LINE.azimuths
 STRIPS = ((0, 3), (3, 6))
 """First panels of the strips, and the first ones beyond."""
-LEAST, SHED, ROOT = 0.02, 0.08, 0.08
+LEAST, FAR, SHED, ROOT = 0.02, 0.03, 0.08, 0.08
 """Cores: the least, of shed lines, and of trailers inboard of 0.5 R; beyond 30°."""
 
 Piece = tuple[Array, Array, float, float | None]
@@ -88,7 +88,7 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
     borders, turns = (0, 3, 6), 2 * LINE.azimuths
 
     def core(e: int, age: float) -> float:
-        return max(math.sqrt(course.core[0] + course.core[1] * age * STEP), ROOT if edges[e] < 0.5 else LEAST)
+        return max(math.sqrt(course.core[0] + course.core[1] * age * STEP), ROOT if edges[e] < 0.5 else FAR)
 
     def mean(age: int, k: int) -> float:
         return 0.5 * (strip(age, k) + strip(age + 1, k))
@@ -311,34 +311,57 @@ def test_without_flight_it_sinks_as_the_helix_of_momentum_theory():
         assert_allclose(now - begin, [0.0, 0.0, -course.lambda0 * t], atol=1e-14)
 
 
+@pytest.mark.parametrize("path", [0.0, 0.25, 1.0])
 @pytest.mark.parametrize(("released", "r"), [(math.pi, 0.9), (2.5, 0.6), (4.0, 1.0)])
-def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r: float):
-    """Differences of z along the track against Beddoes' inflow, with χ = atan2(µ_x, µ_z + λ0)."""
-    skew, step = 0.5 * math.atan2(SKEWED.mu_x, SKEWED.mu_z + SKEWED.lambda0), 1e-5
-    y = r * math.sin(released)
-    leaves = (math.sqrt(1.0 - y * y) - r * math.cos(released)) / SKEWED.mu_x
-    assert SKEWED.skewed == 1.0
+def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r: float, path: float):
+    """Differences of z along the track against the inflow written out, and that of Beddoes, with tan χ by hand."""
+    course, step = replace(SKEWED, beddoes=path), 1e-5
+    chi = math.acos((course.mu_z + course.lambda0) / course.speed)
+    ours, theirs, y = (1.0 - math.cos(chi)) / math.sin(chi), 0.5 * chi, r * math.sin(released)
+    leaves = (math.sqrt(1.0 - y * y) - r * math.cos(released)) / course.mu_x
+    assert course.skewed == 1.0
     for t in (0.2 * leaves, 0.7 * leaves, 1.2 * leaves, 2.0 * leaves):
-        before, after = track(SKEWED, released, r, t - step), track(SKEWED, released, r, t + step)
-        x = r * math.cos(released) + SKEWED.mu_x * t
-        outward = skew * abs(y) ** 3
-        induced = 1.0 + skew * x - outward if t < leaves else 2.0 * (1.0 - outward)
-        velocity = [SKEWED.mu_x, 0.0, -SKEWED.mu_z - SKEWED.lambda0 * induced]
+        before, after = track(course, released, r, t - step), track(course, released, r, t + step)
+        x, outward = r * math.cos(released) + course.mu_x * t, abs(y) ** 3
+        inside = 1.0 + ours * (0.169765272631355 + 3.0 * x - outward), 1.0 + theirs * (x - outward)
+        behind = 2.0 + 2.0 * ours * (0.169765272631355 - outward), 2.0 - 2.0 * theirs * outward
+        new, old = inside if t < leaves else behind
+        velocity = [course.mu_x, 0.0, -course.mu_z - course.lambda0 * (new + path * (old - new))]
         assert_allclose((after - before) / (2.0 * step), velocity, atol=1e-8)
 
 
+@pytest.mark.parametrize("course", [SKEWED, replace(SKEWED, mu_z=-0.05), replace(SKEWED, lambda0=-0.015)])
+def test_its_mean_inflow_over_the_disk_is_that_of_momentum_theory(course: WakeCourse):
+    """To rounding: the mean over the disk of what vortices sink from its front edge to its rear, y = sin φ."""
+    level, (nodes, weights) = replace(course, coning=0.0, flap_1c=0.0, flap_1s=0.0), np.polynomial.legendre.leggauss(24)
+    flux = 0.0
+    for phi, weight in zip(0.25 * math.pi * (nodes + 1.0), 0.25 * math.pi * weights, strict=True):
+        across = 2.0 * math.cos(phi) / course.mu_x
+        sunk = -track(level, math.pi - phi, 1.0, across)[2] - course.mu_z * across
+        flux += 2.0 * weight * math.cos(phi) * course.mu_x * sunk
+    assert flux / math.pi == pytest.approx(course.lambda0, rel=1e-13)
+
+
 def test_the_helix_of_hover_passes_over_to_the_skewed_wake_smoothly():
-    """Nothing jumps, and nothing turns: the share of the skewed wake grows from 0 to 1 at µ_x = 2.5 √(C_T/2)."""
+    """Nothing jumps, and nothing turns: the share of the skewed wake grows from 0 to 1 at µ_x = 2.5 √(C_T/2).
+
+    Where a vortex lies, and how that changes with µ, is as smooth beyond.
+    """
     thrust = 0.006
-    mu = np.linspace(0.0, 0.15, 301)
+    mu = np.linspace(0.0, 0.3, 601)
     share: list[float] = []
+    sunk: list[float] = []
     for one in mu:
         inflow = math.sqrt(0.5 * thrust)
         for _ in range(100):  # λ0 = C_T/2V
             inflow = 0.5 * (inflow + 0.5 * thrust / math.hypot(one, inflow))
-        share.append(replace(SKEWED, mu_x=float(one), mu_z=0.0, lambda0=inflow).skewed)
+        course = replace(SKEWED, mu_x=float(one), mu_z=0.0, lambda0=inflow)
+        share.append(course.skewed)
+        sunk.append(track(course, 2.0, 0.6, 1.5)[2] / inflow)
     slope = np.diff(share)
     assert share[0] == 0.0
     assert np.all(slope >= 0.0)
     assert slope.max() < 0.02
     assert_allclose(mu[share.index(1.0)], 2.5 * math.sqrt(0.5 * thrust), atol=1e-3)
+    assert np.abs(np.diff(sunk)).max() < 0.02
+    assert np.abs(np.diff(sunk, 2)).max() < 5e-4

@@ -53,7 +53,7 @@ STAND = rotor.make_design(
 @pytest.mark.parametrize("column", [1, 2])
 def test_slopes_are_those_of_trims(design: Design, column: int):
     """Sine of 2/rev and cosine of 3/rev, against central differences of tightly solved trims with it."""
-    step, matrix = math.radians(0.005), rotor.t_matrix(design, (2, 3))
+    step, matrix = math.radians(0.0025), rotor.t_matrix(design, (2, 3))
     assert_allclose(matrix.base, values_of(matrix.solution), rtol=1e-12)
     x = step * np.eye(4)[column]
     low, high = (

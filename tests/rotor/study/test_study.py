@@ -140,7 +140,7 @@ def test_a_point_is_the_design_of_the_same_arguments(inflow: str):
 
 def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(monkeypatch: pytest.MonkeyPatch):
     """One that does not trim, or that fails, leaves the others."""
-    text = '[axes]\nmu = [0.2, 0.3]\nrate_deg = [-18, -8, 90, -14]\n[fixed]\nconcept = "linear"\n'
+    text = '[axes]\nmu = [0.2, 0.3]\nrate_deg = [-18, -15, 90, -14]\n[fixed]\nconcept = "linear"\n'
     study = parse_study(text)
     alone = [study_point.evaluate(values, study, WarmStarts({})) for values in study.values(0, study.count)]
     by_themselves = list[str]()

@@ -201,7 +201,7 @@ def test_rows_of_the_trust_page(name: str):
 def test_measured_inflow():
     """Correlations with the laser velocimeter: linear 0.9, 0.9, 0.8…0.9, as other programs found them.
 
-    The lifting line at the measured height: 0.97, 0.93, 0.75; in the disk 0.89, 0.86, 0.67.
+    The lifting line at the measured height: 0.98, 0.94, 0.76; in the disk 0.93, 0.89, 0.68.
     """
     points = measured_inflow()
     assert [one.mu for one in points] == [0.15, 0.23, 0.35]
@@ -209,14 +209,14 @@ def test_measured_inflow():
     assert points[0].inflow[aft] == 0.0503  # TM-100541: 0.0503 downward over the tail
     found = {(row.mu, row.model): row for row in inflow_agreement()}
     for measured, low, least, in_disk in zip(
-        points, (0.88, 0.88, 0.82), (0.94, 0.90, 0.70), (0.89, 0.86, 0.67), strict=True
+        points, (0.88, 0.88, 0.82), (0.97, 0.94, 0.75), (0.93, 0.89, 0.68), strict=True
     ):
         linear, line = found[measured.mu, "pitt-peters"], found[measured.mu, "lifting-line"]
         assert line.correlation is not None
         assert linear.correlation is not None
         assert low < linear.correlation < 0.95
         assert line.correlation > least
-        assert line.rms < 0.0078
+        assert line.rms < 0.0075
         assert found[measured.mu, "uniform"].correlation is None
         lower = above_disk(trimmed("lifting-line", measured), measured, 0.0)
         assert lower is not None

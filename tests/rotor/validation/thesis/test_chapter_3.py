@@ -80,8 +80,8 @@ def test_figure_3_9(report: Make):
 
 
 def test_the_grid_of_the_default_model():
-    """What the trust page says of it: half a per cent at µ 0.1, where its azimuths are coarse, and less at speed."""
-    assert abs(line_error(0.1)) < 6e-3
+    """What the trust page says of it: 0.6 per cent at µ 0.1, where its azimuths are coarse, and less at speed."""
+    assert abs(line_error(0.1)) < 7e-3
     assert abs(line_error(0.2)) < 1e-3
 
 
