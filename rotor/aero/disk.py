@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, held_beyond_peak
+from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, attached_lift, held_beyond_peak
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset
 from rotor.design.blade import Blade, Rotor
@@ -59,7 +59,7 @@ class Disk(OnDisk):
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
-    """Tables of a lifting line's circulation and of the course of its wake, `section_table.held_beyond_peak`."""
+    """Tables of a lifting line's circulation, `section_table.held_beyond_peak`."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array
@@ -210,6 +210,15 @@ def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Arra
     coefficients = np.stack([table.coefficients for table in tables])
     coefficients[:, :, :, 1] *= drag
     return coefficients, np.stack([held_beyond_peak(each) for each in coefficients])
+
+
+@bytes_cache
+@read_only
+def without_stall(disk: Disk, only_mach: float | None = None) -> Array:
+    """`Disk.held` with the lift of attached flow at every angle; only_mach as for `build_disk`."""
+    tables = disk.held.copy()
+    tables[:, :, :, 0] = [attached_lift(table) for table in _at_mach(disk.sections, only_mach)]
+    return tables
 
 
 @bytes_cache

@@ -116,6 +116,13 @@ def held_beyond_peak(coefficients: Array) -> Array:
     return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
 
 
+def attached_lift(table: "SectionTable") -> Array:
+    """Cells of C_lα sin(α − α0), the lift of a plate in potential flow with the slope and zero of a section's own."""
+    mach, alpha = mach_nodes(), np.linspace(-180.0, 180.0, N_ALPHA + 1)
+    lift = table.lift_slope(mach) * np.sin(np.deg2rad(alpha)[:, None] - table.zero_lift_alpha(mach))
+    return bicubic_coefficients(C81Block(mach, alpha, lift))
+
+
 def _last_record(values: Array) -> NDArray[np.int64]:
     """For every row, the last one up to it that exceeds all before, column by column."""
     best = np.maximum.accumulate(values, axis=0)

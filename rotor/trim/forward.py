@@ -1,7 +1,7 @@
 """Trim in forward flight: the course of the wake, warm start, cold start, continuation from an easier condition.
 
 The wake of a lifting line lies along the trim of the same rotor with linear inflow, its blade as built, and sections
-whose lift is held beyond its peak. That trim knows the tilt, the flapping and the mean inflow, and nothing of the twist
+that do not stall. That trim knows the tilt, the flapping and the mean inflow, and nothing of the twist
 that is being designed. So one wake serves all twists of a condition, and the gradient by twist is exact. Laid along the
 trim found with it, power moves by less than 0.3 % (tested). A free rotor finds its tilt, which linear inflow misses by
 up to 2°: its wake is laid again along the trim found, once.
@@ -12,11 +12,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
 
+from rotor.aero.disk import without_stall
 from rotor.aero.display import stalled_parts
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.lifting_line import WakeCourse
-from rotor.aero.problem import Problem, build_problem
+from rotor.aero.problem import LOW_MACH, Problem, build_problem
 from rotor.columns.trims import trim_of
 from rotor.design.aircraft import FlightCondition, Stand
 from rotor.design.design import Design
@@ -57,12 +58,14 @@ def _trim_of_wake(design: Design) -> tuple[WakeCourse, TrimState] | None:
 
 @bytes_cache
 def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
-    """The trim of a design with linear inflow and lift held beyond its peak, and its course; None where it has none.
+    """The trim of a design with linear inflow and sections that do not stall, and its course; None where it has none.
 
-    Sections that stall have several trims or none, among which the wake would jump. Reverse flow carries no load here.
+    With a largest lift, trims end or fold before those of the design itself do, and there the wake would jump. Reverse
+    flow carries no load here.
     """
     problem = linear_problem(replace(design, models=replace(design.models, reverse_flow=False)))
-    result = trim(replace(problem, disk=replace(problem.disk, tables=problem.disk.held)))
+    tables = without_stall(problem.disk, None if design.models.compressibility else LOW_MACH)
+    result = trim(replace(problem, disk=replace(problem.disk, tables=tables)))
     return (along(result, problem.course), result.state) if result.converged else None
 
 

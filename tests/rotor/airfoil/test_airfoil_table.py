@@ -16,6 +16,7 @@ from rotor.airfoil.section_table import (
     N_ALPHA,
     N_MACH,
     SectionTable,
+    attached_lift,
     bicubic_coefficients,
     held_beyond_peak,
 )
@@ -157,6 +158,22 @@ def test_held_beyond_the_largest_lift(name: str):
         assert_allclose(lift[near], table(alpha, mach).cl[near], atol=1e-12)
         assert_allclose(drag[near], table(alpha, mach).cd[near], atol=1e-12)
         assert lift[-1] == pytest.approx(table(alpha, mach).cl.max(), abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["sc1095", "sc1094r8", "naca0012"])
+def test_attached_lift_has_no_largest_value_below_a_right_angle(name: str):
+    """A plate in potential flow: it rises to C_lα 90° from zero lift; near zero lift it is that of the section."""
+    table = load_section(name)
+    cells = table.coefficients.copy()
+    cells[:, :, 0] = attached_lift(table)
+    attached = replace(table, coefficients=cells)
+    for mach in (0.3, 0.5, 0.7):
+        zero, slope = float(table.zero_lift_alpha(mach)), float(table.lift_slope(mach))
+        lift = attached(zero + np.deg2rad(np.arange(-90.0, 91.0)), mach).cl
+        assert (np.diff(lift) > 0.0).all()
+        assert_allclose(lift[[0, 60, 120, 180]], slope * np.array([-1.0, -0.5, 0.5, 1.0]), rtol=1e-3)
+        near = zero + np.deg2rad([-2.0, 2.0])
+        assert_allclose(np.diff(attached(near, mach).cl), np.diff(table(near, mach).cl), rtol=1e-3)
 
 
 @pytest.mark.parametrize("mach", [0.0, 0.33, 0.95])
