@@ -45,6 +45,7 @@ class ScheduleProgress:
         return self.schedule.at(leg, self.plan.concepts[0].name)
 
     def fixed_power(self, leg: int) -> float | None:
+        """Power of the best fixed blade at a leg [W]; None while it is not known."""
         return self.fixed_powers[leg] if leg < len(self.fixed_powers) else None
 
     @property

@@ -171,10 +171,12 @@ class SearchRun:
 
     @property
     def reference_power(self) -> float | None:
+        """Power of the reference design [W]; None while it is not known."""
         return next((report.power for report in self.record.reports if isinstance(report, ReferencePower)), None)
 
     @property
     def optimum(self) -> Optimum | None:
+        """The result; None before the end."""
         return self.record.result
 
     @property

@@ -86,7 +86,7 @@ def stand_of(design: Design) -> StandInputs | None:
 
 
 def load_of(solution: Solution, load: str) -> float:
-    """What a solution has of one of `LOAD_KEYS`, rounded to what a slider shows."""
+    """What a solution has of one of `LOAD_KEYS`, in its unit, rounded to what a slider shows."""
     match load:
         case "ct_over_sigma":
             return round(solution.ct_over_sigma, 4)

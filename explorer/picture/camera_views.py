@@ -50,6 +50,7 @@ class Camera:
     position: Array
     """[m], shape (3,)."""
     look_at: Array
+    """[m], shape (3,)."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +63,12 @@ class Covered:
 
     @property
     def free(self) -> float:
-        """What is left between them."""
+        """The fraction left between them."""
         return 1.0 - self.above - self.below
 
     @property
     def lift(self) -> float:
-        """How far above the middle of the canvas the middle of the free part lies."""
+        """How far the middle of the free part lies above the middle of the canvas, over its height."""
         return 0.5 * (self.below - self.above)
 
 

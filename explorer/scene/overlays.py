@@ -126,5 +126,5 @@ def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSeg
 
 
 def even_colours(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
-    """One colour for every end of `count` segments: the page cannot change from one for all to one for each."""
+    """One colour for each end of `count` segments, (count, 2, 3): the page cannot change from one colour to that."""
     return np.tile(np.array(colour, dtype=np.uint8), (count, 2, 1))

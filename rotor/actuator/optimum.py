@@ -54,6 +54,7 @@ class ConditionPair:
 
     @property
     def shares(self) -> tuple[float, float]:
+        """Share of time at each condition."""
         return 1.0 - self.share, self.share
 
     def mean(self, values: Iterable[float]) -> float:
@@ -110,7 +111,7 @@ def best_actuated(
 
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
     """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
-    nearby."""
+    nearby. RuntimeError where it does not trim."""
     reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")

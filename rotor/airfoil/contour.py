@@ -108,7 +108,7 @@ def parse_contour(text: str, name: str) -> Contour:
 def load_contour(name: str) -> Contour:
     """The bundled outline of `name`, one of `SECTION_NAMES`, or a NACA outline of four or five digits by formula.
 
-    Sources: `assets/airfoils/CITATION.md`.
+    Sources: `assets/airfoils/CITATION.md`. ValueError for another name.
     """
     if name not in SECTION_NAMES:
         if is_naca(name):

@@ -201,13 +201,13 @@ def lift_cap(mach: float, traits: SectionTraits) -> float:
 
 
 def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
-    """`cl` limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
+    """`cl`, any shape, limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
     return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
 
 
 def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
-    """Growth of lift from `base` to `mach`: sqrt(1 - M0^2) / sqrt(1 - M^2), constant above lift divergence."""
+    """Growth of lift from `base` to `mach`, √(1 − M0²)/√(1 − M²), constant above lift divergence (Glauert 1928)."""
     held = min(mach, LIFT_DIVERGENCE_MACH)
     return float(np.sqrt((1.0 - base**2) / (1.0 - held**2)))
 

@@ -226,7 +226,7 @@ def _nothing_made(x: Array) -> tuple[Array, Array, Live]:
 
 
 def hover_system(problem: Problem, ct: float | None = None) -> System:
-    """The equations of a hovering design, at one azimuth; tolerances are those of the caller.
+    """The equations of a hovering design at C_T `ct`, at one azimuth; tolerances are those of the caller.
 
     `ct`: sign and size of the thrust, by which axial wind finds its state; left out, that to be trimmed.
     """

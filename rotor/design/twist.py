@@ -418,7 +418,7 @@ def inline_spec(law: TwistLaw) -> str:
 
 @refusing("twist table", "give a two-column file (r/R, degrees)")
 def read_twist_table(path: Path) -> TableTwist:
-    """Read a two-column text table, r/R and twist in degrees; `#` starts a comment, commas or blanks separate."""
+    """Read a text table, r/R and twist in degrees; `#` begins a comment, commas or blanks separate; else ValueError."""
     text = read_text(path, "twist table", "give the path of a two-column file (r/R, degrees)")
     rows: list[tuple[float, float]] = []
     for number, line in enumerate(text.splitlines(), start=1):

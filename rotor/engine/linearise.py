@@ -191,7 +191,7 @@ class Point:
 
     @cached_property
     def size(self) -> float:
-        """Largest residual over its tolerance."""
+        """Largest residual over its tolerance [-]."""
         size = float((np.abs(self.residual) / self.system.tolerance).max())
         return size if np.isfinite(size) else np.inf
 

@@ -76,7 +76,7 @@ class Parameter:
         return math.degrees(value) if self.angular else value
 
     def from_shown(self, value: float) -> float:
-        """The inverse of `shown`."""
+        """The value [rad or r/R] of a shown number: the inverse of `shown`."""
         return math.radians(value) if self.angular else value
 
 

@@ -156,7 +156,7 @@ CONCEPTS: dict[str, Concept] = {
 def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
     """The concept of that name, its breaks fixed at `division` (r/R) if given.
 
-    Raises ValueError with one sentence that names the value and the remedy.
+    Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
         raise TypeError(f'concept is {name!r:.40}, not a text: write for example "linear"')

@@ -135,7 +135,7 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
 
 
 def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> str:
-    """The content of a file as text; a byte-order mark at the beginning, which Notepad writes, is left out."""
+    """The content of a file as text, without a byte-order mark at the beginning; ValueError where it is not text."""
     content = read_bytes(path, what, remedy, most)
     try:
         return content.decode("utf-8-sig").replace("\r\n", "\n")
@@ -231,7 +231,7 @@ _MOST_VALUES = 10_000
 
 
 def parse_range(text: str) -> list[float]:
-    """`a:b:step`, both ends included (falling with a negative step), or a comma-separated list, or one number."""
+    """`a:b:step` with both ends (falling with a negative step), numbers with commas, or one number; else ValueError."""
     try:
         if ":" in text:
             first, last, step = (float(item) for item in text.split(":"))
