@@ -67,6 +67,8 @@ class MeasuredSet:
     """The column that is compared."""
     points: tuple[dict[str, float], ...]
     note: str = ""
+    menu: str = ""
+    """Short title, for a menu."""
     missed: str = ""
     """Why the target is missed, as far as it is known."""
     scatter: float | None = None
