@@ -105,7 +105,7 @@ class SearchRequest:
             return find_concept(self.concept, [self.division])
         if self.concept == "three-segment":
             breaks = [self.first, self.second]
-            # The sliders' two digits, where they still mean the airfoils' own places, are those places.
+            # Places that are those of the airfoils but for the sliders' two digits are those of the airfoils.
             if breaks == [round(place, 2) for place in AIRFOIL_BREAKS]:
                 return CONCEPTS[self.concept]
             return find_concept(self.concept, breaks)

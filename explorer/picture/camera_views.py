@@ -134,7 +134,7 @@ def fit(
 def _standing(size: float, aspect: float, backward: Array, cover: Covered) -> Camera:
     """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
     higher = USUAL_COVER.free / cover.free
-    # Coming nearer blows up the near side, tail and all: only half the way.
+    # Moving nearer enlarges the near side and the tail: go only half the way.
     further = max(_STAND_ASPECT / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
     look_at = size * np.array(_STAND_LOOKS_AT)
     camera = Camera(look_at + size * _STAND_DISTANCE * further * backward, look_at)

@@ -264,7 +264,7 @@ class _GridPoint:
             float(field[row, first]) + self._late * float(field[row, second] - field[row, first])
             for row in (self._row, self._row + 1)
         )
-        # Two products rather than a difference: the outer station comes out as it stands there too.
+        # Two products rather than a difference: so the outer station has exactly its own value, too.
         return (1.0 - out) * inner + out * outer
 
 

@@ -72,7 +72,7 @@ class WidgetForm:
         self._add(
             name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
         )
-        self._handles[name].precision = form.digits  # Viser's has all digits of the value, as of one from a link.
+        self._handles[name].precision = form.digits  # By default viser shows all digits.
         if below:
             self._below[name] = self._gui.add_html(below, visible=visible)
 
@@ -247,7 +247,7 @@ class StandControls:
         """The measured condition that is set, in flight one of flights; air and speed of the tip, given or not."""
         stand, flown = self.stand, inputs.stand is None
         if stand is not None:
-            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Of any mass.
+            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Its mass does not matter.
             mach = stand.tip_mach
             self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)

@@ -310,6 +310,6 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         concept = restrict(concept, breaks)
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
     first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
-    starts = [fixed.values, first.values, second.values]  # Without breaks the others are those of before.
+    starts = [fixed.values, first.values, second.values]  # Without breaks the other two are those found above.
     better = _search((pair.designs(), pair.shares, ()), concept, None, starts, alone=not breaks)
     return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

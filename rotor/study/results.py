@@ -110,7 +110,7 @@ def _read_chunk(path: Path) -> Any:
     metadata: dict[bytes, bytes] = parquet.read_schema(str(path)).metadata or {}
     if metadata.get(b"format_version") != b"1" and not is_undamaged(path.read_bytes()):
         raise ValueError("its digest is another")
-    # From the file: a thread of Arrow's that frees bytes of Python while Python ends aborts the process.
+    # Not from bytes: an Arrow thread that frees Python's bytes while Python exits aborts the process.
     return parquet.read_table(str(path))
 
 

@@ -30,7 +30,7 @@ def extra_module(name: str, what: str) -> Any:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
-            raise  # The module is there, and something else is missing.
+            raise  # The module is installed; something that it imports is missing.
         package = name.partition(".")[0]  # The module has the same name on the package index.
         raise MissingExtra(f"{what} needs {package}: pip install {package}") from None
 
