@@ -21,15 +21,10 @@ from explorer.views.notice import comparison
 from explorer.widgets.optimise.optimise_panel import same_but_twist
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import MapLevel, MapTask, SearchTask, StartPower
-from rotor import doubt
-from rotor.files.make_design import make_design
-from rotor.optimisation import optimise
-from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import at_condition
-from rotor.optimisation.results import Progress
+from rotor import doubt, make_design, solve
+from rotor.optimisation import CONCEPTS, Progress, at_condition, optimise
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.support.processes import JobEnded, JobFailed
-from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Quick, where the physics does not matter."""

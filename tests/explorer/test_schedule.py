@@ -13,11 +13,8 @@ from explorer.charts import schedule_view
 from explorer.charts.schedule_view import ScheduleProgress
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import ScheduleTask
-from rotor.files.make_design import make_design
-from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import SchedulePlan
-from rotor.trim.solve import solve
+from rotor import make_design, solve
+from rotor.optimisation import CONCEPTS, SchedulePlan, WeightedCondition
 from tests.curves import curves
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)

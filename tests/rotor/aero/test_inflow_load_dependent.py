@@ -11,13 +11,12 @@ from rotor.aero.elements import BladeElements
 from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.problem import Problem
-from rotor.design.twist import LinearTwist
+from rotor.design import LinearTwist
 from rotor.engine.linearise import Point
 from rotor.support.arrays import Array
+from rotor.trim import Analysis, SolverOptions, power_gradient
 from rotor.trim.adjoint import Objective
-from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import SolverOptions
 
 LOAD_DEPENDENT = [name for name, model in INFLOW_MODELS.items() if model.load_dependent]
 TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12)

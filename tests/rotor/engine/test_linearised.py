@@ -17,12 +17,11 @@ from numpy.testing import assert_allclose
 
 from rotor import Design, make_design
 from rotor.aero.section import M
-from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.aircraft import Stand
+from rotor.design import ActiveTwist, Harmonic, Stand
 from rotor.engine.linearise import MeasureSlopes, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array
-from rotor.trim.solve import analyse
+from rotor.trim import analyse
 
 STEPS = 10.0 ** -np.arange(4.0, 7.6, 0.5)
 ACTIVE = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))

@@ -20,10 +20,8 @@ from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
 from rotor.support.arrays import Array
 from rotor.support.units import GRAVITY
-from rotor.trim.analysis import Analysis, power_gradient
+from rotor.trim import Analysis, SolverOptions, power_gradient, why_no_hub_loads
 from rotor.trim.hub_loads import HubLoads, hub_loads, index_along
-from rotor.trim.newton import SolverOptions
-from rotor.trim.no_hub_loads import why_no_hub_loads
 from tests.rotor.check_jacobian import check_along
 from tests.rotor.root_loads import displacements, root_loads
 

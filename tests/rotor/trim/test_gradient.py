@@ -7,15 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import Design, FlightCondition, Solution, make_design
+from rotor import Design, FlightCondition, Solution, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.twist import TableTwist
-from rotor.optimisation.concepts import CONCEPTS
+from rotor.design import TableTwist
+from rotor.optimisation import CONCEPTS
 from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, evaluate_objective
+from rotor.trim import Analysis, SolverOptions, analyse, power_gradient
 from rotor.trim.adjoint import Adjoint, ElementSlopes
-from rotor.trim.analysis import Analysis, power_gradient
-from rotor.trim.newton import SolverOptions
-from rotor.trim.solve import analyse, solve
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
 RELATIVE = 1e-6
