@@ -34,11 +34,6 @@ Titles = Mapping[Any, str]
 Ends = tuple[float, float]
 
 
-def key_of(titles: Titles, title: str) -> Any:
-    """The key of what a menu shows."""
-    return next(key for key, value in titles.items() if value == title)
-
-
 class WidgetForm:
     """Widgets of one page. Values are those of the inputs; titles of menus and units are the form's matter."""
 
@@ -106,7 +101,7 @@ class WidgetForm:
         if name in self._placed and place == self._placed[name][0]:
             return self._placed[name][1]
         if name in self._titles:
-            return key_of(self._titles[name], place)
+            return next(key for key, title in self._titles[name].items() if title == place)
         if isinstance(place, tuple):
             return tuple(sorted(round(float(end), 4) for end in place))
         return meant(self._rows[name], place, self._units) if name in self._rows else place

@@ -85,10 +85,10 @@ class _Heading:
 
     def row(self, line: str) -> tuple[float, ...] | None:
         """Mach, Reynolds number, angle, c_l, c_d and c_m of a line, NaN without such a column; None for other lines."""
-        words = _split(line, self.mark)
+        words = _split(line if self.mark == "," else line.replace(",", "."), self.mark)  # A decimal comma.
         try:
             return tuple(
-                _float(words[self.at[name]], self.mark) if name in self.at else np.nan
+                float(words[self.at[name]]) if name in self.at else np.nan
                 for name in ("mach", "reynolds", "alpha", "cl", "cd", "cm")
             )
         except (ValueError, IndexError):
@@ -97,11 +97,6 @@ class _Heading:
 
 def _split(line: str, mark: str | None) -> list[str]:
     return [word.strip(" \t\"'") for word in line.split(mark)]
-
-
-def _float(word: str, mark: str | None) -> float:
-    """A number, with a decimal comma where none parts the columns."""
-    return float(word if mark == "," else word.replace(",", "."))
 
 
 def _headings(lines: list[str]) -> list[_Heading]:
