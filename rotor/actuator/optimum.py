@@ -105,7 +105,7 @@ def best_actuated(
     starts: Sequence[Sequence[float]] = (),
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
-    """Least mean power with the actuator within `scale` times its range; `near`: trims to start from, by condition."""
+    """Least mean power [W] with the actuator within `scale` times its range; `near`: trims to start from."""
     return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
 
 

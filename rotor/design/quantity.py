@@ -68,6 +68,7 @@ class Quantity:
     """The word before a value below zero, which is then without its sign: `descent`."""
     low: float = -math.inf
     high: float = math.inf
+    """Bounds in the unit of the name."""
     high_on_stand: float | None = None
     """Where a test may go further than flight."""
     default: Any = None

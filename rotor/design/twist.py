@@ -63,7 +63,7 @@ class SpecTwist(TwistLaw):
 
     @classmethod
     def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
-        """The law of the angles [rad] and of the stations after @ of a SPEC."""
+        """The law of the angles [rad] and of the stations r/R after @ of a SPEC; ValueError where they do not fit."""
         if len(angles) != len(fields(cls)) or places:
             numbers = f"{len(fields(cls))} number{'s' * (len(fields(cls)) > 1)}"
             raise ValueError(

@@ -64,7 +64,7 @@ class Nodes:
     tolerance: float
     """Tolerance of y − f."""
     limit: float
-    """Largest step of y."""
+    """Largest step of y, in its unit."""
     expected: float
     """A y that a solution without a guess of y begins with."""
 

@@ -126,7 +126,7 @@ class WorkerProcess:
         self._pipe.send(None)
 
     def receive(self, seconds: float | None) -> Reply | None:
-        """The next reply to the last task; None if none came in time, or one to a task that was given up."""
+        """The next reply to the last task within so many seconds; None without one, or for a task that was given up."""
         reply: Reply | None = self._pipe.recv() if self._pipe.poll(seconds) else None
         return reply if reply is not None and reply.number in (0, self._number) else None
 

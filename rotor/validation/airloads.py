@@ -128,6 +128,7 @@ class CurveAgreement:
     """Root mean square of the measured curve itself, in the same unit."""
     mean: float
     measured_mean: float
+    """In the unit of the quantity, as `mean`."""
     waves: Array = field(repr=False)
     """Of the computed curve, by `harmonics`."""
     measured_waves: Array = field(repr=False)

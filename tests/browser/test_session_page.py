@@ -1,17 +1,12 @@
-"""Undo, history, kept designs and design files on the real page; a design survives F5, a link and the back button of a
-browser, which rewrites the address at each connection."""
+"""Undo, history, kept designs, the address, and design files, on the real page."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import expect
 from watched import COARSE, Visit, Watched
 
-from explorer.app import App
-from explorer.model.inputs import OPENING, Inputs
-from explorer.sharing.share import code_of
+from explorer.model.inputs import Inputs
 from rotor import load_design, make_design
 
 START = Inputs()
@@ -86,39 +81,3 @@ def test_save_and_load(visit: Visit, tmp_path: Path):
     file.set_input_files(saved)
     design_in_address(watched, "spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1")
     watched.until(lambda: shown_kw(watched) == before)
-
-
-BUILT = replace(OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.793, advance_ratio=0.25)
-
-
-def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
-    """Whether the page's session and its address hold this design."""
-    shown = app.sessions[-1].page.context.controls.inputs().design()
-    code = watched.page.evaluate("() => new URLSearchParams(location.search).get('d')")
-    return code_of(inputs.design()) == code_of(shown) == code
-
-
-@pytest.mark.slow
-def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
-    watched = visit()
-    page = watched.page
-    watched.press("Δ inboard [°/R]", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
-    page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')")
-    by_hand = replace(OPENING, built_inner=-0.3)
-    page.reload()
-    watched.ready()
-    watched.until(lambda: holds(app, watched, by_hand))
-    watched.open(app.address, f"{COARSE}&d={code_of(BUILT.design())}")
-    watched.until(lambda: holds(app, watched, BUILT))
-    page.reload()
-    watched.ready()
-    watched.until(lambda: holds(app, watched, BUILT))
-    for label, shown in (("Δ inboard [°/R]", "-2.0"), ("Break point [r/R]", "0.79")):  # Rounded; the design is exact.
-        expect(watched.row(label).get_by_role("textbox")).to_have_value(shown)
-    page.keyboard.press("r")
-    watched.until(lambda: holds(app, watched, OPENING))
-    page.get_by_role("button", name="Undo").click()
-    watched.until(lambda: holds(app, watched, BUILT))
-    page.go_back()
-    watched.ready()
-    watched.until(lambda: holds(app, watched, by_hand))

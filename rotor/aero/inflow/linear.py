@@ -71,7 +71,7 @@ def half_skew(flow: DiskFlow) -> Gradient:
 
 
 def scaled_half_skew(gain: float) -> Callable[[DiskFlow], Gradient]:
-    """k = gain · tan(χ/2)."""
+    """k = gain · tan(χ/2), see `half_skew`."""
 
     def gradient(flow: DiskFlow) -> Gradient:
         value, by_mu, by_axial = half_skew(flow)
