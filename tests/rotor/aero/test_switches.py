@@ -26,7 +26,7 @@ from rotor.study.series import PARTS, waterfall, waterfall_steps
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
-from tests.rotor.check_jacobian import elements_at, point_at
+from tests.rotor.at_state import elements_at, point_at
 from tests.solved import assert_same_trim
 
 

@@ -40,11 +40,12 @@ class Case:
     active: ActiveTwist | None = None
     flap: tuple[float, float] = (0.0, 0.0)
     grid: tuple[int, int] = (20, 40)
+    mass: float | None = None
     models: tuple[tuple[str, Any], ...] = ()
 
 
-def flight(mu: float = 0.2, **models: Any) -> Case:
-    return Case(mu, models=tuple(models.items()))
+def flight(mu: float = 0.2, *, mass: float | None = None, **models: Any) -> Case:
+    return Case(mu, mass=mass, models=tuple(models.items()))
 
 
 def stand(trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | None = None, **given: Any) -> Case:
@@ -73,6 +74,11 @@ CASES = {
     "without yawed drag": flight(radial_friction=False),
     "without tip sweep": flight(swept_tip=False),
     "one Mach number": flight(compressibility=False),
+    **{f"bending, {name}": flight(0.3, inflow=name, bending=True) for name in ("pitt-peters", "local-momentum")},
+    "bending, lifting-line": flight(0.3, bending=True),
+    "stalled": flight(0.35, mass=9500.0),
+    "rigid, stalled": flight(0.35, mass=9500.0, elastic_twist=False),
+    "bending, stalled": flight(0.35, mass=9500.0, bending=True),
     "active twist": Case(active=ACTIVE, flap=(-0.02, 0.01)),
     "rigid active twist": Case(active=ACTIVE, models=(("elastic_twist", False),)),
     "joined with hover": flight(0.06),
@@ -110,7 +116,9 @@ CASES = {
 
 def design(case: Case) -> Design:
     """A design on a coarse grid."""
-    at = make_design(mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand)
+    at = make_design(
+        mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand, mass_kg=case.mass
+    )
     elements, azimuths = case.grid
     return replace(
         at,

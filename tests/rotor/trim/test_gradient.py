@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,11 +62,29 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
     assert_allclose(ways @ exact, measured, atol=RELATIVE * scale, rtol=0.0)
 
 
+CLIMBS = ((0.0, 5.0), (0.03, 5.0), (0.2, -12.0), (0.25, 8.0))
+STANDS = {
+    "thrust": ("wind-tunnel", {"shaft_tilt_deg": 5.0, "ct_over_sigma": 0.075}),
+    "collective": ("wind-tunnel", {"collective_deg": 7.0}),
+    "controls": ("controls", {"collective_deg": 7.0, "flapping": "free"}),
+}
+FLOWN: dict[str, dict[str, Any]] = {
+    **{inflow: {"mu": 0.25, "inflow": inflow} for inflow in INFLOW_MODELS},
+    **{f"joined {inflow}": {"mu": 0.06, "inflow": inflow} for inflow in ("lifting-line", "local-momentum")},
+    **{f"climb {rate} at µ {mu}": {"mu": mu, "climb_m_s": rate} for mu, rate in CLIMBS},
+    "closed form in descent": {"mu": 0.0, "climb_m_s": -4.0, "inflow": "closed-form"},
+    **{f"{name} at µ {mu}": {"mu": mu, "trim": trim, "stand": stand}
+       for mu in (0.0, 0.2) for name, (trim, stand) in STANDS.items()},
+    "stalled": {"mu": 0.35, "mass_kg": 9500.0},
+}  # fmt: skip
+
+
 @pytest.mark.parametrize("quantity", POWERS)
-@pytest.mark.parametrize("inflow", INFLOW_MODELS)
-def test_forward_flight(inflow: str, quantity):
+@pytest.mark.parametrize("name", FLOWN)
+def test_flight_and_stand(name: str, quantity):
     """The slope by the pitch of every element, which holds those of all concepts."""
-    design = small("flight", inflow, 0.25)
+    design = make_design(**FLOWN[name])
+    design = replace(design, models=replace(design.models, elements=16, azimuths=36))
     check(design, "free-form", at_condition(design, quantity), every=False)
 
 
