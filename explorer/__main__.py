@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _run(parser.parse_args(given))
         except KeyboardInterrupt:
             print(flush=True)
-            if compiling():  # LLVM aborts where a process ends in the usual way under a thread of it.
+            if compiling():  # LLVM aborts if the process exits normally while one of its threads runs.
                 os._exit(0)
             return 0
 

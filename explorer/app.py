@@ -210,7 +210,7 @@ class App:
     def wait_until_warm(self) -> None:
         """Wait until everything is loaded and keep it from garbage collection: for a process that only serves."""
         self._warmed.wait()
-        if not self._connections:  # What a page holds must be collected with it.
+        if not self._connections:  # What a page holds must be freed with it.
             memory.exclude_from_collection()
 
     @property

@@ -86,7 +86,7 @@ def _srgb(lightness: float, chroma: float, hue_deg: float) -> Array:
 def _sequential(n: int) -> tuple[Rgb, ...]:
     colours = []
     for t in np.linspace(0.0, 1.0, n):
-        # Chroma follows the gamut's waist at the greens: clipped there, steps would bunch up into a false edge.
+        # The gamut is narrowest at the greens, and chroma follows it: clipped colours would show a false edge.
         chroma = float(np.interp(t, [0.0, 0.25, 0.5, 1.0], [0.13, 0.11, 0.105, 0.17]))
         colours.append(_bytes(_srgb(0.30 + 0.62 * t, chroma, 290.0 - 190.0 * t)))
     return tuple(colours)

@@ -105,7 +105,7 @@ class Page:
         self._add_rail(address)
         self._add_drawers(address, facts, presentation)
         self._listen(opening)
-        for title, sentence in address.problems:  # Not closed by time: the link does not show what it names.
+        for title, sentence in address.problems:  # Stays until closed: the page does not show what the link names.
             if title == _NOT_USED:
                 self._tell(sentence, opening)
             else:
@@ -231,7 +231,7 @@ class Page:
         overlay = overlay_of(None if now.preview is None else now.sliders, self.context.pinboard.pinned)
         self.scene.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
-        if self._views.before is None:  # Else the blade from the tip and the plan of the disk hide the scene.
+        if self._views.before is None:  # Otherwise the blade from the tip and the plan of the disk hide the scene.
             self.scene.draw(solution, now.view, overlay, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, now.view, at_rest=False)

@@ -28,7 +28,7 @@ Range = tuple[float, float]
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
-    """A round axis range that is kept while the data fit into it and fill it reasonably."""
+    """A round axis range, in the unit of the data, that is kept while they fit into it and fill it reasonably."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return previous or (0.0, 1.0)
     if previous is not None and previous[0] <= low and high <= previous[1] <= previous[0] + 2.5 * (high - low):

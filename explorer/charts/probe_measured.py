@@ -132,7 +132,7 @@ def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
 
 
 def correlation(measured: MeasuredCurve, psi: Array, computed: Array) -> float:
-    """Correlation of the harmonics that are compared, without the mean."""
+    """Correlation of the harmonics that are compared, without the mean, −1…1."""
     computed, other = (
         harmonics(at, values, measured.highest)[1:] for at, values in ((psi, computed), (measured.psi, measured.values))
     )

@@ -45,6 +45,7 @@ class ScheduleProgress:
         return self.schedule.at(leg, self.plan.concepts[0].name)
 
     def fixed_power(self, leg: int) -> float | None:
+        """Power of the best fixed blade at a leg [W]; None while it is not known."""
         return self.fixed_powers[leg] if leg < len(self.fixed_powers) else None
 
     @property
@@ -61,7 +62,7 @@ class ScheduleProgress:
 def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
     r, legs = np.linspace(0.13, 1.0, 80), len(progress.plan.conditions)
-    shades = colour_map("sequential", legs + 3)[2:]  # Neither end is seen on every page.
+    shades = colour_map("sequential", legs + 3)[2:]  # The ends of the map are not seen on every background.
     lines: list[Line] = []
     for k, leg in enumerate((*range(legs), None)):
         optimum = progress.at(leg)

@@ -42,7 +42,7 @@ def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool
 
 
 def now_dot(x: float, y: float) -> Points:
-    """The present condition."""
+    """The present condition, in the units of the axes."""
     return Points("", (x,), (y,), THIS, size=4.5, words=("now",))
 
 

@@ -94,7 +94,7 @@ def words(
 
 
 def spread_heights(wanted: list[float], apart: float) -> list[float]:
-    """Heights as near those wanted as lets each be `apart` from the next; in the same order."""
+    """Heights [px] as near those wanted as lets each be `apart` from the next; in the same order."""
     order = sorted(range(len(wanted)), key=lambda k: wanted[k])
     placed = [wanted[k] for k in order]
     for _ in range(20):
@@ -114,7 +114,7 @@ def _on(centre: Point, radius: float, angle: float) -> Point:
 
 
 def text(x: float, y: float, words: str, size: float, *, anchor: str = "start") -> Markup:
-    """Text whose baseline starts, is centred or ends at a point."""
+    """Text whose baseline starts, is centred or ends at a point [px]."""
     return tag("text", words, x=x, y=y, fill="currentColor", font_size=size, text_anchor=anchor)
 
 

@@ -183,7 +183,7 @@ _CLOSING_S = 1.0
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "same-origin",  # The address of a page may hold a design.
-    "Content-Security-Policy": "frame-ancestors 'self'",  # No foreign page puts ours under its buttons.
+    "Content-Security-Policy": "frame-ancestors 'self'",  # No other site may put this page under buttons of its own.
 }
 
 
@@ -240,7 +240,7 @@ class RequestFilter:
                 ):  # An image of another site could ask for solve after solve.
                     return _plain(http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers.")
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
-            if not upgrade and path == "/place":  # A page that was turned away asks.
+            if not upgrade and path == "/place":  # Asked by a page that was turned away.
                 return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
                 served = inner(connection, request)

@@ -232,7 +232,7 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
         if handle is None:
             return
         props = handle._impl.props
-        # viser queues the value for its other pages, of which there is none: each time that wakes what sends, in vain.
+        # viser queues the value for other pages; there are none, but each value wakes the thread that sends.
         handle._impl.sync_cb = None
         try:
             message.updates["value"] = accepted_value(

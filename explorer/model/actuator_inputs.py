@@ -46,7 +46,7 @@ class ActuatorInputs:
     """x/c"""
     blade: BladeKind = "retrofit"
     stiffness: float = 0.5
-    """GJ of a new blade over that of the flown one."""
+    """GJ of a new blade over that of the existing one."""
     concept: str = "linear"
     against: Against = "same-blade"
     advance_ratios: tuple[float, float] = (0.0, 0.3)

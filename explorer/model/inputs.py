@@ -132,7 +132,7 @@ def _default(row: Quantity) -> Any:
 
 
 if TYPE_CHECKING:
-    _Quantities = Any  # Fields that are data are no more than that to a type checker.
+    _Quantities = Any  # A type checker cannot read fields that come from a table.
 else:
     _Quantities = make_dataclass(
         "_Quantities", [(name, Any, _default(row)) for name, row in (ROWS | HELD).items()], frozen=True

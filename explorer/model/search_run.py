@@ -105,7 +105,7 @@ class SearchRequest:
             return find_concept(self.concept, [self.division])
         if self.concept == "three-segment":
             breaks = [self.first, self.second]
-            # The sliders' two digits, where they still mean the airfoils' own places, are those places.
+            # Places that are those of the airfoils but for the sliders' two digits are those of the airfoils.
             if breaks == [round(place, 2) for place in AIRFOIL_BREAKS]:
                 return CONCEPTS[self.concept]
             return find_concept(self.concept, breaks)
@@ -171,10 +171,12 @@ class SearchRun:
 
     @property
     def reference_power(self) -> float | None:
+        """Power of the reference design [W]; None while it is not known."""
         return next((report.power for report in self.record.reports if isinstance(report, ReferencePower)), None)
 
     @property
     def optimum(self) -> Optimum | None:
+        """The result; None before the end."""
         return self.record.result
 
     @property

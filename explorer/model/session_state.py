@@ -154,7 +154,7 @@ class Pinboard:
         """
         outcome = None
         while self._put:
-            given = self._put[0]  # Taken away once it is A: see `inputs`.
+            given = self._put[0]  # Removed once it is A: `inputs` reads it until then.
             try:
                 answer = None if given is None else self._by(given.design(), None)
                 self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))

@@ -56,7 +56,7 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
     if name == "mass_t":
         return _weight(aircraft, units)
     form = form_of(ROWS[name], units)
-    if aircraft.isolated and name in ("advance_ratio", "climb_m_s"):  # A rotor of a propeller too.
+    if aircraft.isolated and name in ("advance_ratio", "climb_m_s"):  # Also the rotor of a propeller.
         row = ROWS[name]
         high = (row.high_on_stand or row.high) / form.size
         return replace(form, high=high, low=-high if row.low < 0.0 else form.low)

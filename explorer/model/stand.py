@@ -86,7 +86,7 @@ def stand_of(design: Design) -> StandInputs | None:
 
 
 def load_of(solution: Solution, load: str) -> float:
-    """What a solution has of one of `LOAD_KEYS`, rounded to what a slider shows."""
+    """What a solution has of one of `LOAD_KEYS`, in its unit, rounded to what a slider shows."""
     match load:
         case "ct_over_sigma":
             return round(solution.ct_over_sigma, 4)
@@ -195,8 +195,7 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):
             words = ", ".join(f"{SHORT[name]} {point[name]:.4g}" for name in several)
-            title = _TITLES[measured.name]
-            conditions.append(_condition(title, f"{number}: {words}", design_at(measured, point)))
+            conditions.append(_condition(measured.menu, f"{number}: {words}", design_at(measured, point)))
     if rotor == inflow.ROTOR:
         for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
             solidity = make_design(rotor=rotor).rotor.solidity
@@ -250,23 +249,6 @@ def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
 
 
 SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt", "collective_deg": "collective"}
-_TITLES = {
-    "xv15-hover": "Hover (OARF)",
-    "xv15-forward-15deg": "Tunnel, 15° forward",
-    "xv15-forward-0deg": "Tunnel, shaft upright",
-    "xv15-forward-figure-18": "Tunnel, figure 18",
-    "pca2": "Tunnel, no torque",
-    "knight-hefner-3": "Hover (TN 626)",
-    "knight-hefner-4": "Hover (TN 626)",
-    "caradonna-tung": "Hover (TM-81232)",
-    "castles-gray-hover": "Hover (TN 2474, table V)",
-    "castles-gray-4ft": "Hover (TN 2474)",
-    "castles-gray-tapered": "Hover (TN 2474)",
-    "castles-gray": "Hover (TN 2474, table I)",
-    "castles-gray-twisted": "Hover (TN 2474)",
-    "uh60a-hover": "Hover (digitised)",
-}
-"""Short titles of the sets, for a menu."""
 _CASES = {
     "BL": ("HART II", "Baseline"),
     "MN": ("HART II", "Minimum noise: 3/rev pitch"),

@@ -68,7 +68,7 @@ class History:
         if not moved:
             return False
         dragging = bool(self._moving) if self._held else moved <= self._moving and pause < PAUSE
-        if dragging and self.past and self.past[-1] == inputs:  # Back where the step began: it is none.
+        if dragging and self.past and self.past[-1] == inputs:  # Back where it began: this is no step.
             self.present, self.future, self._moving = self.past.pop(), self._undone, frozenset()
             return False
         if not dragging:

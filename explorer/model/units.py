@@ -41,9 +41,11 @@ def degrees(angle: float, digits: int = 2) -> str:
 
 @dataclass(frozen=True)
 class Unit:
+    """A unit on the page."""
+
     symbol: str
     size: float
-    """In SI."""
+    """One of it in SI."""
 
     def of(self, value: float) -> float:
         """A value in SI, in this unit."""
@@ -63,12 +65,12 @@ def form_of(row: Quantity, units: "Units") -> Slider:
 
 
 def shown(row: Quantity, value: float, units: "Units") -> float:
-    """The place of an input on its slider."""
+    """The place of an input on its slider, in the unit shown."""
     return value if row.aviation is None else value * row.input_size / form_of(row, units).size
 
 
 def meant(row: Quantity, place: float, units: "Units") -> float:
-    """The input that a place means, to nine decimals: the hand set no more."""
+    """The input, in the unit of its name, that a place on the slider means, to nine decimals."""
     return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
 
 

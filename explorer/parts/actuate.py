@@ -92,6 +92,7 @@ class PowerBar:
 
     name: str
     value: float
+    """In the unit of the part."""
     text: str
     kind: Sign
     total: bool

@@ -65,7 +65,7 @@ def loft(rings: ArrayLike) -> Mesh:
 
 
 def ring_faces(rings: int, points: int) -> NDArray[np.intp]:
-    """Triangles between neighbouring rings of so many points, numbered ring by ring."""
+    """Triangles between neighbouring rings of so many points, numbered ring by ring, (triangles, 3)."""
     start = np.arange(rings - 1)[:, None] * points
     a = (start + np.arange(points)).ravel()
     b = (start + (np.arange(points) + 1) % points).ravel()
@@ -87,7 +87,7 @@ def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
 
 
 def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None, segments: int = 14) -> Mesh:
-    """A round bar between two points, conical where `end_radius` is given."""
+    """A round bar between two points, conical where `end_radius` is given; lengths [m]."""
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     along = (b - a) / np.linalg.norm(b - a)
     across = np.cross(b - a, np.eye(3)[int(np.argmin(np.abs(b - a)))])

@@ -50,6 +50,7 @@ class Camera:
     position: Array
     """[m], shape (3,)."""
     look_at: Array
+    """[m], shape (3,)."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +63,12 @@ class Covered:
 
     @property
     def free(self) -> float:
-        """What is left between them."""
+        """The fraction left between them."""
         return 1.0 - self.above - self.below
 
     @property
     def lift(self) -> float:
-        """How far above the middle of the canvas the middle of the free part lies."""
+        """How far the middle of the free part lies above the middle of the canvas, over its height."""
         return 0.5 * (self.below - self.above)
 
 
@@ -133,7 +134,7 @@ def fit(
 def _standing(size: float, aspect: float, backward: Array, cover: Covered) -> Camera:
     """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
     higher = USUAL_COVER.free / cover.free
-    # Coming nearer blows up the near side, tail and all: only half the way.
+    # Moving nearer enlarges the near side and the tail: go only half the way.
     further = max(_STAND_ASPECT / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
     look_at = size * np.array(_STAND_LOOKS_AT)
     camera = Camera(look_at + size * _STAND_DISTANCE * further * backward, look_at)

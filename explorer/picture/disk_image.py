@@ -294,7 +294,7 @@ class _Ring:
 
 @lru_cache(maxsize=4)
 def shadow_mask(craft: Airframe, radius: float) -> Bytes:
-    """The airframe's soft shadow on the ground, and a faint one of the disk, seen from above. Row 0 is ahead."""
+    """The airframe's soft shadow on the ground, and the disk's, from above; radius [m]. Row 0 is ahead."""
     size, half = _SHADOW_SIZE, SHADOW_HALF * radius
     unit = 0.5 * size / half
 

@@ -74,7 +74,7 @@ class UnsteadyProbe:
     separation: float
     """f″, over the chord."""
     vortex: float
-    """C_n of the vortex."""
+    """C_n of the vortex [-]."""
     loop: Array
     """α [rad] and C_l at the azimuths of the disk, NaN in reverse flow, (2, azimuths)."""
 
@@ -86,18 +86,18 @@ class Probe:
     r: float
     """y/R"""
     psi: float
-    """0 … 2π, 0 over the tail."""
+    """ψ [rad], 0 … 2π, 0 over the tail."""
     radius: float
     """y [m]"""
     chord: float
     """[m]"""
     section: SectionBlend
     theta: float
-    """Pitch with twist."""
+    """Pitch with twist [rad]."""
     elastic: float | None
-    """Elastic twist; None for a rigid blade."""
+    """Elastic twist [rad]; None for a rigid blade."""
     phi: float
-    """Inflow angle atan2(U_P, U_T): near π where the flow comes from the trailing edge."""
+    """Inflow angle atan2(U_P, U_T) [rad]: near π where the flow comes from the trailing edge."""
     alpha: float
     """θ − φ in (−π, π], about the blade's reference line; in unsteady flow that of three quarters of the chord."""
     u_t: float
@@ -264,7 +264,7 @@ class _GridPoint:
             float(field[row, first]) + self._late * float(field[row, second] - field[row, first])
             for row in (self._row, self._row + 1)
         )
-        # Two products rather than a difference: the outer station comes out as it stands there too.
+        # Two products rather than a difference: so the outer station has exactly its own value, too.
         return (1.0 - out) * inner + out * outer
 
 

@@ -82,7 +82,7 @@ def _cl(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     disk = drawn.disk
     weight = disk.mach**2
     cl = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
-    # Run on over half a wide element at the root, the weight may come near zero.
+    # Extrapolated over half a wide element at the root, the weight may come near zero.
     return np.clip(cl, disk.cl.min(), disk.cl.max())
 
 

@@ -32,10 +32,11 @@ class LiftedBlade:
     rings: Array
     """Section outlines from the upper trailing edge over the nose, (stations, points, 2)."""
     r: Array
-    """Radii of the rings."""
+    """Stations r/R of the rings, (stations,)."""
     box: Span
     """Where the electronics sit, r/R."""
     radius: float
+    """R [m]."""
 
     def outward(self, r: Array | float) -> Array:
         """x of a station [m]."""
@@ -182,7 +183,7 @@ def _arc(blade: LiftedBlade, reach: float, angles: Array) -> Array:
 
 
 def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float) -> Array:
-    """A point of the twisted blade, (3,)."""
+    """A point of the twisted blade [m], (3,); y and z [m] in the section, twist [rad]."""
     return _turned(blade, np.array([r]), np.array([[[y, z]]]), np.array([twist]))[0, 0]
 
 

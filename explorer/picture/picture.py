@@ -326,7 +326,7 @@ def field_values(solution: Solution, field: Field) -> Array:
     A field without meaning in reverse flow is left out beside it too: angles run away where there is no flow.
     """
     grid = polar_grid(solution.disk, 80, 240)
-    # Rows at equal steps of r², which ring areas go with.
+    # Rows at equal steps of r², since the area of a ring goes with r².
     r = np.sqrt(np.linspace(grid.r[0] ** 2, grid.r[-1] ** 2, 2 * len(grid.r)))
     rows = np.rint(np.interp(r, grid.r, np.arange(len(grid.r)))).astype(int)
     drawn = DrawnSolution(solution)

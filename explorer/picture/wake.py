@@ -33,7 +33,7 @@ class TipVortexPath:
     """
 
     along: float
-    """Drift aft per radian of age."""
+    """Drift aft [R] per radian of age."""
     turns: float
     """Age at the end, in turns of the rotor."""
     points: int

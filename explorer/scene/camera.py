@@ -10,16 +10,7 @@ import viser
 
 from explorer.hosting.browser import call
 from explorer.hosting.viser_compat import aim
-from explorer.picture.camera_views import (
-    FIELD_OF_VIEW,
-    USUAL_COVER,
-    Camera,
-    CameraShot,
-    Covered,
-    View,
-    between_cards,
-    fit,
-)
+from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Covered, View, between_cards, fit
 
 _MOST_COVERED = 0.75
 """From above and below. On a lower canvas the scene goes on behind the cards: there is no room beside them."""
@@ -129,10 +120,6 @@ class FittedCamera:
         self._held = held
         if not held and self._following:
             self._aim()
-
-    def hold_shot(self, shot: CameraShot) -> None:
-        """Show a part of the rotor from one side; the camera flies there."""
-        self.aim_with(lambda aspect: shot.fit(self.radius, aspect), eased=True)
 
     def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         """Aim at another subject: `fitted` finds the camera for a width over height without cards."""

@@ -75,7 +75,7 @@ class Overlay:
         differs = other.twist != solution.design.twist
         # Where only bending differs, the straight blade as flown: its jig shape would hide it.
         overlay = overlay_twist(solution, other.twist, psi) if differs or bent is None else twist
-        # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
+        # Only the edges of the blade's own jig shape: its surface cuts the flown one at small angles and would flicker.
         self._surface.visible = overlay is not None and (differs or bent is not None)
         self._lines.visible = overlay is not None and (at_rest or bent is not None)
         if overlay is None:
@@ -85,7 +85,7 @@ class Overlay:
             set_mesh(self._surface, straight(other.rotor))
         colour = other.colour if other.colour is not None and differs else self._theme.overlay
         self._surface.color = colour
-        if at_rest or bent is not None:  # Of the straight blade beside the bent one all edges.
+        if at_rest or bent is not None:  # All edges of the straight blade beside the bent one.
             least = _LEAST if bent is None else -1.0
             segments = overlay_segments(other.rotor, overlay, twist, exaggeration, least).astype(np.float32)
             self._lines.visible = len(segments) > 0
@@ -127,5 +127,5 @@ def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSeg
 
 
 def even_colours(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
-    """One colour for every end of `count` segments: the page cannot change from one for all to one for each."""
+    """One colour for each end of `count` segments, (count, 2, 3): the page cannot change from one colour to that."""
     return np.tile(np.array(colour, dtype=np.uint8), (count, 2, 1))

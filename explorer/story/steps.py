@@ -1,10 +1,9 @@
 """The lecture: steps that each set the page, ask for a guess, and answer it with computed numbers.
 
-`steps.toml` says what each sets, moves and shows. Its words are in its file in the folder `text`; every number
-in it is a name in braces, which `facts` finds.
+`steps.toml` says what each sets, moves and shows, and its words; a number in them is a name in braces, which `facts`
+finds.
 """
 
-import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,8 +17,6 @@ from explorer.picture.camera_views import CameraShot
 from explorer.text.readout import PART_TITLES
 from rotor import Solution, hub_loads
 
-_TEXT = Path(__file__).parent / "text"
-_HEADINGS = ("Compare", "Guess", "Answer", "Try")
 MOVED = frozenset({"law", *TWISTS})
 """Inputs that mean the built-in twist."""
 
@@ -45,32 +42,6 @@ class StepText:
     def parts(self) -> tuple[str, ...]:
         """All of it but the title."""
         return tuple(filter(None, (self.watch, self.question, *self.options, self.answer, self.todo, self.a, self.b)))
-
-
-def step_text(name: str) -> StepText:
-    """What the Markdown file of a step says.
-
-    ValueError for one that is not laid out as `# title`, a text, and `## Compare` (`A: …`, `B: …`; may be left out),
-    `## Guess` (a question and a list), `## Answer`, `## Try` in this order.
-    """
-    text = (_TEXT / f"{name}.md").read_text(encoding="utf-8")
-    first, *rest = re.split(r"\n## (\w+)\n", text)
-    head = re.fullmatch(r"# ([^\n]+)\n\n(.+)", first, re.DOTALL)
-    sections = dict(zip(rest[::2], map(str.strip, rest[1::2]), strict=True))
-    guess = re.fullmatch(r"(.+?)\n\n((?:- [^\n]+\n?)+)", sections.get("Guess", ""), re.DOTALL)
-    pair = re.fullmatch(r"A: (.+)\n\nB: (.+)", sections.get("Compare", "A: -\n\nB: -"))
-    wanted = [heading for heading in _HEADINGS if heading in sections or heading != "Compare"]
-    if head is None or guess is None or pair is None or rest[::2] != wanted or not all(sections.values()):
-        raise ValueError(
-            f"{name}.md is no step of the lecture: write '# title', a text, '## Compare' with 'A: …' and 'B: …' or "
-            "without it, '## Guess' with a question and a list, '## Answer' and '## Try'"
-        )
-    options = tuple(line.removeprefix("- ") for line in guess[2].splitlines())
-    title, watch, question, answer, todo = (
-        " ".join(part.split()) for part in (head[1], head[2], guess[1], sections["Answer"], sections["Try"])
-    )
-    compared = (pair[1], pair[2]) if "Compare" in sections else ("", "")
-    return StepText(title, watch, question, options, answer, todo, *compared)
 
 
 @dataclass(frozen=True)
@@ -204,6 +175,7 @@ def _control(label: str, start: float, moves: str = "", ends: Sequence[float] = 
 
 def _step(
     name: str,
+    text: dict[str, Any],
     inputs: dict[str, Any],
     control: dict[str, Any],
     shot: tuple[float, float, str],
@@ -213,9 +185,12 @@ def _step(
     **shown: Any,
 ) -> LectureStep:
     """A step as its table in `steps.toml` has it."""
+    words: dict[str, Any] = {
+        key: tuple(part) if key == "options" else " ".join(part.split()) for key, part in text.items()
+    }
     return LectureStep(
         name,
-        step_text(name),
+        StepText(**words),
         Inputs(**inputs),
         _control(**control),
         CameraShot(*shot[:2], *map(tuple, _FILE["boxes"][shot[2]])),

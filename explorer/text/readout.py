@@ -90,7 +90,7 @@ def ideal_induced(solution: Solution) -> float | None:
 
 
 def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Markup:
-    """κ and its ideal bound."""
+    """κ and its ideal bound; ideal: least induced power [W]."""
     kappa = "κ = Pi/(CT·λ0) ", tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa")
     bound: Content = f"ideal: {not_bounded(solution.design)}"
     if ideal is not None and solution.induced_power_factor:

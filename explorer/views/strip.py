@@ -48,7 +48,7 @@ def strip(now: PageState) -> dict[str, Any]:
 def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str, Chart, Kind, MarkedSpeeds | None]:
     """Change of power over µ; the power itself where the design is its own reference."""
     design, reference, failed = state.solution.design, state.reference, bool(now.problem)
-    # A preview, such as the flight of a schedule, is elsewhere than the sliders.
+    # A preview, such as the flight of a schedule, is not what the sliders show.
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
     held = now.memory.ranges.get(_axis(now, "power"))
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None

@@ -30,7 +30,7 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup
     if not steps:
         return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
     powers = [step.budget for step in steps if step.budget is not None]
-    # The total but for what a descent gives.
+    # The total, without what a descent gives back.
     lengths = [max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers]
     top = 1.04 * max(lengths, default=1.0)
     rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
@@ -57,7 +57,7 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     bar = None if step.note else _rect(left, y + 2, width, _MORE if added > 0.0 else _LESS)
     link = tag("line.rx-w-link", x1=before, x2=before, y1=y - 12, y2=y + 13)
     beneath = _patches(change, y, units)
-    if step.note:  # From the bars on; one too long for that ends at the right edge.
+    if step.note:  # Begins where the bars begin; a longer one ends at the right edge.
         long = len(step.note) > _LONG_NOTE
         place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
         beneath = _words(place, y + 24, step.note, look)

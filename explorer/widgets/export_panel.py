@@ -82,7 +82,7 @@ class ExportPanel:
         """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
         client, view = self._context.client, state.view
         height = round(_WIDTH / client.camera.aspect)
-        self._actuator.blade.show_leaders(False)  # To labels, which are not in the scene.
+        self._actuator.blade.show_leaders(False)  # They lead to labels, which are not in the scene.
         try:
             pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
             if pixels.shape[:2] != (height, _WIDTH):
@@ -144,7 +144,7 @@ class ExportPanel:
         except (ValueError, TimeoutError) as error:
             _log.warning("export of %s: %s", what, error)
             self._say("problem", str(error))
-        except Exception as error:  # The session goes on whatever a file meets.
+        except Exception as error:  # No file ends the session.
             _log.exception("export of %s failed", what)
             self._say("problem", f"{what} failed ({error}): try again.")
         finally:

@@ -34,11 +34,6 @@ Titles = Mapping[Any, str]
 Ends = tuple[float, float]
 
 
-def key_of(titles: Titles, title: str) -> Any:
-    """The key of what a menu shows."""
-    return next(key for key, value in titles.items() if value == title)
-
-
 class WidgetForm:
     """Widgets of one page. Values are those of the inputs; titles of menus and units are the form's matter."""
 
@@ -72,7 +67,7 @@ class WidgetForm:
         self._add(
             name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
         )
-        self._handles[name].precision = form.digits  # Viser's has all digits of the value, as of one from a link.
+        self._handles[name].precision = form.digits  # By default viser shows all digits.
         if below:
             self._below[name] = self._gui.add_html(below, visible=visible)
 
@@ -106,7 +101,7 @@ class WidgetForm:
         if name in self._placed and place == self._placed[name][0]:
             return self._placed[name][1]
         if name in self._titles:
-            return key_of(self._titles[name], place)
+            return next(key for key, title in self._titles[name].items() if title == place)
         if isinstance(place, tuple):
             return tuple(sorted(round(float(end), 4) for end in place))
         return meant(self._rows[name], place, self._units) if name in self._rows else place
@@ -247,7 +242,7 @@ class StandControls:
         """The measured condition that is set, in flight one of flights; air and speed of the tip, given or not."""
         stand, flown = self.stand, inputs.stand is None
         if stand is not None:
-            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Of any mass.
+            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Its mass does not matter.
             mach = stand.tip_mach
             self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)

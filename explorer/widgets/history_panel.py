@@ -93,7 +93,7 @@ class HistoryPanel:
 
     def read(self, pause: float) -> Inputs:
         """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
-        with self._lock:  # Between undoing a step and moving the widgets, they are no new step.
+        with self._lock:  # Until an undo has moved the widgets, their values are no new step.
             inputs = self._context.inputs()
             self._history.note(inputs, pause)
         return inputs
@@ -183,7 +183,7 @@ class HistoryPanel:
             self._context.set_inputs(inputs)
 
     def _clicked(self, text: str) -> None:
-        self._field.value = ""  # The same click again is a change again.
+        self._field.value = ""  # So that the same click counts as a change again.
         verb, _, digits = text.strip().partition(" ")
         if verb not in ("take", "drop") or not digits.isdigit():
             return

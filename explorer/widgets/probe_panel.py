@@ -218,7 +218,7 @@ class ProbePanel:
             self._fade()
             return
         if self._follow.value:
-            # Where the blade is by now: an older place would pull a slider that is dragged back.
+            # Where the blade is now: an older place would pull back a slider that is being dragged.
             self._psi.value = self._context.display.view.azimuth_deg
         solution = state.solution
         self._ride.show(solution)
@@ -289,7 +289,7 @@ class ProbePanel:
     def _pause(self) -> None:
         if self._player.playing:
             self._player.pause()
-            self._context.wake()  # What does not follow every turn of the blade follows now.
+            self._context.wake()  # Panels that do not follow the turning blade are brought up to date.
         self._set_playing(False)
 
     def _set_playing(self, playing: bool) -> None:
@@ -304,7 +304,7 @@ class ProbePanel:
             now = self._context.display.view.azimuth_deg
             self._left -= seconds
             if (self._walked is not None and now != self._walked) or self._left <= 0.0:
-                self._pause()  # The user has taken the blade, or gone.
+                self._pause()  # The user has taken hold of the blade, or has left.
                 return
             self._walked = (now + math.degrees(TURN_RATE) * seconds) % 360.0
             self._context.display.turn(self._walked)

@@ -190,7 +190,7 @@ class SceneViews:
     def _mode_changed(self) -> None:
         """Actuate opens on the blade that carries the actuator."""
         before, self._mode = self._mode, self._context.layout.mode
-        if self._mode != before:  # Not only another drawer.
+        if self._mode != before:  # Otherwise only the drawer has changed.
             self._lift(self._mode == "actuate")
             if before == "actuate":
                 self._actuator.leave()
@@ -209,7 +209,7 @@ class SceneViews:
             self._on_blade = partial(fit_lifted, camera.radius)
             camera.aim_with(self._on_blade)
         elif towards is None and camera.subject is self._on_blade:
-            # Else a step of the lecture has aimed it elsewhere already.
+            # Otherwise a step of the lecture has aimed it elsewhere already.
             camera.aim(self._view)
         self._show()
 

@@ -122,7 +122,7 @@ class NewestWins:
 
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
-        if self._wanted.is_set():  # To set it again takes as long as all the rest of an edit.
+        if self._wanted.is_set():  # Setting it again takes as long as the rest of an edit.
             return
         with self._pool.change:
             self._wanted.set()

@@ -92,7 +92,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     legs: None for those of `standard_flight`.
 
     Everything is trimmed, each leg from the one before; legs that are flown alike are trimmed once and have one answer.
-    RuntimeError with one sentence that names the leg where nothing trims.
+    ValueError without a leg, RuntimeError with one sentence that names the leg where nothing trims.
     """
     legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs
     if not legs:

@@ -30,7 +30,7 @@ def tip_amplitude(installed: InstalledActuator) -> float:
 
 
 def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
-    """Part of half the voltage range, 0…1, that steady voltages leave for n/rev drive; 1 without steady voltages."""
+    """Share of half the voltage range, 0…1, that steady voltages leave for n/rev drive; 1 without steady voltages."""
     if not installed.actuator.follows_azimuth:
         return 0.0
     low, high = installed.actuator.drive_range

@@ -27,7 +27,7 @@ from rotor.support.bytes_cache import bytes_cache
 def addition(
     masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float
 ) -> AddedStructure:
-    """Mass per length, its inertia about the balance axis, and stiffness added over the active span."""
+    """Mass, inertia about the balance axis, and `stiffness` (GJ [N m²]), added over the active span."""
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
@@ -110,7 +110,7 @@ def heavier(design: Design, mass: float, span: tuple[float, float], aircraft: fl
 
 
 def change_limit(installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304) -> ChangeLimit:
-    """The actuator's range as a limit on the change of twist in a search.
+    """The actuator's range as a limit on the change of twist in a search; root: r/R where the blade begins.
 
     Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
     `best_actuated` uses the true shape along the active span.

@@ -71,11 +71,12 @@ class MassBreakdown:
 
     @property
     def blade(self) -> float:
-        """Total added to one blade."""
+        """Added to one blade [kg]."""
         return self.actuator + self.wiring + self.balance
 
     @property
     def aircraft(self) -> float:
+        """Added to the aircraft, all blades included [kg]."""
         return self.blades * self.blade + self.electronics
 
 
@@ -156,6 +157,7 @@ class Actuator(ABC):
 
     @property
     def on_skin(self) -> bool:
+        """Whether it lies on the skins; else in the spar."""
         return "chord" in self.settings
 
     def count(self, placement: Placement) -> str:
@@ -170,12 +172,12 @@ class Actuator(ABC):
 
     @property
     def drive_range(self) -> tuple[float, float]:
-        """Both ends of the drive, in its unit."""
+        """Least and largest drive, in its unit."""
         return -100.0, 100.0
 
     @property
     def drive_swing(self) -> float:
-        """What the whole range of twist takes, in the unit of the drive."""
+        """Drive over the whole range of twist, in the unit of the drive."""
         return self.drive_range[1]
 
     def swing_at(self, share: float) -> float:
@@ -183,12 +185,12 @@ class Actuator(ABC):
         return self.driven_at(share) / self.drive_swing
 
     def driven_at(self, share: float) -> float:
-        """The drive at a share of either side, in its unit."""
+        """The drive at a share of either side, −1…1, in its unit."""
         low, high = self.drive_range
         return share * (high if share >= 0.0 else -low)
 
     def share_of(self, swing: float) -> float:
-        """The inverse of `swing_at`, within −1…1."""
+        """The share of either side of the drive, −1…1, that gives a swing: the inverse of `swing_at`."""
         side = self.drive_range[1] if swing >= 0.0 else -self.drive_range[0]
         return min(max(swing * self.drive_swing / side, -1.0), 1.0) if side else 0.0
 

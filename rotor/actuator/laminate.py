@@ -35,7 +35,7 @@ class ExtensionTwist(Actuator):
         return self.twist * (1.0 - (1.0 - self.speed_change) ** 2)
 
     def shapes(self, moments: Array, units: Array, beam: TorsionBeam) -> Array:
-        """Twist of a uniform laminate: rate ∝ F_c ∝ 1 − r²."""
+        """Twist of a uniform laminate [rad], (segments, nodes): rate ∝ F_c ∝ 1 − r²."""
         x = beam.r / beam.r[-1]
         shape = x - x**3 / 3.0
         shape = shape - shape[0]

@@ -77,7 +77,7 @@ def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, lo
 
 
 def interpolate_rows(x: Array, known: Array, rows: Array, left: float | None = None) -> Array:
-    """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first."""
+    """np.interp for every row, (cases, known) → (cases, x); `left`: the value below the first point."""
     columns: list[Array] = [np.interp(x, known, row, left=left) for row in rows]
     return np.stack(columns)
 

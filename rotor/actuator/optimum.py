@@ -54,6 +54,7 @@ class ConditionPair:
 
     @property
     def shares(self) -> tuple[float, float]:
+        """Share of time at each condition."""
         return 1.0 - self.share, self.share
 
     def mean(self, values: Iterable[float]) -> float:
@@ -104,13 +105,13 @@ def best_actuated(
     starts: Sequence[Sequence[float]] = (),
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
-    """Least mean power with the actuator within `scale` times its range; `near`: trims to start from, by condition."""
+    """Least mean power [W] with the actuator within `scale` times its range; `near`: trims to start from."""
     return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
 
 
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
     """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
-    nearby."""
+    nearby. RuntimeError where it does not trim."""
     reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
@@ -309,6 +310,6 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         concept = restrict(concept, breaks)
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
     first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
-    starts = [fixed.values, first.values, second.values]  # Without breaks the others are those of before.
+    starts = [fixed.values, first.values, second.values]  # Without breaks the other two are those found above.
     better = _search((pair.designs(), pair.shares, ()), concept, None, starts, alone=not breaks)
     return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

@@ -45,6 +45,7 @@ class PiezoPly(Actuator):
     d_along: float
     """Strain along the fibres over field [m/V], high field."""
     d_across: float
+    """Strain across the fibres over field [m/V], high field."""
     electrode_gap: float
     """Distance between electrodes, the path of the field [m]."""
     voltage_range: tuple[float, float]
@@ -58,7 +59,7 @@ class PiezoPly(Actuator):
     largest_strain: float
     """[-]"""
     hysteresis: float
-    """Width of the strain loop over its height."""
+    """Width of the strain loop over its height [-]."""
 
     noun = "ply", "plies"
     settings = "plies", "span", "chord", "crossed"
@@ -155,7 +156,7 @@ class PiezoPly(Actuator):
     # On a blade
 
     def layer(self, plies: int, angle: float) -> Layer:
-        """The plies as one layer of a wall, driven through the whole voltage range."""
+        """The plies as one layer of a wall, fibres at `angle` [rad], driven through the whole voltage range."""
         return Layer(self.material, plies * self.thickness, angle, self.swing)
 
     def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
@@ -175,7 +176,7 @@ class PiezoPly(Actuator):
         return self.capacitance_per_area * installed.skin_area * installed.placement.plies
 
     def drive(self, installed: InstalledActuator, swings: Swings) -> Drive:
-        """½C ΔV² over the time, per segment."""
+        """Energy ½C ΔV² of each segment over the slewing time."""
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
         energy = sum(
@@ -187,7 +188,7 @@ class PiezoPly(Actuator):
         return Drive(self.capacitance(installed), 0.0, slew, time)
 
     def harmonic_loss(self, installed: InstalledActuator, per_rev: float, amplitude: float) -> float:
-        """π f C V_a² tan δ [W]."""
+        """π f C V_a² tan δ [W], the loss of a capacitor."""
         frequency = per_rev * installed.beam.angular_speed / (2.0 * math.pi)
         voltage = 0.5 * amplitude * self.voltage_swing
         loss_tangent = float(structure_data()["electrical"]["loss_tangent"])

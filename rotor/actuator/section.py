@@ -80,6 +80,7 @@ class HostBlade:
 
     @property
     def label(self) -> str:
+        """In words, as `new blade, GJ × 0.5`."""
         if self.kind == "retrofit":
             return "retrofit"
         return "new blade" if self.stiffness == 1.0 else f"new blade, GJ × {self.stiffness:g}"
@@ -116,7 +117,7 @@ def passive_wall(spec: SectionSpec) -> float:
 
 
 def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | None) -> float:
-    """Passive wall thickness [m] that gives the wanted GJ with an active layer; None: without."""
+    """Passive wall thickness [m] for the wanted GJ with an active layer, or None; ValueError for plies too stiff."""
 
     def excess(thickness: float) -> float:
         section = build_section(panels(spec, thickness, placement, active))
@@ -132,7 +133,7 @@ def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | No
 
 
 def panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:
-    """Walls of the section, walked from the upper trailing edge around the nose: the inside is on the left."""
+    """Walls of thickness `wall` [m], from the upper trailing edge around the nose: the inside is on the left."""
     data = structure_data()["section"]
     retrofit = spec.host.kind == "retrofit"
     web = float(data["spar_web_c"])

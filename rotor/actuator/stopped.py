@@ -25,10 +25,11 @@ class TrimNumbers:
     power: float | None
     """Power of all rotors [W]; None where it does not trim."""
     stalled_area: float
+    """Part of the disk πR² (0…1)."""
     collective: float
     """[rad], as the following; pitch at 0.75 R."""
     cyclic: float
-    """Amplitude of the cyclic."""
+    """Amplitude of the cyclic pitch."""
     controls_left: float | None
     """The least part of a control's range that is left to its stop, 0.5 in the middle and negative beyond; None where
     the rotor file does not say."""
@@ -40,6 +41,7 @@ class FailurePoint:
     """One speed with the actuator working, and with it stopped."""
 
     mu: float
+    """Advance ratio."""
     speed: float
     """[m/s]"""
     working: TrimNumbers

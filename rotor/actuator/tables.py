@@ -139,7 +139,7 @@ def _comparison(verdict: Verdict) -> Row:
 
 
 def kilowatts(power: float) -> str:
-    """Kilowatts with one decimal, without negative zero."""
+    """A power [W] in kilowatts with one decimal, without negative zero."""
     return f"{round(power / 1e3, 1) + 0.0:.1f}"
 
 

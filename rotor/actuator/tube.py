@@ -34,6 +34,7 @@ class TorqueTube(Actuator):
     move_power: float
     """[W] per tube."""
     hold_power: float
+    """[W] per tube."""
     move_time: float
     """[s]"""
     diameter: float

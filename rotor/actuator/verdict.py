@@ -70,7 +70,7 @@ class Verdict:
 
     @property
     def ratio(self) -> float:
-        """Required over attainable twist in the worst segment."""
+        """Required over attainable twist in the worst segment [-]."""
         available = np.maximum(self.installed.segment_twists, MIN_TWIST)
         return float(np.max(np.abs(self.required_segments) / available))
 
@@ -162,6 +162,7 @@ class Verdict:
 
     @property
     def broken(self) -> tuple[Limit, ...]:
+        """Limits that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property
@@ -172,6 +173,7 @@ class Verdict:
 
     @property
     def pays(self) -> bool:
+        """Whether it can be built and its net saving is positive."""
         return self.net_saving > 0.0 and self.buildable
 
     @property
@@ -346,5 +348,5 @@ def flight_text(advance_ratio: float) -> str:
 
 
 def kilowatt_text(power: float) -> str:
-    """Kilowatts with one decimal; "nothing" below MIN_SHOWN_W."""
+    """A power [W] in kilowatts with one decimal; "nothing" below MIN_SHOWN_W."""
     return "nothing" if abs(power) < MIN_SHOWN_W else f"{power / 1e3:.1f} kW"

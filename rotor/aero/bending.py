@@ -104,10 +104,8 @@ def build_bending(
     assert structure is not None
     hingeless, root, springs = blade.hingeless, _root(rotor), _springs(rotor)
     stations = np.linspace(root, radius, 33)
-    pitch = reference + rotor.builtin_twist(stations / radius)
-    blade_modes = blade_bending_modes(
-        structure, speed, root, (tuple(stations.tolist()), tuple(pitch.tolist())), modes, springs
-    )
+    pitch = tuple((reference + rotor.builtin_twist(stations / radius)).tolist())
+    blade_modes = blade_bending_modes(structure, speed, root, (tuple(stations.tolist()), pitch), modes, springs)
     force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
     scale, first = _scale(blade_modes, radius)
     lengths = np.array([1.0 / radius, 1.0, radius] * 2)[:, None, None] * scale[:, None]
@@ -122,9 +120,7 @@ def build_bending(
     load = -GRAVITY / (radius * speed**2) * (along[0] @ strips) - precone * (along[1] @ tension)
     load[first] += precone * mass[first] * frequency[first] ** 2
     slope = blade_modes.nodal[:, 0, 3] * scale  # At the root, 0 where it is held.
-    lag, flap = (
-        structure.at(disk.r * radius, stiffness) for stiffness in (structure.lag_stiffness, structure.flap_stiffness)
-    )
+    lag, flap = (structure.at(disk.r * radius, ei) for ei in (structure.lag_stiffness, structure.flap_stiffness))
     edges = element_edges(disk.dr) * radius
     outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
     inboard = widths * (r < edges[0]), edges[1] - edges[0]

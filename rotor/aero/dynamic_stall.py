@@ -287,16 +287,23 @@ def stall_states(element: int, x: Any, mach: Any, data: Any, slopes: bool, added
         for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
             shown[state, k] = v[value, k * steps]
     if slopes:
-        linked, decays, factors, at = lags[0], lags[1][element], lags[2][element], lags[3][element]
-        linked[element] = _ALL_LINKS if most > 0.0 else len(_ATTACHED)
-        decays[0], decays[1] = weights[0, _DECAY], weights[1, _DECAY]
-        _lag_links(v[_X], np.ones(fine), np.zeros(fine), h[0], weights[0], v[_X_LAGGED], factors[0:2])
-        _lag_links(lagged[0], lagged[1], lagged[2], h[1], weights[1], v[_SEPARATED], factors[2:4])
-        _lag_links(lagged[3], lagged[4], lagged[5], h[1], weights[1], v[_PLACE], factors[4:6])
-        _sum_links(rows, static, v, factors[6:])
+        decays, factors, at = lags[1][element], lags[2][element], lags[3][element]
+        lags[0][element] = _ALL_LINKS if most > 0.0 else len(_ATTACHED)
+        _lag_slopes(rows, static, lagged, h, weights, v, decays, factors)
         if most > 0.0:
             decays[2], at[_BEFORE], at[_FIRST], at[_TURN] = weights[2, _DECAY], earlier[0][0], earlier[0][1], fine - 1
             _shed_links(rows, unit, weights[2, _DECAY], h[2, 1], v, earlier, factors[len(_ATTACHED) :])
+
+
+@_compile
+def _lag_slopes(rows: Any, static: Any, lagged: Any, h: Any, weights: Any, v: Any, decays: Any, factors: Any) -> None:
+    """Decays and links of the lags of attached flow, and the links of their sum."""
+    n = h.shape[2]
+    decays[0], decays[1] = weights[0, _DECAY], weights[1, _DECAY]
+    _lag_links(v[_X], np.ones(n), np.zeros(n), h[0], weights[0], v[_X_LAGGED], factors[0:2])
+    _lag_links(lagged[0], lagged[1], lagged[2], h[1], weights[1], v[_SEPARATED], factors[2:4])
+    _lag_links(lagged[3], lagged[4], lagged[5], h[1], weights[1], v[_PLACE], factors[4:6])
+    _sum_links(rows, static, v, factors[6:])
 
 
 @_compile

@@ -22,15 +22,15 @@ class TrimState:
     """
 
     collective: float = 0.0
-    """θ0, the pitch at 0.75 R."""
+    """θ0, the pitch at 0.75 R [rad]."""
     cyclic_1c: float = 0.0
     cyclic_1s: float = 0.0
     shaft_tilt: float = 0.0
-    """α, positive forward."""
+    """α [rad], positive forward."""
     coning: float = 0.0
-    """β0, positive up."""
+    """β0 [rad], positive up."""
     flap_1c: float = 0.0
-    """β1c, negative when the disk tilts back."""
+    """β1c [rad], negative when the disk tilts back."""
     flap_1s: float = 0.0
     lambda0: float = 0.0
     """Mean induced inflow of momentum theory, over ΩR."""

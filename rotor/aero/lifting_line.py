@@ -410,7 +410,7 @@ def _outboard(line: LiftingLine, course: WakeCourse) -> Array:
 
 
 def theodorsen(k: Array) -> NDArray[np.complex128]:
-    """C(k), complex; 1 at k = 0."""
+    """C(k) = H1/(H1 + i H0) of the second kind, complex, shape of k; 1 at k = 0 (Theodorsen, NACA Report 496, 1935)."""
     h1, h0 = hankel2(1, np.maximum(k, 1e-12)), hankel2(0, np.maximum(k, 1e-12))
     return np.asarray(h1 / (h1 + 1j * h0), dtype=np.complex128)
 

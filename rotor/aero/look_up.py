@@ -20,7 +20,7 @@ _compile = compiled(error_model="numpy")
 
 @_compile
 def wrapped(angle: float) -> float:
-    """The angle in [−π, π)."""
+    """The angle in [−π, π) [rad]."""
     return angle - 2.0 * _PI * math.floor((angle + _PI) * (0.5 / _PI))
 
 

@@ -70,7 +70,7 @@ def _fall(f: float) -> float:
 
 @_compile
 def end_factor(spacing: float, inflow: float) -> Any:
-    """`prandtl` of one end of the blade at f = spacing/|λ|, and its slope by λ: compiled, for one element."""
+    """`prandtl` of one end of the blade at f = spacing/|λ|, and its slope by λ, for one element."""
     signed = inflow if abs(inflow) >= _SMALLEST_INFLOW else _SMALLEST_INFLOW
     f = min(spacing / abs(signed), _LARGEST)
     fall = _fall(f)

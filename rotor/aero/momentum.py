@@ -20,11 +20,12 @@ class DiskFlow:
 
     @property
     def axial(self) -> float:
+        """λ = µ_z + λ0, positive down."""
         return self.mu_z + self.lambda0
 
     @property
     def speed(self) -> float:
-        """V, the speed at which the air leaves the disk."""
+        """V, the speed at which the air leaves the disk, over ΩR."""
         return math.hypot(self.mu_x, self.axial)
 
     @property

@@ -435,7 +435,7 @@ def _unload(unloaded: Any, theta: Any, inertia: float, i: int, f: Any, d: Any, s
 
 @_compile
 def of_double_angle(angle: float) -> Any:
-    """sin and cos of twice an angle, to 4·10⁻¹⁶ (tested), without branches so that loops over it become vector code.
+    """sin and cos of twice an angle [rad], to 4·10⁻¹⁶ (tested), without branches so that loops become vector code.
 
     Of the rest y after turns of π/2 with the polynomials of Cephes for |y| ≤ π/4 (S. Moshier, Methods and Programs for
     Mathematical Functions, 1989); each turn changes both signs.

@@ -125,6 +125,24 @@ def _push(c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, f: Any) -
 
 
 @_compile
+def _ahead_slopes(first: int, i: int, q: Any, d: Any, rows: Any, place: Any, out: Any) -> None:
+    """Derivatives of one element's section within, its pitch turned as the flow ahead turns it."""
+    for o in range(len(rows)):
+        through = rows[o, TH]
+        for k in range(first + 3):
+            at = place[o, k]
+            if at < 0:
+                continue
+            inner = rows[o, k] if k < first else -1
+            for j in range(q.shape[1]):
+                out[at, i, j] = d[inner, i, j] if inner >= 0 else 0.0
+            turned = 1 if k == UT else 2 if k == UP else 3 if k == RATE else 0
+            if turned > 0 and through >= 0:
+                for j in range(q.shape[1]):
+                    out[at, i, j] += d[through, i, j] * q[turned, j]
+
+
+@_compile
 def _push_slopes(
     c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, d: Any, rows: Any, place: Any, out: Any
 ) -> None:
@@ -139,19 +157,7 @@ def _push_slopes(
             q[0, j], q[1, j], q[2, j], q[3, j], q[4, j], q[5, j], q[6, j], q[7, j] = _ahead(
                 b, c[RATE, i, j], c[UT, i, j], c[UP, i, j]
             )
-        for o in range(len(rows)):
-            through = rows[o, TH]
-            for k in range(first + 3):
-                at = place[o, k]
-                if at < 0:
-                    continue
-                inner = rows[o, k] if k < first else -1
-                for j in range(m):
-                    out[at, i, j] = d[inner, i, j] if inner >= 0 else 0.0
-                turned = 1 if k == UT else 2 if k == UP else 3 if k == RATE else 0
-                if turned > 0 and through >= 0:
-                    for j in range(m):
-                        out[at, i, j] += d[through, i, j] * q[turned, j]
+        _ahead_slopes(first, i, q, d, rows, place, out)
         full[:] = 0.0
         for j in range(m):
             h = 0.0 if len(unloaded) > 0 and unloaded[i, j] else mass[i]

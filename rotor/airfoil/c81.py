@@ -197,7 +197,7 @@ def _cards_of(head: str, values: Array, decimals: int) -> list[str]:
 
 
 def format_c81(deck: C81Deck) -> str:
-    """The deck as text: Mach with three decimals, angles two, cl and cm four, cd five, fewer where they do not fit."""
+    """The deck as C81 text, with fewer decimals where they do not fit; ValueError for more than 99 angles."""
     counts = [n for block in deck.blocks for n in (block.mach.size, block.alpha_deg.size)]
     counts += [0] * (6 - len(counts))
     if max(counts) > 99 or len(deck.title) > 30:

@@ -110,7 +110,7 @@ def parse_contour(text: str, name: str) -> Contour:
 def load_contour(name: str) -> Contour:
     """The bundled outline of `name`, one of `SECTION_NAMES`, or a NACA outline of four or five digits by formula.
 
-    Sources: `assets/airfoils/CITATION.md`.
+    Sources: `assets/airfoils/CITATION.md`. ValueError for another name.
     """
     if name not in SECTION_NAMES:
         if is_naca(name):
@@ -142,7 +142,7 @@ def thickness_and_camber(contour: Contour) -> tuple[float, float, float]:
 
 
 def resample(contour: Contour, n: int) -> Contour:
-    """An outline on `n` points (odd, at least 11), so that sections blend point by point.
+    """An outline on `n` points (odd, at least 11, else ValueError), so that sections blend point by point.
 
     Each side gets (n + 1) / 2 points, cosine-spaced in arc length (dense at nose and trailing edge);
     point (n - 1) / 2 is the nose on every section. Cubic splines through the given points carry the shape.

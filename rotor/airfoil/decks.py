@@ -195,19 +195,14 @@ class SectionTraits:
         return polar if polar_mach == mach else corrected_polar(mach, alpha, *polar, self, polar_mach)
 
 
-def lift_cap(mach: float, traits: SectionTraits) -> float:
-    """Largest positive lift coefficient [-] at `mach`, monotone between the read-off values."""
-    return float(scipy.interpolate.PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
-
-
 def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
-    """`cl` limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
+    """`cl`, any shape, limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
     return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
 
 
 def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
-    """Growth of lift from `base` to `mach`: sqrt(1 - M0^2) / sqrt(1 - M^2), constant above lift divergence."""
+    """Growth of lift from `base` to `mach`, √(1 − M0²)/√(1 − M²), constant above lift divergence (Glauert 1928)."""
     held = min(mach, LIFT_DIVERGENCE_MACH)
     return float(np.sqrt((1.0 - base**2) / (1.0 - held**2)))
 
@@ -242,7 +237,7 @@ def corrected_polar(
 ) -> Columns:
     """(cl, cd, cm) at a `mach` beyond the polars, from the polar at `base`; `alpha` [rad] within +-0.5."""
     growth = prandtl_glauert(mach, base)
-    cap = lift_cap(mach, traits)
+    cap = float(scipy.interpolate.PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
     lifted = smooth_cap(cl * growth, cap, cap)
     # A polar at Mach 0 is incompressible, not of a rotor at rest: its Reynolds number is the one meant.
     reynolds_ratio = 1.0 if traits.fixed_reynolds or base <= INCOMPRESSIBLE_MACH else mach / base

@@ -74,7 +74,7 @@ class PolynomialSection:
     cd_series: Chebyshev
 
     def outside(self, alpha: ArrayLike) -> NDArray[np.bool_]:
-        """True where `alpha` [rad] lies outside the fit, where the end value is used."""
+        """True where `alpha` [rad] lies outside the fit, where the end value is used; shape of alpha."""
         a = np.asarray(alpha, dtype=np.float64)
         return (a < self.fit_range[0]) | (a > self.fit_range[1])
 
@@ -93,7 +93,7 @@ class PolynomialSection:
 def thesis_polar(reading: PolynomialReading = PolynomialReading()) -> Polar:
     """The bundled XFOIL polar behind the fit: SC1095, M 0.3, Re 3.68e6, Ncrit 9, every 0.25 deg.
 
-    Another reading may take transition at 5 % chord and Mach 0.1, 0.2, 0.3 or 0.4, every 0.5 deg.
+    Another reading may take transition at 5 % chord and Mach 0.1, 0.2, 0.3 or 0.4, every 0.5 deg; else ValueError.
     """
     file = "sc1095_ncrit9" if reading.transition == "free" else "sc1095_trip5"
     polars = read_polars(asset_path(f"airfoils/{file}.polars.csv")).polars
@@ -117,7 +117,7 @@ def fit_polynomials(
     drag_order: int = DRAG_ORDER,
     range_deg: tuple[float, float] = FIT_RANGE_DEG,
 ) -> PolynomialSection:
-    """Least-squares fit of the points of `polar` within `range_deg` [deg]."""
+    """Least-squares fit of a polar within `range_deg` [°]; ValueError for too few points there."""
     alpha, cl, cd = _within(polar, range_deg)
     if alpha.size <= max(lift_order, drag_order):
         raise ValueError(

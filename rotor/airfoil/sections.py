@@ -35,7 +35,7 @@ _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility
 @bytes_cache
 @read_only
 def load_section(name: str) -> SectionTable:
-    """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached."""
+    """The bundled table of `name`, one of `TABLE_NAMES`, read once and cached; ValueError for another name."""
     if name.startswith(THESIS_NAME):
         return polynomial_table(parse_reading(name))
     if name not in SECTION_NAMES:

@@ -103,7 +103,7 @@ def _structure(key: _StructureKey) -> Structure:
     for channel, name, wave, atom in live:
         s.column(channel, (name, "tilt"), wave, 1.0, derived["change of tilt"], atom)
         s.column(channel, (name, "inflow"), wave, 1.0, derived["change of lambda0"], atom)
-    for channel, name, wave, atom in ((UT, SWIRL, STEADY, ONE), *live):  # Last, for most of them do not change.
+    for channel, name, wave, atom in ((UT, SWIRL, STEADY, ONE), *live):  # Last, since most of them do not change.
         s.column(channel, name, wave, 1.0, atom)
     return s.finish([s.states[name] for name in (*key.trim.unknowns, *names)])
 

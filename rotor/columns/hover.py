@@ -154,7 +154,7 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
     channels, turning = _channels(theta, inflow, annuli)
     closed = len(annuli.slope) > 0
     slopes = not closed
-    flow = closed and slopes  # False. As a constant it would be a type of its own, and the section compiled twice.
+    flow = closed and slopes  # Always False; with a constant numba would compile the section twice.
     f, d, _ = section(channels, data, slopes, flow)
     for i in range(len(theta)):
         r, total = annuli.r[i], inflow[i] + annuli.climb[i]
@@ -186,7 +186,7 @@ def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
         for i in range(len(inflow)):  # The disk does not turn the wind back.
             bracket[0 if annuli.climb[i] > 0.0 else 1][i] = -annuli.climb[i]
     while True:
-        balance = _balance(theta, inflow, annuli, data)  # The only call: each is a copy for the compiler.
+        balance = _balance(theta, inflow, annuli, data)  # The only call: the compiler makes a copy for each.
         if annuli.windmill:
             for i in range(len(inflow)):
                 if balance[4, i] <= 0.0:
@@ -226,7 +226,7 @@ def _nothing_made(x: Array) -> tuple[Array, Array, Live]:
 
 
 def hover_system(problem: Problem, ct: float | None = None) -> System:
-    """The equations of a hovering design, at one azimuth; tolerances are those of the caller.
+    """The equations of a hovering design at C_T `ct`, at one azimuth; tolerances are those of the caller.
 
     `ct`: sign and size of the thrust, by which axial wind finds its state; left out, that to be trimmed.
     """

@@ -289,7 +289,7 @@ PLIES_HELP = "plies of the actuator per skin, or number of torque tubes (default
 
 
 def parse_division(text: str | None) -> tuple[float, ...] | None:
-    """r/R of one or two divisions."""
+    """r/R of one or two divisions; ValueError for any other text."""
     if text is None:
         return None
     values = _finite_numbers(text, ",")
@@ -299,7 +299,7 @@ def parse_division(text: str | None) -> tuple[float, ...] | None:
 
 
 def parse_pair(text: str, what: str, example: str, by: str = ",") -> tuple[float, float]:
-    """Two numbers; `what` and `example` are for the error."""
+    """Two numbers; ValueError for any other text, with `what` and `example`."""
     values = _finite_numbers(text, by)
     if len(values) != 2:
         raise ValueError(f"{what} is not understood: write two numbers, for example {example}")

@@ -344,7 +344,7 @@ def estimate(study: Study) -> tuple[float, int]:
         evaluate_points(study, first, first + 1)  # Compiles kernels and builds grids.
         start = _seconds(study, first, first + 1)
         whole = _seconds(study, first, first + points) if points > 1 else start
-        # The first point of a chunk starts cold, the others at their neighbours.
+        # The first point of a chunk starts cold, the others from their neighbours.
         costs.append(start + (whole - start) / max(points - 1, 1) * (end - first - 1))
         count += points
     if len(places) == study.chunks:

@@ -15,17 +15,6 @@ from rotor.design.twist import (
 )
 
 __all__ = (
-    "REFERENCE_RADIUS",
-    "ActiveTwist",
-    "Flapping",
-    "Harmonic",
-    "IdealTwist",
-    "LinearTwist",
-    "PiecewiseLinearTwist",
-    "QuadraticTwist",
-    "SplineTwist",
-    "Stand",
-    "SumTwist",
-    "TableTwist",
-    "TwistLaw",
-)
+    "REFERENCE_RADIUS", "ActiveTwist", "Flapping", "Harmonic", "IdealTwist", "LinearTwist", "PiecewiseLinearTwist",
+    "QuadraticTwist", "SplineTwist", "Stand", "SumTwist", "TableTwist", "TwistLaw",
+)  # fmt: skip

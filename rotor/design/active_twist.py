@@ -39,7 +39,7 @@ class Harmonic:
             raise ValueError(f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose a value inside")
         if not math.isfinite(self.phase):
             raise ValueError(f"phase {self.phase:g} at {self.per_rev}/rev is not finite: give an angle")
-        object.__setattr__(self, "phase", self.phase % math.tau % math.tau)  # Once gives 2π for −1e-20.
+        object.__setattr__(self, "phase", self.phase % math.tau % math.tau)  # A single remainder gives 2π for −1e-20.
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,7 @@ class Stand:
     cyclic_1c: float = 0.0
     """Given cyclic [rad], used where the flapping is free."""
     cyclic_1s: float = 0.0
+    """Likewise."""
     flapping: Flapping = "trimmed"
     """`trimmed`: cyclic keeps first-harmonic flapping at its given value; `free`: the blades flap as they like;
     `hub-moments`: they do, and cyclic gives the hub the moments below."""
@@ -173,7 +174,7 @@ class FlightCondition:
 
     @property
     def weight(self) -> float:
-        """[N]"""
+        """W = m g [N]."""
         return self.mass * GRAVITY
 
     @property
@@ -192,7 +193,7 @@ class FlightCondition:
 
     @property
     def sound_speed(self) -> float:
-        """[m/s], √(γRT)."""
+        """√(γRT) [m/s]."""
         return math.sqrt(RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio)
 
     @property
@@ -334,7 +335,7 @@ class ControlRange:
     """[rad]"""
 
     def places(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> dict[str, float]:
-        """Where each control stands in its range by name, 0 and 1 at its stops, of pitch θ0 + θ1c cos ψ + θ1s sin ψ."""
+        """Place of each control in its range, 0 and 1 at its stops, for pitch θ0 + θ1c cos ψ + θ1s sin ψ [rad]."""
         turned = (cyclic_1c + 1j * cyclic_1s) * cmath.exp(1j * self.phase)
         pitch = {
             "collective": (collective, self.collective),
@@ -344,7 +345,7 @@ class ControlRange:
         return {name: (value - low) / (high - low) for name, (value, (low, high)) in pitch.items()}
 
     def left(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> float:
-        """The least part of a range that is left to its stop: 0.5 in the middle, negative beyond."""
+        """The least share of a range that is left to a stop, for a pitch [rad]: 0.5 in the middle, negative beyond."""
         return min(min(place, 1.0 - place) for place in self.places(collective, cyclic_1c, cyclic_1s).values())
 
 

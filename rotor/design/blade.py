@@ -128,7 +128,7 @@ class Blade:
     tip_sweep_start: float = 1.0
     """r/R where the swept tip begins."""
     surface_drag: float = 1.0
-    """Drag of the real surface over that of the section data."""
+    """Drag of the real surface over that of the section data [-]."""
     own_sections: tuple[OwnSection, ...] = ()
     """Section data supplied by the user, which spans may name as well as the bundled ones."""
     structure: BladeStructure | None = None
@@ -275,7 +275,7 @@ class Rotor:
 
 
 def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]) -> Rotor:
-    """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
+    """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend; else ValueError."""
     ends = (rotor.blade.root_cutout, *breaks, 1.0)
     if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
         given = ", ".join(f"{place:g}" for place in breaks)

@@ -321,12 +321,12 @@ class Design:
 
     @property
     def airspeed(self) -> float:
-        """V = µΩR, horizontal [m/s]"""
+        """V = µΩR, horizontal [m/s]."""
         return self.condition.advance_ratio * self.rotor.tip_speed
 
     @property
     def flight_speed(self) -> float:
-        """Along the flight path [m/s]."""
+        """Airspeed along the flight path [m/s]."""
         return math.hypot(self.airspeed, self.vertical_speed)
 
     @property
@@ -377,6 +377,7 @@ class Design:
 
     @property
     def hovering(self) -> bool:
+        """Whether the advance ratio is zero."""
         return self.condition.advance_ratio == 0.0
 
     @property
@@ -409,7 +410,7 @@ class Design:
 
     @property
     def tip_mach(self) -> float:
-        """ΩR over the speed of sound."""
+        """ΩR over the speed of sound [-]."""
         stand = self.condition.stand
         if stand is not None and stand.tip_mach is not None:
             return stand.tip_mach

@@ -15,7 +15,7 @@ here."""
 
 
 def number(name: str, value: object, example: str) -> float:
-    """The value as a float; TypeError with one sentence when it is not a real number."""
+    """The value as a float; TypeError with one sentence when it is not a real number, ValueError if too large."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
     try:
@@ -68,6 +68,7 @@ class Quantity:
     """The word before a value below zero, which is then without its sign: `descent`."""
     low: float = -math.inf
     high: float = math.inf
+    """Bounds in the unit of the name."""
     high_on_stand: float | None = None
     """Where a test may go further than flight."""
     default: Any = None
@@ -115,7 +116,7 @@ class Quantity:
         return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) * Decimal(self.input_size))
 
     def as_input(self, value: float) -> float:
-        """The page's input for a value, which `of_input` gives back."""
+        """The page's input for a value in the unit of the name, which `of_input` gives back."""
         return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) / Decimal(self.input_size))
 
     @property
@@ -125,6 +126,7 @@ class Quantity:
 
     @property
     def numeric(self) -> bool:
+        """Whether it is a number."""
         return self.kind in ("number", "whole")
 
     @property
@@ -176,7 +178,7 @@ class Quantity:
         return math.degrees(value) if self.unit == "°" else value
 
     def read(self, value: object) -> float:
-        """The value as a float; TypeError or ValueError with one sentence where it is no number."""
+        """The value as a float in the unit of the name; TypeError or ValueError with one sentence for no number."""
         return number(self.name, value, f"{self.examples[-1]:g}")
 
     def check(self, value: float, tested: bool = False) -> None:

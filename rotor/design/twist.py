@@ -63,7 +63,7 @@ class SpecTwist(TwistLaw):
 
     @classmethod
     def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
-        """The law of the angles [rad] and of the stations after @ of a SPEC."""
+        """The law of the angles [rad] and of the stations r/R after @ of a SPEC; ValueError where they do not fit."""
         if len(angles) != len(fields(cls)) or places:
             numbers = f"{len(fields(cls))} number{'s' * (len(fields(cls)) > 1)}"
             raise ValueError(
@@ -418,7 +418,7 @@ def inline_spec(law: TwistLaw) -> str:
 
 @refusing("twist table", "give a two-column file (r/R, degrees)")
 def read_twist_table(path: Path) -> TableTwist:
-    """Read a two-column text table, r/R and twist in degrees; `#` starts a comment, commas or blanks separate."""
+    """Read a text table, r/R and twist in degrees; `#` begins a comment, commas or blanks separate; else ValueError."""
     text = read_text(path, "twist table", "give the path of a two-column file (r/R, degrees)")
     rows: list[tuple[float, float]] = []
     for number, line in enumerate(text.splitlines(), start=1):

@@ -18,7 +18,7 @@ class Uncertain:
     """Name in `assets/doubt.toml` and rotor files; ends in `_percent` where the size is a share of the input."""
     words: str
     size: float
-    """By how much it may be wrong, to both sides."""
+    """Uncertainty to either side, in `unit`."""
     source: str
 
     @property
@@ -27,7 +27,7 @@ class Uncertain:
 
     @property
     def largest(self) -> float:
-        """The largest size that a rotor file may state."""
+        """The largest size that a rotor file may state, in `unit`."""
         return max(90.0 if self.unit else 0.1, self.size)
 
 

@@ -22,9 +22,9 @@ class FlapDynamics:
     """The flapping equation's constants."""
 
     hinge: float
-    """e/R"""
+    """Hinge offset e/R."""
     frequency_squared: float
-    """ν²"""
+    """ν², flap frequency over Ω, squared."""
     load_gain: float
     """Γ: turns Σ (r − e) dC_T/dr dr into flapping acceleration."""
     weight: float
@@ -52,5 +52,5 @@ def flap_dynamics(rotor: Rotor, density: float, *, blade_weight: bool) -> FlapDy
 
 
 def lock_number(rotor: Rotor, density: float, lift_slope: float) -> float:
-    """γ = ρ a c R⁴/I with the reference chord, for comparison with published values."""
+    """γ = ρ a c R⁴/I with a density [kg/m³], a lift slope [1/rad] and the reference chord, as in published values."""
     return density * lift_slope * rotor.reference_chord * rotor.radius**4 / rotor.blade.flap_inertia

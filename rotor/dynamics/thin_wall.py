@@ -58,7 +58,7 @@ def reduced_stiffness(material: Material) -> Array:
 
 
 def strain_rotation(angle: float) -> Array:
-    """Strains (ε_x, ε_s, γ_xs) to fibre axes (ε_1, ε_2, γ_12), (3, 3). Its transpose turns stresses back."""
+    """Strains (ε_x, ε_s, γ_xs) to axes of fibres at an angle [rad], (3, 3). Its transpose turns stresses back."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
 

@@ -64,7 +64,7 @@ def torsion_beam(
     addition: AddedStructure | None = None,
     control: bool = False,
 ) -> TorsionBeam:
-    """The blade with GJ × `scale` and an addition; held by its control system with `control`, else clamped."""
+    """The blade turning at a speed [rad/s], GJ × `scale`, with an addition; on its `control` system, or clamped."""
     edges = np.linspace(structure.clamp, structure.radius, ELEMENTS + 1)
     r = np.unique(np.concatenate((edges, addition.span))) if addition else edges
     centres = 0.5 * (r[1:] + r[:-1])

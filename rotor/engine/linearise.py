@@ -64,7 +64,7 @@ class Nodes:
     tolerance: float
     """Tolerance of y − f."""
     limit: float
-    """Largest step of y."""
+    """Largest step of y, in its unit."""
     expected: float
     """A y that a solution without a guess of y begins with."""
 
@@ -191,7 +191,7 @@ class Point:
 
     @cached_property
     def size(self) -> float:
-        """Largest residual over its tolerance."""
+        """Largest residual over its tolerance [-]."""
         size = float((np.abs(self.residual) / self.system.tolerance).max())
         return size if np.isfinite(size) else np.inf
 

@@ -87,7 +87,7 @@ def around(decay: Any, z: Any) -> None:
     """
     n = len(decay)
     value, rest, k = 0.0, 1.0, n
-    while k > 0 and rest > _NEGLIGIBLE:  # First from zero: what is left of a start after one turn is known.
+    while k > 0 and rest > _NEGLIGIBLE:  # From zero at first, then with what one turn leaves of the start.
         k -= 1
         value += rest * z[k]
         rest *= decay[k]

@@ -182,7 +182,7 @@ def solve(system: System, x: Array, factors: Factors | None = None, limits: Newt
         near = run(system.thin, x, _COARSE_RATIO, limits.most_steps_on_few)
         if near.size <= _COARSE_RATIO:
             x = near.x
-        else:  # Whether there is a solution is for all azimuths to say, from the same start.
+        else:  # Only all azimuths, from the same start, decide whether there is a solution.
             run = _Steps(system, None, limits, run.passes)
     point = run(system.grid, x, 1.0, limits.most_steps)
     return Solved(point, run.passes, run.latest if run.serving else None)
@@ -242,7 +242,7 @@ class _Steps:
             if trial.size >= point.size and not fresh:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
                 continue
-            hoped = part / max(1.0, length)  # What is left of the residual after this part of a step: 1 − hoped.
+            hoped = part / max(1.0, length)  # The residual is expected to fall to 1 − hoped of itself.
             rises += nearer
             slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
             if trial.size < point.size or nearer or slow_steps < MOST_SLOW_STEPS:

@@ -191,7 +191,7 @@ class Structure:
         return self.measures.setdefault(key, 1 + len(self.measures))
 
     def equation(self, name: Hashable) -> int:
-        """The number of a new equation."""
+        """The number of a new equation; ValueError for a name in use."""
         if name in self.equations:
             raise ValueError(f"There is already an equation {name!r}: give this one another name.")
         return self.equations.setdefault(name, len(self.equations))
@@ -208,7 +208,7 @@ class Structure:
         )
 
     def finish(self, free: Sequence[int]) -> "Structure":
-        """free: the atoms solved for, as many as there are equations."""
+        """free: the atoms solved for, as many as there are equations, else ValueError."""
         if len(free) != len(self.equations):
             raise ValueError(
                 f"{len(free)} states have {len(self.equations)} equations: give one equation for each state."
@@ -221,15 +221,17 @@ class Structure:
 
     @property
     def given(self) -> int:
-        """The vector (1, numbers, states)."""
+        """Length of the vector (1, numbers, states)."""
         return 1 + len(self.numbers) + len(self.states)
 
     @fixed_property
     def first_state(self) -> int:
+        """The first state in `given`."""
         return 1 + len(self.numbers)
 
     @fixed_property
     def residual(self) -> Terms:
+        """The terms of all equations."""
         return Terms.of(self.terms, len(self.equations))
 
     @fixed_property

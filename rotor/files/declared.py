@@ -206,7 +206,7 @@ def find_line(text: str, place: Place) -> int | None:
     tables: list[int] = []
     for number, line in enumerate(text.splitlines(), start=1):
         bare = line.partition("#")[0].strip()
-        if bare.startswith("[") and bare.endswith("]"):  # No pattern: it was slow on a long line that is none.
+        if bare.startswith("[") and bare.endswith("]"):  # A pattern was slow on a long line without one.
             header = tuple(part.strip().strip("\"'") for part in bare.strip("[] \t").split("."))
             if header == path:
                 tables.append(number)

@@ -111,7 +111,7 @@ def load_design(path: str | Path) -> Design:
 
 
 def parse_design(content: bytes, name: str) -> Design:
-    """The design in the content of an uploaded file, which may not name files of this machine."""
+    """The design in an uploaded file, which may not name files of this machine; ValueError for any other content."""
     name = shorten(name)
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)

@@ -103,7 +103,7 @@ def make_design(
         raise TypeError(f"bending is {bending!r:.40}: write bending=True or leave it out")
     aircraft = _aircraft(rotor, case)
     same = case if case and name == case.preset else None
-    blade = same if rotor is None else None  # Another rotor has its own blade, and another preset.
+    blade = same if rotor is None else None  # Another rotor, or another preset, has its own blade.
     own = case.twist if case and rotor is None and case.twist != aircraft.twist_for(case.preset) else None
     if models is None:
         models = same.models if same else preset_models(name)
@@ -138,7 +138,7 @@ def make_design(
     return replace(design, rotor=change_airfoils(design.rotor, airfoils)) if airfoils else design
 
 
-if make_design.__doc__:  # Python drops docstrings when it is asked to.
+if make_design.__doc__:  # `python -OO` drops docstrings.
     choices = {"inflow": (*INFLOW_MODELS, *HOVER_INFLOWS)}
     words = (f"{name}: {row.help_with(choices.get(name, row.choices))}." for name, row in ARGUMENTS.items())
     make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))

@@ -15,24 +15,7 @@ from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan,
 from rotor.optimisation.search import Search, optimise, run_search
 
 __all__ = (
-    "CONCEPTS",
-    "Concept",
-    "Objective",
-    "Parameter",
-    "Progress",
-    "Schedule",
-    "ScheduleOptimum",
-    "SchedulePlan",
-    "Search",
-    "WeightedCondition",
-    "at_condition",
-    "evaluate_objective",
-    "evaluate_objectives",
-    "even_change_limit",
-    "find_concept",
-    "hover_and_cruise",
-    "nearest",
-    "optimise",
-    "run_plan",
-    "run_search",
-)
+    "CONCEPTS", "Concept", "Objective", "Parameter", "Progress", "Schedule", "ScheduleOptimum", "SchedulePlan",
+    "Search", "WeightedCondition", "at_condition", "evaluate_objective", "evaluate_objectives", "even_change_limit",
+    "find_concept", "hover_and_cruise", "nearest", "optimise", "run_plan", "run_search",
+)  # fmt: skip

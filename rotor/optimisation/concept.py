@@ -76,7 +76,7 @@ class Parameter:
         return math.degrees(value) if self.angular else value
 
     def from_shown(self, value: float) -> float:
-        """The inverse of `shown`."""
+        """The value [rad or r/R] of a shown number: the inverse of `shown`."""
         return math.radians(value) if self.angular else value
 
 
@@ -147,7 +147,7 @@ class Concept:
         rotor = design.rotor
         if self.airfoils:
             places = tuple(self._all(values)[len(self.airfoils) :])
-            # SC1095 by whichever data the design has it: the document's polynomials, or the decks.
+            # SC1095 from the data that the design uses: the document's polynomials or the decks.
             sections = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
             rotor = with_airfoils(rotor, [sections.get(name, name) for name in self.airfoils], places)
         return replace(design, twist=self.twist(values), rotor=rotor)

@@ -75,9 +75,9 @@ TWO_SEGMENT_FREE = Concept(
 TWO_AIRFOILS = Concept(
     "two-segment-two-airfoils",
     "Two segments, two airfoils",
-    # The document's own order is not in what we hold. The tip needs the later drag rise of the SC1095; the inboard
-    # blade, slow on the retreating side, the greater lift of the SC1094 R8. Swapped, the best blade takes
-    # 4 kW more in hover, 29 kW at µ 0.2 (division 0.5, lifting line, 8322 kg).
+    # The document's own order is in a chapter that we do not have. The tip needs the later drag rise of the SC1095;
+    # inboard, slow on the retreating side, the blade needs the greater lift of the SC1094 R8. Swapped, the best blade
+    # takes 4 kW more in hover, 29 kW at µ 0.2 (division 0.5, lifting line, 8322 kg).
     "SC1094 R8 inboard for lift at low speed, SC1095 outboard for its later drag rise; they change at the division.",
     PiecewiseLinearTwist,
     TWO_SEGMENT_FREE.every,
@@ -156,7 +156,7 @@ CONCEPTS: dict[str, Concept] = {
 def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
     """The concept of that name, its breaks fixed at `division` (r/R) if given.
 
-    Raises ValueError with one sentence that names the value and the remedy.
+    Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
         raise TypeError(f'concept is {name!r:.40}, not a text: write for example "linear"')

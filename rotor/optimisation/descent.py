@@ -121,7 +121,7 @@ class LocalModel:
                 self.limited.append(QuadraticMeasure(centre.pitch, measured.limited[k], slope, second))
 
     def cost(self, x: Array) -> float:
-        """The objective at x."""
+        """The objective at x [W or %]."""
         return self._cost(x)[0]
 
     def _cost(self, x: Array) -> tuple[float, Array]:

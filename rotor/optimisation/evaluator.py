@@ -87,7 +87,7 @@ class Evaluation:
 
     @property
     def cost(self) -> float:
-        """The objective, infinite where it does not trim, for comparing."""
+        """The objective [W or %], infinite where it does not trim, for comparing."""
         value = self.blade.measured.value
         return math.inf if value is None else value
 

@@ -39,6 +39,7 @@ class WeightedCondition:
 
     flight: FlightCondition
     hours: float = 1.0
+    """Flight time [h]."""
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.hours) and self.hours > 0.0):
@@ -106,7 +107,7 @@ def over_conditions(
 def hover_and_cruise(
     design: Design, hover_share: float, cruise_advance_ratio: float, quantity: Quantity = "total"
 ) -> Objective:
-    """Power in hover and in cruise, weighted by the fraction of time in hover (0…1)."""
+    """Power in hover and in cruise, weighted by the share of time in hover, 0…1; ValueError outside."""
     if not 0.0 <= hover_share <= 1.0:
         raise ValueError(f"hover share {hover_share:g} is outside 0…1: give the fraction of time in hover")
     pairs = ((0.0, hover_share), (cruise_advance_ratio, 1.0 - hover_share))

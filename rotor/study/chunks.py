@@ -57,6 +57,7 @@ class FinishedChunk:
     rows: int
     failures: int
     seconds: float
+    """[s]"""
     worker: str
     """Machine and process."""
     content: bytes

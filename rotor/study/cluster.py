@@ -33,7 +33,7 @@ def dask_client(address: str) -> Generator[Any]:
     A scheduler at a tls:// address is reached with the certificates of Dask's own configuration.
     """
     distributed = extra_module("distributed", "a study on a Dask cluster")
-    for name in tuple(logging.root.manager.loggerDict):  # Dask gives a level to more than the first of them.
+    for name in tuple(logging.root.manager.loggerDict):  # Dask sets the level of several of them.
         if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
             logging.getLogger(name).setLevel(logging.CRITICAL)  # Errors are reported by this package.
     try:

@@ -28,6 +28,8 @@ _LEAST_PER_PART = 10
 
 @dataclass(frozen=True, eq=False)
 class Results:
+    """The rows of a study as columns, in the order of the points."""
+
     about: dict[str, Any]
     """The folder's `_study.json`, or the metadata of one file."""
     axes: tuple[str, ...]
@@ -36,10 +38,12 @@ class Results:
 
     @property
     def rows(self) -> int:
+        """Number of rows."""
         return len(self.columns["point"])
 
     @property
     def points(self) -> int:
+        """Number of points of the study, missing ones included."""
         return int(self.about.get("points", self.rows))
 
     @property
@@ -53,9 +57,11 @@ class Results:
         return int(rows[0]) if rows.size else None
 
     def unit(self, column: str) -> str:
+        """Unit of a column; empty without one."""
         return str(self.about.get("units", {}).get(column, ""))
 
     def numeric(self, column: str) -> bool:
+        """Whether a column holds numbers."""
         return self.columns[column].dtype == np.float64
 
     @property
@@ -104,7 +110,7 @@ def _read_chunk(path: Path) -> Any:
     metadata: dict[bytes, bytes] = parquet.read_schema(str(path)).metadata or {}
     if metadata.get(b"format_version") != b"1" and not is_undamaged(path.read_bytes()):
         raise ValueError("its digest is another")
-    # From the file: a thread of Arrow's that frees bytes of Python while Python ends aborts the process.
+    # Not from bytes: an Arrow thread that frees Python's bytes while Python exits aborts the process.
     return parquet.read_table(str(path))
 
 
@@ -191,7 +197,9 @@ class RobustDesign:
     design: dict[str, Any]
     """Values of the axes that are not uncertain."""
     worst: float
+    """Largest value of the column compared, in its unit."""
     mean: float
+    """Its mean."""
     cases: int
 
 

@@ -34,6 +34,8 @@ _POLL_INTERVAL = 0.1
 """[s] between the questions whether to stop."""
 _MOST_TRIES = 3
 """Workers that a chunk may cost."""
+_GIVEN_UP = "KilledWorker"
+"""Dask's error for a chunk that several workers were lost with."""
 
 
 @dataclass
@@ -189,9 +191,7 @@ def run_chunks(
                     notify(done)
                 case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_TRIES:
                     submit(chunk)
-                case BrokenExecutor() | MemoryError():
-                    ended.lost.append(chunk)
-                case error if type(error).__name__ == "KilledWorker":  # Of Dask, which has tried several workers.
+                case error if isinstance(error, BrokenExecutor | MemoryError) or type(error).__name__ == _GIVEN_UP:
                     ended.lost.append(chunk)
                 case OSError() | CancelledError() as error:  # Dask's CommClosedError is among these.
                     raise ExecutorLost(type(error).__name__)

@@ -156,7 +156,7 @@ def bytes_cache(function: Callable[_P, _T]) -> Callable[_P, _T]:
         if result is None:
             made = _Result(known, key, function(*args, **kwargs))
             with _kept.lock:
-                result = known.setdefault(key, made)  # That of a thread that was faster: all share one.
+                result = known.setdefault(key, made)  # Another thread was faster: all share its result.
                 _kept.use(result)
         else:
             _kept.use(result)

@@ -313,7 +313,7 @@ def _rounded(values: Values, digits: int) -> list[float | None]:
 
 
 def scaled(value: float, log: bool) -> float:
-    """On the scale of an axis."""
+    """A value on the scale of an axis, its logarithm on a logarithmic one."""
     return math.log10(max(value, 1e-300)) if log else value
 
 

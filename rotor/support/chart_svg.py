@@ -122,7 +122,7 @@ def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: f
         low, high = (
             axes.places(*((edge, series.x) if named else (series.x, edge))) for edge in (series.low, series.high)
         )
-        if len(low) == 1:  # One condition alone has no area.
+        if len(low) == 1:  # A band of one point has no area.
             return tag("path", d=_path([*low, *high]), stroke=colour, stroke_width=5, stroke_opacity=0.3)
         known = [pair for pair in zip(low, high, strict=True) if all(map(math.isfinite, (*pair[0], *pair[1])))]
         around = [*(pair[0] for pair in known), *(pair[1] for pair in reversed(known))]

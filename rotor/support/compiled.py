@@ -103,7 +103,7 @@ def _called(function: Any, known: set[Any]) -> set[Any]:
     names, space = function.__code__.co_names, function.__globals__
     for value in [space.get(name) for name in names]:
         for item in [value, *(vars(value).get(name) for name in names)] if isinstance(value, ModuleType) else [value]:
-            callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # The latter of an intrinsic.
+            callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # `_defn`: of an intrinsic.
             if callee is not None and callee not in known:
                 known.add(callee)
                 _called(callee, known)

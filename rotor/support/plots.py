@@ -43,7 +43,7 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
     for series, colour in zip(chart.series, chart.colours(), strict=True):
         ink = "0.2" if colour == "currentColor" else colour
         if isinstance(series, Band):
-            if len(series.x) == 1 and not named:  # One condition alone has no area.
+            if len(series.x) == 1 and not named:  # A band of one point has no area.
                 ax.plot((series.x[0], series.x[0]), (series.low[0], series.high[0]), color=ink, alpha=0.3, linewidth=5)
                 continue
             fill = ax.fill_betweenx if named else ax.fill_between

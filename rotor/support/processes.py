@@ -364,7 +364,7 @@ class _Worker(threading.Thread):
         if self._pool.prepare is not None:
             process.begin(_Called(self._pool.prepare))
             if process.receive(_START_S) is None:
-                self._drop()  # Its late answer would be taken for the next job's.
+                self._drop()  # Its late answer would be taken for that of the next job.
                 raise EOFError
         return process
 

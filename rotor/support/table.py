@@ -49,6 +49,7 @@ class Table:
         return "\n".join(lines)
 
     def csv(self) -> str:
+        """The table as CSV text."""
         kept = [(k, column) for k, column in enumerate(self.columns) if column.key]
         rows = ([_formatted(row[k], column.stored) for k, column in kept] for row in self.rows)
         return csv_text([[column.key for _, column in kept], *rows])

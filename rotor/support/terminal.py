@@ -154,7 +154,7 @@ def run_command(program: str, run: Callable[[], int]) -> int:
             raise
         sys.stdout.flush()
         return code
-    except BrokenPipeError:  # The reader of a pipe has seen enough.
+    except BrokenPipeError:  # The reader of the pipe has closed it.
         _discard_output()
         return 0
     except KeyboardInterrupt:

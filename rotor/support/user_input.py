@@ -31,7 +31,7 @@ def extra_module(name: str, what: str) -> Any:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
-            raise  # The module is there, and something else is missing.
+            raise  # The module is installed; something that it imports is missing.
         package = name.partition(".")[0]  # The module has the same name on the package index.
         raise MissingExtra(f"{what} needs {package}: pip install {package}") from None
 
@@ -136,7 +136,7 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
 
 
 def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> str:
-    """The content of a file as text, see `text_of`."""
+    """The content of a file as text, see `text_of`; ValueError where it is not text."""
     content = read_bytes(path, what, remedy, most)
     try:
         return text_of(content)
@@ -249,7 +249,7 @@ _MOST_VALUES = 10_000
 
 
 def parse_range(text: str) -> list[float]:
-    """`a:b:step`, both ends included (falling with a negative step), or a comma-separated list, or one number."""
+    """`a:b:step` with both ends (falling with a negative step), numbers with commas, or one number; else ValueError."""
     try:
         if ":" in text:
             first, last, step = (float(item) for item in text.split(":"))

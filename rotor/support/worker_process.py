@@ -61,7 +61,7 @@ def _inherited() -> Generator[None]:
     if hasattr(signal, "pthread_sigmask"):
         from multiprocessing.resource_tracker import ensure_running
 
-        ensure_running()  # The first process starts it, which lifts the block.
+        ensure_running()  # Else the first process would start it, and that lifts the block.
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -126,7 +126,7 @@ class WorkerProcess:
         self._pipe.send(None)
 
     def receive(self, seconds: float | None) -> Reply | None:
-        """The next reply to the last task; None if none came in time, or one to a task that was given up."""
+        """The next reply to the last task within so many seconds; None without one, or for a task that was given up."""
         reply: Reply | None = self._pipe.recv() if self._pipe.poll(seconds) else None
         return reply if reply is not None and reply.number in (0, self._number) else None
 
@@ -150,7 +150,7 @@ def _serve(pipe: "Connection[Any, Any]") -> None:
             except Exception as error:  # Names a function, for example, that is not here.
                 _send_error(pipe, error)
                 continue
-            if request is not None:  # Else the stop of a task that was done meanwhile.
+            if request is not None:  # Otherwise it stops a task that has ended meanwhile.
                 _answer(pipe, request)
 
 

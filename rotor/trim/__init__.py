@@ -10,15 +10,6 @@ from rotor.trim.solution import DiskFields
 from rotor.trim.solve import analyse
 
 __all__ = (
-    "DEFAULT_OPTIONS",
-    "Analysis",
-    "DiskFields",
-    "Guess",
-    "HubLoads",
-    "PitchGradient",
-    "SolverOptions",
-    "analyse",
-    "analyse_many",
-    "power_gradient",
-    "why_no_hub_loads",
-)
+    "DEFAULT_OPTIONS", "Analysis", "DiskFields", "Guess", "HubLoads", "PitchGradient", "SolverOptions", "analyse",
+    "analyse_many", "power_gradient", "why_no_hub_loads",
+)  # fmt: skip

@@ -239,5 +239,5 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
 
 
 def tail_gain(solution: Solution) -> float:
-    """Total power per watt at the shaft, the tail rotor included; 1 on a stand."""
+    """Total power per watt at the shaft [W/W], the tail rotor included; 1 on a stand."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]

@@ -30,7 +30,7 @@ _ENERGY_TOLERANCE = 1e-6
 
 
 def assemble(result: TrimResult, begin: float) -> Analysis:
-    """The solution, with its equations, of a trim that began at a time of `time.perf_counter`.
+    """The solution, with its equations, of a trim that began at `begin` [s] of `time.perf_counter`.
 
     ValueError where the equations and `power` of further freedoms contradict their columns.
     """

@@ -38,22 +38,16 @@ DISK_LABELS: dict[str, tuple[str, float]] = {
 }
 """Fields that `plot_field` draws: label, and factor from SI to the unit of the label."""
 
+_POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "damping", "tail")
+_ANGLES = ("collective", "cyclic_1c", "cyclic_1s", "coning", "flap_1c", "flap_1s", "shaft_tilt")
+
 
 def solution_record(solution: Solution) -> dict[str, Any]:
     """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
     design, controls, power = require_solution(solution).design, solution.controls, solution.last_power
     stand = design.condition.stand
     values: dict[str, Any] = {
-        "power_w": {
-            "total": power.total,
-            "main_rotor": power.main_rotor,
-            "induced": power.induced,
-            "profile": power.profile,
-            "parasite": power.parasite,
-            "climb": power.climb,
-            **({"damping": power.damping} if solution.freedoms else {}),
-            "tail": power.tail,
-        },
+        "power_w": {name: getattr(power, name) for name in _POWERS if name != "damping" or solution.freedoms},
         **({"freedoms": solution.freedom_states} if solution.freedoms else {}),
         "ct": solution.ct,
         "cp": solution.cp,
@@ -63,13 +57,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "shaft_torque_nm": solution.torque,
         "rotor_lift_n": solution.lift_and_drag[0],
         "rotor_drag_n": solution.lift_and_drag[1],
-        "collective_deg": math.degrees(controls.collective),
-        "cyclic_1c_deg": math.degrees(controls.cyclic_1c),
-        "cyclic_1s_deg": math.degrees(controls.cyclic_1s),
-        "coning_deg": math.degrees(controls.coning),
-        "flap_1c_deg": math.degrees(controls.flap_1c),
-        "flap_1s_deg": math.degrees(controls.flap_1s),
-        "shaft_tilt_deg": math.degrees(controls.shaft_tilt),
+        **{f"{name}_deg": math.degrees(getattr(controls, name)) for name in _ANGLES},
         "lambda0": controls.lambda0,
         "reverse_flow_area_percent": 100.0 * solution.reverse_flow_area,
         "stalled_area_percent": 100.0 * solution.stalled_area,

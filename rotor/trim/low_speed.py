@@ -77,14 +77,14 @@ def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifferen
 
 
 def axial_share(mu: float, thrust: float) -> float:
-    """s(µ) for the C_T of hover: 1 at µ = 0, falling to 0 at µ = FASTEST √(C_T/2)."""
+    """s(µ) for the C_T of hover: 1 at µ = 0, falling to 0 at µ = FASTEST √(C_T/2). Our choice."""
     end = inflow_ratio(FASTEST)
     share = max(0.0, (inflow_ratio(mu / math.sqrt(0.5 * thrust)) - end) / (1.0 - end))
     return share * share * share
 
 
 def inflow_ratio(mu: float) -> float:
-    """λ̄, mean inflow over that of hover, at µ̄: advance ratio over the inflow of hover."""
+    """λ̄ by Glauert's (2.30) for a level disk: mean inflow over that of hover, at µ̄: µ over the inflow of hover."""
     half = 0.5 * mu**2
     return math.sqrt(1.0 / (math.sqrt(half**2 + 1.0) + half))
 

@@ -48,6 +48,7 @@ class SolverOptions(SystemTolerances):
 
     @property
     def asked_to_stop(self) -> bool:
+        """Whether the caller wants the solve to end."""
         return self.stop is not None and self.stop()
 
 

@@ -48,6 +48,7 @@ class PowerBudget:
     parasite: float
     """D·V of the airframe; in a climb also the power that lifts the download."""
     tail: float
+    """Of the tail rotor."""
     shaft: float
     """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
     climb: float = 0.0
@@ -57,10 +58,12 @@ class PowerBudget:
 
     @property
     def main_rotor(self) -> float:
+        """Power of the main rotor [W]."""
         return self.induced + self.profile + self.parasite + self.climb + self.damping
 
     @property
     def total(self) -> float:
+        """Main rotor and tail rotor [W]."""
         return self.main_rotor + self.tail
 
 
@@ -75,6 +78,7 @@ class HubMoment:
 
     @property
     def size(self) -> float:
+        """Of both together [N m]."""
         return math.hypot(self.roll, self.pitch)
 
 

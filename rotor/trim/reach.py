@@ -23,7 +23,7 @@ _LEAST_POWER_SPEED = 0.15
 
 
 def stall_limit(problem: Problem) -> float:
-    """Stalled part of the lift's moment beyond which trims do not count."""
+    """Stalled share of the lift's moment, Σ r dT, beyond which trims do not count."""
     by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
     return math.inf if by_document else MOST_STALLED
 

@@ -172,6 +172,7 @@ class Solution:
     """Power by parts of the last iterate, converged or not; `power` is the same for a converged solution only."""
     hub_moment: HubMoment
     ct: float
+    """Thrust over ρA(ΩR)², eq. (2.11)."""
     lift_and_drag: tuple[float, float]
     """Force of the rotor up and aft [N]: in level flight and on a stand normal to the wind and along it."""
     cp: float
@@ -182,7 +183,7 @@ class Solution:
     """Part of the disk πR² beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the
     chord; reverse flow not counted (0…1)."""
     stalled_thrust: float
-    """Part of the thrust that stalled sections carry; negative where they press down."""
+    """Part of the thrust that stalled sections carry [-]; negative where they press down."""
     stalled_moment: float
     """Part of the lift's moment about the hub, Σ r dT, that they carry."""
     residual: float
@@ -227,6 +228,7 @@ class Solution:
 
     @property
     def converged(self) -> bool:
+        """Whether the rotor is in trim."""
         return self.status is Status.CONVERGED
 
     @property
@@ -246,11 +248,12 @@ class Solution:
 
     @property
     def ct_over_sigma(self) -> float:
+        """C_T/σ, the blade loading."""
         return self.ct / self.design.rotor.solidity
 
     @property
     def cq(self) -> float:
-        """C_Q of the shaft's torque over ρA(ΩR)²R."""
+        """C_Q: torque of the shaft over ρA(ΩR)²R."""
         return self.last_power.shaft / self.design.power_unit
 
     @property
@@ -260,7 +263,7 @@ class Solution:
 
     @property
     def figure_of_merit(self) -> float | None:
-        """Ideal induced power over induced and profile power, in hover and axial flight only.
+        """Ideal induced power over induced and profile power [-], in hover and axial flight only.
 
         The power of the climb is not counted: it would make any rotor look better the faster it climbs.
         """
@@ -280,7 +283,7 @@ class Solution:
 
     @property
     def lift_to_drag(self) -> float | None:
-        """Rotor L/D_e = W V/(P_induced + P_profile), on a test stand with the lift for W; forward flight only."""
+        """Rotor L/D_e = W V/(P_induced + P_profile) [-], with the lift for W on a test stand; forward flight only."""
         rotor_power = self.last_power.induced + self.last_power.profile
         if self.design.hovering or rotor_power <= 0.0:
             return None

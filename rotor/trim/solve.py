@@ -54,7 +54,7 @@ def solve(
 def analyse(
     design: Design, start: Start = None, options: SolverOptions = DEFAULT_OPTIONS, *, freedoms: Sequence[Freedom] = ()
 ) -> Analysis:
-    """`solve`, with the equations at the solution kept: for gradients, `doubt`, `hub_loads`."""
+    """`solve`, with the equations at the solution kept: for gradients, `doubt`, `hub_loads`. Raises as `solve` does."""
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     found = _trim_branch(require_design(design), start, options, freedoms)

@@ -7,20 +7,7 @@ from rotor.validation.trust import TrustRow, trust_rows
 from rotor.validation.uh60a import public_data
 
 __all__ = (
-    "CASES",
-    "Comparison",
-    "FlownCase",
-    "MeasuredCurve",
-    "MeasuredSet",
-    "TrustRow",
-    "agreement",
-    "compare",
-    "compare_point",
-    "computed_curve",
-    "design_at",
-    "load_set",
-    "measured_curves",
-    "public_data",
-    "sets_of",
+    "CASES", "Comparison", "FlownCase", "MeasuredCurve", "MeasuredSet", "TrustRow", "agreement", "compare",
+    "compare_point", "computed_curve", "design_at", "load_set", "measured_curves", "public_data", "sets_of",
     "trust_rows",
-)
+)  # fmt: skip

@@ -121,18 +121,20 @@ class CurveAgreement:
     quantity: str
     r: float
     correlation: float
+    """Of the two curves without their means, −1…1."""
     rms: float
-    """Root mean square of the difference."""
+    """Root mean square of the difference, in the unit of the quantity."""
     measured_rms: float
-    """Root mean square of the measured curve itself."""
+    """Root mean square of the measured curve itself, in the same unit."""
     mean: float
     measured_mean: float
+    """In the unit of the quantity, as `mean`."""
     waves: Array = field(repr=False)
     """Of the computed curve, by `harmonics`."""
     measured_waves: Array = field(repr=False)
 
     def amplitude(self, n: int, *, measured: bool = False) -> float:
-        """Amplitude of harmonic n."""
+        """Amplitude of harmonic n, in the unit of the quantity."""
         return abs(wave_amplitude(self.measured_waves if measured else self.waves, n))
 
     def phase_deg(self, n: int, *, measured: bool = False) -> float:
@@ -140,7 +142,7 @@ class CurveAgreement:
         return math.degrees(cmath.phase(wave_amplitude(self.measured_waves if measured else self.waves, n)))
 
     def ratio(self, n: int) -> float:
-        """Computed amplitude over the measured one, less 1."""
+        """Computed amplitude over the measured one, less 1 [-]."""
         return self.amplitude(n) / self.amplitude(n, measured=True) - 1.0
 
     def late_deg(self, n: int) -> float:
@@ -148,7 +150,7 @@ class CurveAgreement:
         return math.degrees(cmath.phase(wave_amplitude(self.waves, n) / wave_amplitude(self.measured_waves, n)))
 
     def miss(self, n: int) -> float:
-        """|computed − measured| of harmonic n as vectors, over the measured amplitude."""
+        """|computed − measured| of harmonic n as vectors, over the measured amplitude [-]."""
         measured = wave_amplitude(self.measured_waves, n)
         return abs(wave_amplitude(self.waves, n) - measured) / abs(measured)
 
@@ -172,7 +174,9 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
             ("tip_twist_deg", 1.0, "twist", "twist_deg"), ("tip_flap", 1.0, "flap", "z"),
         ):  # fmt: skip
             rows = csv_rows(asset_path(f"measured/hart2_{file}.csv"))
-            rows = [row for row in rows if row.get("case", case.name) == case.name]  # Loads have a column a case.
+            rows = [
+                row for row in rows if row.get("case", case.name) == case.name
+            ]  # One column of loads for each case.
             psi_deg, values = columns(rows, "psi_deg", column)
             yield MeasuredCurve(case, quantity, r, np.radians(psi_deg), values)
         return

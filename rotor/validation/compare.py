@@ -67,11 +67,14 @@ class MeasuredSet:
     """The column that is compared."""
     points: tuple[dict[str, float], ...]
     note: str = ""
+    menu: str = ""
+    """Short title, for a menu."""
     missed: str = ""
     """Why the target is missed, as far as it is known."""
     scatter: float | None = None
-    """Scatter of the quantity; None where it is a part of it."""
+    """Scatter of the quantity, in its unit; None where it is a part of the measured value."""
     scatter_percent: float | None = None
+    """Scatter as a part of the measured value [%]."""
     judged: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
     """Ranges of columns within which points count: for the target, or where there is none for the errors shown."""
     tolerance: float | None = None
@@ -83,7 +86,7 @@ class MeasuredSet:
     """Rotor from which a change is counted."""
 
     def scatter_of(self, point: dict[str, float]) -> float:
-        """Scatter of a measured point: its own, else that of the set."""
+        """Scatter of a measured point in the unit of the quantity: its own, else that of the set."""
         share = abs(point[self.quantity]) * (self.scatter_percent or 0.0) / 100.0
         return point.get("scatter", share if self.scatter is None else self.scatter)
 
@@ -388,7 +391,7 @@ def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | Non
 
 
 def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float = math.nan) -> float:
-    """A computed quantity under the name of a measured one, for a solution of the set's rotor; r: of a section."""
+    """A computed quantity in the unit of the measured one of that name; r: r/R of a section; else ValueError."""
     design = solution.design
     match name:
         case "ct":

@@ -36,7 +36,7 @@ class PointAndBand:
     kind: str
     """Kind of flight: of `POWERS` or `FLOWN`."""
     error: float
-    """Measured over computed, less 1."""
+    """Measured over computed, less 1 [-]."""
     band: float
     """Over our power."""
 

@@ -177,7 +177,7 @@ def _angles(solution: Solution) -> tuple[float, float, float, float]:
 
 
 def tail_pitch(solution: Solution) -> float:
-    """Collective of an untwisted tail rotor that balances the torque [rad].
+    """Collective of an untwisted tail rotor that balances the torque [rad]; ValueError where none does.
 
     C_T = ½ σ a [θ (1/3 + µ²/2) − λ/2], uniform inflow by Glauert (Leishman, Principles of Helicopter Aerodynamics).
     """

@@ -99,7 +99,7 @@ class TrustSet:
 
 
 def rms(values: ArrayLike) -> float:
-    """Root mean square."""
+    """Root mean square, in the unit of the values."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 

@@ -171,7 +171,7 @@ _IDENTITIES = (
     ),
     (
         ("Gradient of power by linear twist, lifting line", "central differences"), _gradient, 1e-6,
-        "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences",
+        "rotor/trim/test_gradient.py::test_power_by_the_pitch_of_every_element",
     ),
     (
         ("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³"), _profile, 1e-5,

@@ -1,18 +1,14 @@
 """The plan of the disk: read under the pointer, around the circle, and by key."""
 
 import math
-from io import BytesIO
 
 import numpy as np
 import pytest
-from PIL import Image
 from playwright.sync_api import Browser
 from watched import MEDIUM, Watched, opened
 
 from explorer.app import App
 from explorer.model.inputs import OPENING
-from explorer.picture.fields import FIELDS
-from explorer.picture.picture import disk_png
 from rotor.trim.solve import solve
 
 _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
@@ -71,30 +67,3 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')")
     assert watched.complaints == []
     watched.close()
-
-
-@pytest.mark.slow
-def test_the_plan_has_the_colours_that_files_have(browser: Browser, app: App):
-    watched = opened(browser, app.address, size=MEDIUM)
-    page = watched.page
-    watched.show("Mach number")
-    page.get_by_role("button", name="Disk").click()
-    page.wait_for_function(_READY)
-    watched.answered(wholly=True)
-    places = [(r, math.radians(psi)) for r in (0.45, 0.7, 0.93) for psi in (40.0, 100.0, 200.0, 320.0)]
-    seen = page.evaluate(
-        """places => {
-            const canvas = document.querySelector('[data-colours]').shadowRoot.firstChild, half = canvas.width / 2;
-            const pixel = ([x, y]) => canvas.getContext('2d').getImageData(half + half * x, half + half * y, 1, 1);
-            return places.map(place => [...pixel(place).data]);
-        }""",
-        [[r * math.sin(psi), r * math.cos(psi)] for r, psi in places],
-    )
-    page.close()
-    field = FIELDS["Mach number"]
-    image = Image.open(BytesIO(disk_png(solve(OPENING.design()), field, (field.low, field.high), size=960)))
-    pixels = np.asarray(image.convert("RGBA"))[..., :3].astype(int)
-    for (r, psi), (*colour, alpha) in zip(places, seen, strict=True):
-        across, down = 480 + 479 * r * math.sin(psi), 480 + 479 * r * math.cos(psi)
-        assert alpha == 255
-        np.testing.assert_allclose(colour, pixels[int(down), int(across)], atol=4.0, err_msg=f"{r} R at {psi} rad")

@@ -173,25 +173,36 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
     assert watched.at_rest(lambda: round(off(), 3)) < 0.02
 
 
+PLAN_PIXELS = """places => {
+    const canvas = document.querySelector('[data-colours]').shadowRoot.firstChild, half = canvas.width / 2;
+    const pixel = ([x, y]) => canvas.getContext('2d').getImageData(half + half * x, half + half * y, 1, 1);
+    return places.map(place => [...pixel(place).data]);
+}"""
+
+
 @pytest.mark.slow
-def test_the_disk_has_the_colours_that_files_have(browser: Browser, app: App):
-    """What the page's shader draws, at full opacity and without marks, against the picture of an export."""
+def test_disk_and_plan_have_the_colours_that_files_have(browser: Browser, app: App):
+    """What shader and plan draw, at full opacity and without marks, against the picture of an export."""
     page = browser.new_page(viewport={"width": 900, "height": 700})
+    at = [(r * math.sin(psi), r * math.cos(psi)) for r in (0.45, 0.7, 0.93) for psi in np.radians([40, 100, 200, 320])]
     try:
         watched = Watched(page)
         watched.open(app.address)
         page.evaluate("() => ['stall', 'reverse_flow', 'drag_divergence'].forEach(mark => RX.send('region', mark))")
         watched.show("Mach number")
         watched.answered(wholly=True)
-        places = [(r, psi) for r in (0.45, 0.7, 0.93) for psi in (40.0, 100.0, 200.0, 320.0)]
-        seen = page.evaluate(
-            PIXELS, [[r * math.sin(math.radians(a)), r * math.cos(math.radians(a))] for r, a in places]
-        )
+        seen = page.evaluate(PIXELS, at)
+        page.evaluate("() => RX.send('view', 'disk')")
+        page.wait_for_function("() => RX.state.plan?.values")
+        watched.answered(wholly=True)
+        plan = page.evaluate(PLAN_PIXELS, at)
     finally:
         page.close()
     field = FIELDS["Mach number"]
     png = disk_png(solve(START.design()), field, (field.low, field.high), size=960)
     image = np.asarray(Image.open(BytesIO(png)).convert("RGBA"))[..., :3].astype(int)
-    for (r, psi), colour in zip(places, seen, strict=True):
-        across, down = (480 + 479 * r * of(math.radians(psi)) for of in (math.sin, math.cos))
-        np.testing.assert_allclose(colour, image[int(down), int(across)], atol=6.0, err_msg=f"{r} R at {psi}°")
+    for (x, y), colour, (*flat, alpha) in zip(at, seen, plan, strict=True):
+        there = image[int(480 + 479 * y), int(480 + 479 * x)]
+        np.testing.assert_allclose(colour, there, atol=6.0, err_msg=f"{x}, {y}")
+        np.testing.assert_allclose(flat, there, atol=4.0, err_msg=f"{x}, {y}")
+        assert alpha == 255

@@ -11,9 +11,7 @@ from explorer.app import App
 from explorer.model.inputs import Inputs
 from explorer.model.undo import PowerTracker
 from explorer.widgets.controls import DesignControls, SessionCallbacks
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor import Solution, make_design, solve
 
 
 @pytest.fixture(scope="session")

@@ -19,11 +19,8 @@ from explorer.scene.overlays import overlay_of
 from explorer.text import readout
 from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
-from rotor.design.design import Design
-from rotor.design.twist import LinearTwist, SumTwist
-from rotor.files.make_design import make_design
-from rotor.trim.solution import Caveat, Solution, Status
-from rotor.trim.solve import solve
+from rotor import Caveat, Design, Solution, Status, make_design, solve
+from rotor.design import LinearTwist, SumTwist
 
 QUICK = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Where the physics does not matter."""

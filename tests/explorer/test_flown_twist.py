@@ -16,11 +16,9 @@ from explorer.picture.picture import field_values, flown_twist, follows_azimuth,
 from explorer.picture.polar import DrawnSolution, polar_grid
 from explorer.text.readout import trim_panel
 from explorer.widgets.twist_curve import flown_band, shown_twist
-from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
+from rotor import Solution, make_design, solve
+from rotor.design import LinearTwist
 from rotor.support.arrays import Array
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 FIELD = FIELDS["Elastic twist"]
 VIEW = ViewState()

@@ -10,19 +10,8 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.undo import PAUSE, STEPS, History, LongestPause, PowerTracker
 from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
-from explorer.sharing.share import (
-    LONGEST,
-    StoredHistory,
-    code_of,
-    design_from,
-    inputs_from,
-    read_history,
-    view_code,
-    view_from,
-)
+from explorer.sharing.share import LONGEST, StoredHistory, code_of, inputs_from, read_history, view_code, view_from
 from rotor.design.aircraft import RotorFiles
-from rotor.design.twist import TableTwist
-from rotor.files.make_design import make_design
 
 START = Inputs()
 LONG = 5.0
@@ -149,13 +138,6 @@ class TestStoredHistory:
 
 
 class TestShare:
-    def test_a_table_travels_with_its_numbers(self):
-        table = TableTwist((0.2, 0.6, 1.0), (0.1, 0.02, -0.05), "table:/home/me/mine.txt")
-        code = code_of(replace(make_design(), twist=table))
-        assert "mine" not in code
-        r = (0.2, 0.33, 0.75, 1.0)
-        assert design_from(code).twist(r) == pytest.approx(table(r), abs=1e-8)
-
     @pytest.mark.parametrize("twist", ["linear:-35", "segments:-40,-2@0.5", "segments:-8,-2@0.1"])
     def test_a_twist_beyond_the_sliders_is_kept_as_it_is(self, twist: str):
         inputs = inputs_from(f"1;{twist};mu=0.3")

@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from pathlib import Path
 from threading import Event, Thread
 from typing import Any
 from unittest.mock import Mock
@@ -16,10 +15,9 @@ from explorer.model.session_state import ScreenState
 from explorer.model.units import SI, UNITS
 from explorer.picture.fields import FIELDS
 from explorer.sharing import share
-from explorer.story import steps
 from explorer.story.facts import StepFacts, facts_of
 from explorer.story.records import answer_record, step_record
-from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, step_text, view_of
+from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, view_of
 from explorer.widgets.lecture import lecture_panel
 from explorer.widgets.lecture.lecture_panel import CASES, LecturePanel
 from rotor import Solution, hub_loads, make_design, optimise, solve
@@ -257,25 +255,11 @@ class TestAnswers:
         assert solved(step.begin()).power.total < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
 
 
-def test_each_step_has_its_text_in_a_file_and_each_file_its_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    texts = {step_text(path.stem) for path in steps._TEXT.glob("*.md")}
-    assert texts == {step.text for step in STEPS}
-    assert all("  " not in part for text in texts for part in text.parts)
-    monkeypatch.setattr(steps, "_TEXT", tmp_path)
-    good = "# One title\n\nSee\nthis.\n\n## Guess\n\nWhat?\n\n- this\n- that\n\n## Answer\n\nThis.\n\n## Try\n\nDo.\n"
-    (tmp_path / "good.md").write_text(good, encoding="utf-8")
-    found = step_text("good")
-    assert (found.title, found.watch, found.options, found.a) == ("One title", "See this.", ("this", "that"), "")
-    pair = good.replace("## Guess", "## Compare\n\nA: one\n\nB: other\n\n## Guess")
-    (tmp_path / "pair.md").write_text(pair, encoding="utf-8")
-    assert (step_text("pair").a, step_text("pair").b) == ("one", "other")
-    for text in (
-        "", good.replace("# One", "One", 1), good.replace("\n- this\n- that\n", ""),
-        good.replace("## Try\n\nDo.\n", ""), pair.replace("B: other", ""),
-    ):  # fmt: skip
-        (tmp_path / "bad.md").write_text(text, encoding="utf-8")
-        with pytest.raises(ValueError, match=r"bad\.md is no step of the lecture: write"):
-            step_text("bad")
+def test_the_words_of_a_step_are_whole():
+    for text in (step.text for step in STEPS):
+        assert all((text.title, text.watch, text.question, text.answer, text.todo))
+        assert not any("  " in part or "\n" in part for part in text.parts)
+        assert bool(text.a) == bool(text.b)
 
 
 def test_a_sentence_waits_for_its_numbers():

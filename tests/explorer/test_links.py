@@ -110,6 +110,7 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
     sums = 0
     for design in random_designs(1000):
         code = code_of(design)
+        assert "mine.txt" not in code  # A table travels with its numbers.
         sums += isinstance(design.twist, SumTwist)
         query = with_parameter("?fixedDpr=0.5", DESIGN, code)
         for _ in range(3):  # It rewrites it at each connection, and the page may lose its server.

@@ -28,13 +28,11 @@ from explorer.sharing import share
 from explorer.text.design_words import title_words
 from explorer.text.readout import ideal_line, power_panel
 from explorer.widgets.design_files import UploadedFiles
+from rotor import Solution, make_design, solve
 from rotor.airfoil.polars import read_polars
 from rotor.files.design_file import parse_design
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 R22 = with_rotor(Inputs(), "r22")
 DECK = asset_path("airfoils/naca0012.c81").read_bytes()

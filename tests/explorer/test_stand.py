@@ -13,10 +13,9 @@ from explorer.sharing.share import code_of, inputs_from
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
-from rotor.files.make_design import make_design
+from rotor import make_design, solve
 from rotor.support.assets import MEASURED_ROTORS
 from rotor.support.chart import Points
-from rotor.trim.solve import solve
 from rotor.validation.compare import SETS, load_set
 from tests.curves import curves
 

@@ -26,12 +26,10 @@ from explorer.picture.picture import (
 from explorer.sharing.share import inputs_from
 from explorer.views import vibration
 from explorer.views.vibration import VIBRATION
+from rotor import Solution, hub_loads, solve
 from rotor.columns.bending import coordinates_of
 from rotor.support.arrays import Array
-from rotor.trim.analysis import Analysis
-from rotor.trim.hub_loads import HubLoads, hub_loads
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim import Analysis, HubLoads
 from tests.rotor.root_loads import displacements
 
 FAST = Inputs(law="builtin", advance_ratio=0.3, bending=True)

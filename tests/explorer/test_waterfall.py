@@ -12,11 +12,9 @@ from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from explorer.views.page_state import PageState
 from explorer.views.waterfall import cost_words, costs, steps_asked, waterfall_chart
 from explorer.views.waterfall import waterfall as shown
+from rotor import Design, make_design, solve
 from rotor.aero.switches import SWITCHES
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.study.series import Waterfall, waterfall
-from rotor.trim.solve import solve
 
 
 def coarse(mu: float) -> Design:

@@ -23,23 +23,17 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.problem import build_problem
-from rotor.design.design import Design
 from rotor.engine.linearise import evaluate
-from rotor.files.make_design import make_design
-from rotor.optimisation.concepts import CONCEPTS, find_concept
-from rotor.optimisation.objective import WeightedCondition
-from rotor.optimisation.schedule import SchedulePlan, run_plan
-from rotor.optimisation.search import Search, run_search
+from rotor.optimisation import CONCEPTS, SchedulePlan, Search, WeightedCondition, find_concept, run_plan, run_search
 from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
-from rotor.trim.analysis import power_gradient
+from rotor.trim import analyse, power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.power_changes import power_changes
-from rotor.trim.solution import Solution
-from rotor.trim.solve import analyse, solve
 from tests.tools import measured
 
 T = TypeVar("T")

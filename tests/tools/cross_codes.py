@@ -14,12 +14,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root
 
+from rotor import Solution, make_design, solve
 from rotor.airfoil.sections import load_section
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
 from rotor.support.assets import asset_path
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.validation.page import trust_csv
 from rotor.validation.trust import TrustRow, description, trust_rows
 from rotor.validation.verification import CCBLADE_MASSES, SPEEDS

@@ -10,20 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from rotor import Design, Solution, make_design, solve
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
-from rotor.design.design import Design
 from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import evaluate
-from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.support.blas_threads import one_blas_thread
-from rotor.trim.analysis import Analysis
+from rotor.trim import Analysis
 from rotor.trim.hover import _error
 from rotor.trim.newton import DEFAULT_OPTIONS, _errors
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 from rotor.trim.validity import MOST_STALLED
 
 SAME = 1e-6

@@ -17,11 +17,10 @@ import numpy as np
 import scipy
 from numpy.polynomial.chebyshev import chebvander
 
+from rotor import Design, make_design
 from rotor.aero.inflow.lifting_line import LiftingLineInflow, mean_share
 from rotor.aero.lifting_line import LiftingLine, WakeCourse, influence
 from rotor.aero.problem import build_problem
-from rotor.design.design import Design
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array, fixed_property
 from rotor.support.assets import asset_path
 from rotor.support.blas_threads import one_blas_thread

@@ -10,14 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.design.design import Design
+from rotor import Design, Solution, make_design, solve
 from rotor.design.quantities import CONDITION
-from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
 from rotor.support.assets import SHIPPED_ROTORS
-from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim import SolverOptions
 from tests.tools.designs import draw
 
 LARGEST_JUMP = 1.0

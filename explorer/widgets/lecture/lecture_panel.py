@@ -118,7 +118,7 @@ class LecturePanel:
         view, look = view_of(wanted, self._context.display.view), "actuator" if wanted.mode == "actuate" else "3d"
         self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look))
         if wanted.mode == "explore":
-            self._camera.hold_shot(wanted.shot)
+            self._camera.aim_with(lambda aspect: wanted.shot.fit(self._camera.radius, aspect), eased=True)
 
     def follow(self, place: StoryPlace | None) -> None:
         """Show the place of another page, which sets the rest."""

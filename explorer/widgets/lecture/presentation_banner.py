@@ -86,7 +86,7 @@ class PresentationBanner:
             self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
             self._presentations.watch(self._secret, self._announce)
-        self._name_present()  # A presenter who loads the page again presents on.
+        self._name_present()  # A presenter who reloads the page goes on presenting.
 
     def _name_present(self) -> None:
         self._present.label = "Stop presenting" if self._secret else "Present"
@@ -132,8 +132,8 @@ class PresentationBanner:
         self._hold_still()
 
     def _end(self) -> None:
-        """The browser has left. A presenter who loads the page again presents on."""
-        with self._publishing:  # Nothing is shown after that the presenter has left.
+        """The browser has left. A presenter who reloads the page goes on presenting."""
+        with self._publishing:  # Nothing is shown after the notice that the presenter has left.
             self._secret = ""
         self._presentations.release(self)
         if self._unfollow is not None:
@@ -144,7 +144,7 @@ class PresentationBanner:
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
             if not self._secret:
                 return
-            # Who follows has no search, but sees its designs.
+            # A follower has no search of its own, but sees the designs of the presenter's.
             screen = replace(self._screen.on_screen(), inputs=self._context.controls.shown())
             self._presentations.present(self._secret, PresentedView(screen, self._lecture.place, self._camera))
 

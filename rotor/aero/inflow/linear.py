@@ -54,7 +54,7 @@ class LinearInflow(HarmonicInflow):
 
 
 def of_mean(gradient: Gradient, lambda0: float) -> tuple[float, tuple[float, float, float]]:
-    """λ0 k, and its slopes by (µ_x, µ_z, λ0)."""
+    """λ0 k, and its slopes by (µ_x, µ_z, λ0), by the product rule."""
     k, by_mu, by_axial = gradient
     return lambda0 * k, (lambda0 * by_mu, lambda0 * by_axial, k + lambda0 * by_axial)
 
@@ -71,7 +71,7 @@ def half_skew(flow: DiskFlow) -> Gradient:
 
 
 def scaled_half_skew(gain: float) -> Callable[[DiskFlow], Gradient]:
-    """k = gain · tan(χ/2)."""
+    """k = gain · tan(χ/2), see `half_skew`."""
 
     def gradient(flow: DiskFlow) -> Gradient:
         value, by_mu, by_axial = half_skew(flow)

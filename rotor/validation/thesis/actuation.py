@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, of_kind
-from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.installation import install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.files.make_design import uh60a_rotor
@@ -30,11 +30,6 @@ PPM, KV_MM = 1e6, 1e-6
 
 
 PLIES = of_kind(PiezoPly)
-
-
-def fitted_blade(plies: int, host: HostBlade) -> InstalledActuator:
-    """MFC P1 as the worked example places it."""
-    return install(PLIES["MFC_P1"], default_placement(plies), host, uh60a_rotor("flight"))
 
 
 def figure_5_5() -> Report:
@@ -92,7 +87,7 @@ def figure_5_10() -> Report:
     ply = PLIES["MFC_P1"]
     low, high = ply.voltage_range
     for k, (name, (plies, host)) in enumerate(BLADES.items()):
-        installed = fitted_blade(plies, host)
+        installed = install(ply, default_placement(plies), host, uh60a_rotor("flight"))
         r = np.linspace(float(installed.r[0]), 1.0, 61)
         up, down = (np.degrees(installed.change([volts / ply.voltage_swing], r)) for volts in (high, low))
         curves += curve(name, r, up, colour=k), curve("", r, down, "dashed", colour=k)

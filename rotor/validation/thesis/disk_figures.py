@@ -126,7 +126,7 @@ LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
 
 @lru_cache(maxsize=16)
 def line_error(mu: float) -> float:
-    """Error of the power of the default model on its panels and azimuths, against twice as many of both."""
+    """Error of the power of the default model on its panels and azimuths, against twice as many of both [-]."""
     design = make_design(mu=mu)
     models = replace(design.models, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
     finer = replace(design, models=models)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from rotor.support.assets import asset_path
 from rotor.support.chart import Chart
 from rotor.support.plots import draw_chart, drawing_module
 from rotor.support.units import typographic
@@ -16,24 +17,6 @@ from rotor.validation.thesis.misprints import misprint_table
 from rotor.validation.thesis.report import Report, ReportTable
 from rotor.validation.thesis.runs import CachedFunction
 
-_STYLE = {
-    "font.size": 9.0,
-    "font.family": "sans-serif",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#aaaaaa",
-    "grid.alpha": 0.4,
-    "grid.linewidth": 0.6,
-    "axes.edgecolor": "#888888",
-    "axes.titlesize": 9.0,
-    "legend.fontsize": 8.0,
-    "legend.framealpha": 0.8,  # Above the lines, where no corner is free.
-    "legend.edgecolor": "none",
-    "lines.linewidth": 1.6,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "rotor",
-}
 _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
 NAMED_CURVES = 3
@@ -59,7 +42,7 @@ def draw(report: Report, folder: Path) -> None:
     width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT) if count == 1 else (_WIDTH * across, _HEIGHT)
     if count == 1 and panels[0].y.names:
         width, height = 1.9 * _WIDTH, 1.5 * _HEIGHT
-    with drawing_module("matplotlib").rc_context(_STYLE):
+    with drawing_module("matplotlib.style").context(asset_path("thesis.mplstyle")):
         figure: Any = drawing_module().Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):

@@ -5,7 +5,7 @@ figure 3.10, power over speed beside public UH-60A data.
 """
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from rotor.files.make_design import uh60a_data
 from rotor.support.chart import Axis, Chart
 from rotor.trim.solve import solve
 from rotor.validation.thesis.ladder import rung_design
-from rotor.validation.thesis.report import Agreement, Report, curve, judged, panel, report, table
+from rotor.validation.thesis.report import Agreement, Report, curve, judged, panel, report, table, thesis
 from rotor.validation.thesis.runs import solve_variant
 from rotor.validation.uh60a import SLOWEST, hover_comparison, model_curve_comparison, model_curve_errors
 
@@ -147,31 +147,13 @@ SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.3
 TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 """The thesis' hovering, low, medium and high speed; it states no numbers for them."""
 
-DOCUMENT_3_1 = {"radius_m": 1.6764, "angular_speed_rad_s": 124.62, "chord_m": 0.2469, "blades": 4.0, "arm_m": 9.926}
-DOCUMENT_3_2 = {
-    "radius_m": 8.1788,
-    "angular_speed_rad_s": 27.0,
-    "reference_chord_m": 0.5273,
-    "blades": 4.0,
-    "mass_per_length_kg_m": 13.92,
-    "mass_kg": 8322.4,
-}
 
-
-def table_3_1() -> Report:
-    """The tail rotor."""
-    return _as_loaded("table 3.1", DOCUMENT_3_1, uh60a_data()["tail_rotor"])
-
-
-def table_3_2() -> Report:
-    """The main rotor."""
+def loaded_table(number: str) -> Report:
+    """The numbers of `table 3.1`, the tail rotor, or of `table 3.2`, the main rotor, beside those that are loaded."""
     data = uh60a_data()
     main = data["main_rotor"]
-    return _as_loaded("table 3.2", DOCUMENT_3_2, {**main, **main["document"], **data["airframe"]})
-
-
-def _as_loaded(number: str, document: dict[str, float], data: dict[str, Any]) -> Report:
-    rows = [(key, value, float(data[key])) for key, value in document.items()]
+    loaded = data["tail_rotor"] if number == "table 3.1" else {**main, **main["document"], **data["airframe"]}
+    rows = [(key, value, float(loaded[key])) for key, value in thesis()[number]["numbers"].items()]
     worst = max(abs(mine / theirs - 1.0) for _, theirs, mine in rows)
     return report(
         number,
@@ -213,11 +195,6 @@ RAISED_MU = 0.2
 TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
 
 
-def _total_panel(total: dict[str, list[float]]) -> Chart:
-    lines = tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS))
-    return panel("8322.4 kg, sea level", "advance ratio µ", "total power [kW]", lines)
-
-
 def figure_3_10() -> Report:
     """Power over advance ratio, with public data of the UH-60A."""
     total = {
@@ -232,6 +209,7 @@ def figure_3_10() -> Report:
     section, line = (power / plain - 1.0 for power in raised)
     hover_ratio = np.array(hover_computed) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
+    lines = tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS))
     main_rotor = panel(
         "7257.5 kg, 1600 m",
         "advance ratio µ",
@@ -259,7 +237,7 @@ def figure_3_10() -> Report:
                 zip(hover_ct, hover_cp, hover_computed, strict=True),
             ),
         ),
-        panels=(_total_panel(total), main_rotor, hover),
+        panels=(panel("8322.4 kg, sea level", "advance ratio µ", "total power [kW]", lines), main_rotor, hover),
         numbers={
             "rms_to_model_curve": error,
             "mean_to_model_curve": mean,

@@ -108,7 +108,7 @@ def linear_optimum(on: tuple[str, ...], mu: float, inflow: str | None) -> Linear
 
 @CachedFunction
 def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | None) -> MovingTwist:
-    """The best fixed blade, and what moving saves beyond it."""
+    """The best fixed blade, and what moving saves beyond it; ValueError where it does not trim at all speeds."""
     moving = [linear_optimum(on, mu, inflow) for mu in speeds]
     design = rung_design(on, speeds[0], inflow=inflow)
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds)

@@ -101,7 +101,7 @@ _INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 
 
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
-    """A preset, or a preset with its inflow exchanged."""
+    """A preset, or a preset with its inflow exchanged; mass [kg]."""
     design = make_design(preset=name.partition("-")[0], twist=twist, mu=mu, mass_kg=mass)
     models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
     return replace(design, models=models)

@@ -11,13 +11,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
+from rotor.actuator import try_actuator
 from rotor.actuator.optimum import ConditionPair, best_actuated
 from rotor.actuator.pay import WANTED_SHARE, BreakEven, break_even, other_stroke, pay_sentence, with_mass
 from rotor.actuator.tables import pay_table
-from rotor.actuator.verdict import try_actuator
-from rotor.design.twist import LinearTwist
-from rotor.files.make_design import make_design
-from rotor.trim.solve import solve
+from rotor.design import LinearTwist
 
 
 def pair(rotor: str = "uh60a") -> ConditionPair:

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor import Design, Solution, make_design
+from rotor import Design, Solution, make_design, solve
 from rotor.aero.disk import stations
 from rotor.aero.display import as_asked, resampling
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
-from rotor.trim.analysis import Analysis
-from rotor.trim.solve import analyse, solve
+from rotor.trim import Analysis, analyse
 from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
 
 FAST, HEAVY = 0.35, 9500.0

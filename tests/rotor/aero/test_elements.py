@@ -13,7 +13,7 @@ from rotor.aero.section import LOSS
 from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import disk_sums as sums_at
 from rotor.trim.power import hub_moment
-from tests.rotor.check_jacobian import disk_sums, elements_at, point_at
+from tests.rotor.at_state import disk_sums, elements_at, point_at
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 

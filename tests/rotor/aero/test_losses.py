@@ -9,7 +9,6 @@ from numpy.testing import assert_allclose
 
 from rotor import Solution, make_design, solve
 from rotor.aero.losses import HUB_FACTOR, loss_factor, mean_loss_factor
-from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
@@ -64,18 +63,6 @@ def test_without_losses_it_does_not_matter_where_they_act():
     hover = [with_loss(on, 0.0, "thesis").power for on in LOSS_ON]
     for one, other in (whole, hover):
         assert_allclose(one.main_rotor, other.main_rotor, rtol=1e-12)
-
-
-def test_hover_of_the_thesis_is_the_closed_form():
-    """λ of every annulus against (3.3) with the F of its own λ, for the straight lift curve of the section data."""
-    one = with_loss("inflow", 0.0, "thesis")
-    problem, disk = Analysis(one).linear.problem, one.disk
-    slope, zero = lift_curve(problem)
-    inflow = disk.induced[:, 0]
-    factor, _ = loss_factor(disk.r, inflow, 4, 0.1304)
-    pitch = disk.theta[:, 0] - zero
-    assert_allclose(inflow, closed_form_inflow(disk.r, pitch, one.design.rotor.solidity, slope[0], factor=factor),
-                    rtol=1e-8)  # fmt: skip
 
 
 def test_loss_on_the_inflow_is_that_of_the_annulus_in_fast_flight():

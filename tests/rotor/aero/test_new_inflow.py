@@ -14,12 +14,11 @@ from rotor import make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS, DiskFlow
 from rotor.aero.inflow.harmonic import HarmonicInflow
 from rotor.aero.inflow.linear import MODELS
+from rotor.design import LinearTwist
 from rotor.design.quantities import LossOn
-from rotor.design.twist import LinearTwist
-from rotor.trim.analysis import power_gradient
+from rotor.trim import SolverOptions, power_gradient
 from rotor.trim.doubt import other_models
 from rotor.trim.hub_loads import band_inflows
-from rotor.trim.newton import SolverOptions
 
 NAME, FILE = "printed-table", "printed_table"
 TEXT = '''"""The first and second harmonic of the inflow at five radii and four angles of the wake."""

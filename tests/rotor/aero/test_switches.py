@@ -24,9 +24,8 @@ from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft
 from rotor.study.series import PARTS, waterfall, waterfall_steps
 from rotor.support.assets import asset_path
-from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
-from tests.rotor.check_jacobian import elements_at, point_at
+from tests.rotor.at_state import elements_at, point_at
 from tests.solved import assert_same_trim
 
 
@@ -137,18 +136,6 @@ class TestFlapping:
         assert_allclose(moment.roll / unit, by_hand, rtol=1e-4)
         assert_allclose(moment.pitch / unit, 0.0, atol=1e-12)
         assert moment.roll > 0.0
-
-    def test_hinge_moment_is_the_shear_at_the_hinge(self):
-        """e (F1 + S Ω² β1), the same from the other side: shear of lift and of the flapping blade's inertia."""
-        design = make_design(mu=0.25)
-        design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
-        solution = solve(design).require()
-        disk, rotor, c = Analysis(solution).linear.problem.disk, design.rotor, solution.controls
-        lift = disk.dr @ Analysis(solution).linear.elements.fz * design.thrust_unit / len(disk.psi)
-        offset = rotor.blade.flap_hinge * rotor.radius
-        inertia = 0.5 * rotor.blades * rotor.blade.flap_static_moment * rotor.angular_speed**2
-        assert_allclose(solution.hub_moment.roll, offset * (lift @ np.sin(disk.psi) + inertia * c.flap_1s), rtol=1e-6)
-        assert_allclose(solution.hub_moment.pitch, -offset * (lift @ np.cos(disk.psi) + inertia * c.flap_1c), rtol=1e-6)
 
 
 class TestLossesAndFuselage:

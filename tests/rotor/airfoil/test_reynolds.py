@@ -16,8 +16,7 @@ from rotor.airfoil.reynolds import by_reynolds, shares
 from rotor.airfoil.sections import OwnSection, install_own
 from rotor.design.blade import Span
 from rotor.files.rotor_file import read_aircraft
-from rotor.trim.analysis import power_gradient
-from rotor.trim.newton import SolverOptions
+from rotor.trim import SolverOptions, power_gradient
 
 KNOTS = (50e3, 100e3, 200e3, 400e3)
 ALPHA = np.arange(-10.0, 16.5, 0.5)

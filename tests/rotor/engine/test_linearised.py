@@ -17,12 +17,11 @@ from numpy.testing import assert_allclose
 
 from rotor import Design, make_design
 from rotor.aero.section import M
-from rotor.design.active_twist import ActiveTwist, Harmonic
-from rotor.design.aircraft import Stand
+from rotor.design import ActiveTwist, Harmonic, Stand
 from rotor.engine.linearise import MeasureSlopes, Point, evaluate, jacobian, part, transposed
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array
-from rotor.trim.solve import analyse
+from rotor.trim import analyse
 
 STEPS = 10.0 ** -np.arange(4.0, 7.6, 0.5)
 ACTIVE = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))
@@ -41,11 +40,12 @@ class Case:
     active: ActiveTwist | None = None
     flap: tuple[float, float] = (0.0, 0.0)
     grid: tuple[int, int] = (20, 40)
+    mass: float | None = None
     models: tuple[tuple[str, Any], ...] = ()
 
 
-def flight(mu: float = 0.2, **models: Any) -> Case:
-    return Case(mu, models=tuple(models.items()))
+def flight(mu: float = 0.2, *, mass: float | None = None, **models: Any) -> Case:
+    return Case(mu, mass=mass, models=tuple(models.items()))
 
 
 def stand(trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | None = None, **given: Any) -> Case:
@@ -74,6 +74,11 @@ CASES = {
     "without yawed drag": flight(radial_friction=False),
     "without tip sweep": flight(swept_tip=False),
     "one Mach number": flight(compressibility=False),
+    **{f"bending, {name}": flight(0.3, inflow=name, bending=True) for name in ("pitt-peters", "local-momentum")},
+    "bending, lifting-line": flight(0.3, bending=True),
+    "stalled": flight(0.35, mass=9500.0),
+    "rigid, stalled": flight(0.35, mass=9500.0, elastic_twist=False),
+    "bending, stalled": flight(0.35, mass=9500.0, bending=True),
     "active twist": Case(active=ACTIVE, flap=(-0.02, 0.01)),
     "rigid active twist": Case(active=ACTIVE, models=(("elastic_twist", False),)),
     "joined with hover": flight(0.06),
@@ -111,7 +116,9 @@ CASES = {
 
 def design(case: Case) -> Design:
     """A design on a coarse grid."""
-    at = make_design(mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand)
+    at = make_design(
+        mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand, mass_kg=case.mass
+    )
     elements, azimuths = case.grid
     return replace(
         at,

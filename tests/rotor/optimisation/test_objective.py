@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor import Design, FlightCondition, make_design, solve
-from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation import CONCEPTS
 from rotor.optimisation.limits import stalled_share
 from rotor.optimisation.objective import (
     Objective,
@@ -19,8 +19,7 @@ from rotor.optimisation.objective import (
     hover_and_cruise,
     read_mission,
 )
-from rotor.trim.analysis import Analysis
-from rotor.trim.newton import SolverOptions
+from rotor.trim import Analysis, SolverOptions
 
 
 def small(mu: float, **choices: float) -> Design:

@@ -10,10 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor import Design, Limits, make_design, solve
-from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import WeightedCondition
+from rotor.optimisation import CONCEPTS, Schedule, ScheduleOptimum, SchedulePlan, WeightedCondition, run_plan
 from rotor.optimisation.results import Minimum, SearchStatus
-from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from tests.solved import SAME
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor import Design, hub_loads, make_design, run_study
+from rotor import Design, hub_loads, make_design, run_study, solve
 from rotor.__main__ import main
 from rotor.command.common import interruptible
 from rotor.command.study import record, report
@@ -36,8 +36,7 @@ from rotor.study.results import Results, best_row, main_effects, read_results, r
 from rotor.study.study import QUANTITIES, StudyAxis, StudyPoints, StudySample, columns_of
 from rotor.study.study_file import StudyFile, parse_study, read_study
 from rotor.support.assets import asset_path
-from rotor.trim.analysis import Analysis
-from rotor.trim.solve import analyse, solve
+from rotor.trim import Analysis, analyse
 
 WHENCE = StudyProvenance("0.0", None, "0")
 COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'

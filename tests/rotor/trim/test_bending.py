@@ -20,11 +20,8 @@ from rotor.engine.linearise import Point, evaluate
 from rotor.engine.waves import wave_grid, waves_at
 from rotor.support.arrays import Array
 from rotor.support.units import GRAVITY
-from rotor.trim.analysis import Analysis, power_gradient
+from rotor.trim import Analysis, SolverOptions, power_gradient, why_no_hub_loads
 from rotor.trim.hub_loads import HubLoads, hub_loads, index_along
-from rotor.trim.newton import SolverOptions
-from rotor.trim.no_hub_loads import why_no_hub_loads
-from tests.rotor.check_jacobian import check_along
 from tests.rotor.root_loads import displacements, root_loads
 
 LINEAR, LINE = "pitt-peters", "lifting-line"
@@ -52,16 +49,6 @@ def _loads(solution: Solution) -> HubLoads:
     found = hub_loads(solution, band=False)
     assert found is not None
     return found
-
-
-@pytest.mark.parametrize("inflow", [LINEAR, "local-momentum", LINE])
-def test_jacobian(inflow: str) -> None:
-    _, point, _ = _at(_solved(0.3, inflow))
-    along = (
-        np.random.default_rng(1).standard_normal(len(point.system.free)) * 1e-6
-    )  # Stall data have kinks: no further.
-    along[len(point.system.structure.free) :] *= 0.01
-    check_along(point, along, 1e-6)
 
 
 @pytest.mark.parametrize("inflow", [LINEAR, LINE])

@@ -12,20 +12,15 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
+from rotor import Design, Solution, load_rotor, make_design, solution_record, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, axial_inflow, glauert_inflow, vortex_ring_edge
 from rotor.aero.problem import build_problem
 from rotor.columns.hover import closed_form_inflow, lift_curve
-from rotor.design.design import Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
-from rotor.files.make_design import make_design
-from rotor.files.rotor_file import load_rotor
-from rotor.trim.export import solution_record
-from rotor.trim.newton import SolverOptions
-from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
+from rotor.trim import SolverOptions
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 

@@ -12,12 +12,11 @@ import pytest
 from rotor import Design, distribution, make_design, optimise, solution_record, solve, sweep
 from rotor.aero.switches import no_effect
 from rotor.design.aircraft import Stand
-from rotor.trim.analysis import Analysis, power_gradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.validity import MOST_STALLED
-from tests.rotor.check_jacobian import check_along
 from tests.solved import assert_same_trim
 
 HEAVY: dict[str, Any] = {"mu": 0.35, "mass_kg": 9500.0}
@@ -25,25 +24,6 @@ HEAVY: dict[str, Any] = {"mu": 0.35, "mass_kg": 9500.0}
 
 def steady(design: Design) -> Design:
     return replace(design, models=replace(design.models, dynamic_stall=False))
-
-
-@pytest.mark.parametrize("changed", [{}, {"off": "elastic-twist"}, {"bending": True}])
-def test_the_jacobian_is_exact(changed: dict[str, Any]):
-    solution = solve(make_design(**HEAVY, **changed)).require()
-    assert solution.disk.unsteady.separation.min() < 0.5
-    point = Analysis(solution).adjoint.point
-    along = np.random.default_rng(1).normal(size=len(point.system.free)) * point.system.limits
-    check_along(point, along * (5e-6 / np.abs(along).max()), 1e-5)
-
-
-def test_the_gradient_is_that_of_trims():
-    """Power by linear twist. The wake lies still, as it does for the gradient."""
-    design = make_design(**HEAVY, twist="linear:-10")
-    solution = solve(design).require()
-    gradient = power_gradient(solution)
-    along = gradient.along((gradient.r - 0.75)[None])[0]
-    powers = [solve(design.with_twist(f"linear:{rate}"), solution).require().power.total for rate in (-9.99, -10.01)]
-    assert along == pytest.approx((powers[0] - powers[1]) / np.radians(0.02), rel=2e-3)
 
 
 def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch: pytest.MonkeyPatch):

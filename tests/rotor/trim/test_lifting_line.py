@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor import Design, Solution, make_design, optimise
+from rotor import Design, Solution, make_design, optimise, solve
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Losses
 from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
@@ -18,12 +18,11 @@ from rotor.airfoil.sections import load_section
 from rotor.columns.flight import disk_sums
 from rotor.engine.linearise import Point
 from rotor.engine.newton import Factors
-from rotor.trim.analysis import power_gradient
+from rotor.trim import analyse, power_gradient
 from rotor.trim.forward import along, trim
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.power import power_budget
-from rotor.trim.solve import analyse, solve
-from rotor.validation.compare import design_at, load_set
+from rotor.validation import design_at, load_set
 
 
 def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:

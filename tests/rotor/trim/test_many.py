@@ -8,8 +8,7 @@ import pytest
 import rotor
 from rotor import Design, Solution, make_design, solve, solve_many
 from rotor.engine import lockstep
-from rotor.trim import SolverOptions, analyse_many, power_gradient
-from rotor.trim.many import analyse
+from rotor.trim import SolverOptions, analyse, analyse_many, power_gradient
 from tests.solved import SAME
 
 RATES = (-16.0, -13.5, -12.0, -9.0, -7.0, -4.0)

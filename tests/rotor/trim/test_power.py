@@ -14,7 +14,7 @@ from rotor.aero.inflow.linear import MODELS
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
 from rotor.trim.power import power_budget, profile_power_coefficient, tail_rotor_power
-from tests.rotor.check_jacobian import disk_sums, elements_at
+from tests.rotor.at_state import disk_sums, elements_at
 
 TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8,-18"]
 

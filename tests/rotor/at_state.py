@@ -1,14 +1,10 @@
-"""The equations of a flight at any state, and their Jacobian against differences."""
-
-import numpy as np
-from numpy.testing import assert_allclose
+"""The equations of a flight at any state, its blade elements and their sums over the disk."""
 
 from rotor.aero.disk import Disk
 from rotor.aero.elements import STATE_NAMES, BladeElements, DiskSums, TrimState
 from rotor.aero.problem import Problem
 from rotor.columns.flight import elements_of, flight_system
-from rotor.engine.linearise import Point, evaluate, jacobian, transposed
-from rotor.support.arrays import Array
+from rotor.engine.linearise import Point, evaluate
 from rotor.trim.newton import Guess, first_point
 
 
@@ -31,19 +27,3 @@ def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
     drag = across @ disk.sin + (along - elements.beta * lift) @ disk.cos
     return DiskSums(float(lift.sum()), float(drag), float(disk.r * width @ elements.fx.sum(axis=1)))
-
-
-def check_along(point: Point, along: Array, tolerance: float) -> None:
-    """The Jacobian along a change of all unknowns against differences of fourth order; and its transpose."""
-    system, exact = point.system, jacobian(point)[0]
-
-    def residual(share: float) -> Array:
-        x = point.x.copy()
-        x[system.free] += share * along
-        return evaluate(system, point.grid, x).residual
-
-    near, far = residual(0.1) - residual(-0.1), residual(0.2) - residual(-0.2)
-    expected = (8.0 * near - far) / 1.2
-    assert_allclose(exact @ along, expected, atol=tolerance * float(np.abs(expected).max()))
-    weights = np.random.default_rng(2).standard_normal(len(along)) / system.tolerance
-    assert_allclose(transposed(point, weights)[0] @ along, weights @ exact @ along, rtol=1e-9)
