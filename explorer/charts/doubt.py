@@ -19,7 +19,7 @@ _LEAST_PART = 1e-4
 def card_words(band: Doubt, units: Units) -> Sureness:
     """Beside the power, its band; the sentence has that of the change too."""
     within = units.power[0].of(band.band)
-    return Sureness(f"± {number(within, decimals(within))}", band.sentence)
+    return Sureness(f"± {number(within, decimals(within))}" if band.of_total else "", band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:
@@ -35,7 +35,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
             tag("td", row.words),
             tag("td", tag("i", style=f"width:{100.0 * size / longest:.0f}%")),
             tag("td.rx-num", f"± {number(size, decimals(size))} {unit.symbol}"),
-            title=f"{row.words}, {f'{row.size:g} {row.unit}'.rstrip()}: {row.source}",
+            title=f"{row.words}, {row.size_words}: {row.source}",
         )
         for row, size in sizes
         if size >= _LEAST_PART * longest

@@ -118,16 +118,14 @@ def trim(solution: Solution) -> Markup:
 
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
-    """How sure power is, and its change from the reference, each above its causes; nothing for a free rotor."""
+    """How sure power is, and its change from the reference, each above its causes."""
     solution, other = entry.solution, report.reference.solution
-    if solution.design.models.trim == "free-rotor" or other.design.models.trim == "free-rotor":
-        return Markup()
     compared = report.comparable(entry) and not report.is_reference(entry)
     band, unit = doubt(solution, other if compared else None), report.units.power[0]
 
     def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
         """The largest, and the rest as one: their squares add up to that of the first row."""
-        named = [(f"{row.words} ± {row.size:g} {row.unit}".rstrip(), abs(of(row))) for row in band.rows]
+        named = [(f"{row.words} ± {row.size_words}", abs(of(row))) for row in band.rows]
         named.sort(key=lambda one: -one[1])
         sizes = [(words, math.hypot(*(size for _, size in named))), *named[:MOST_ROWS]]
         if rest := named[MOST_ROWS:]:

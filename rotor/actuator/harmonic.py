@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from rotor.actuator.kind import InstalledActuator
 from rotor.design.design import Design
-from rotor.optimisation.doubt import mean_doubt
+from rotor.optimisation.doubt import difference_doubt
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
@@ -68,7 +68,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
         if inflow == design.models.inflow:
             one.require()
             other.require()
-            doubt = mean_doubt((1.0,), (one,), (other,))
+            doubt = difference_doubt((1.0,), (one,), (other,))
         if one.converged and other.converged:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:

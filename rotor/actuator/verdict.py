@@ -15,7 +15,7 @@ from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseli
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept
-from rotor.optimisation.doubt import mean_doubt
+from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
 from rotor.trim.doubt import Doubt, sureness
 from rotor.trim.solution import Solution
@@ -257,7 +257,7 @@ def judge(
         ),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
-        doubt=mean_doubt(pair.shares, heavy, counted_from),
+        doubt=difference_doubt(pair.shares, heavy, counted_from),
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )

@@ -103,6 +103,8 @@ class Optimum:
     """How sure the saving is; None where the band was not requested, or the objective is not total power."""
     doubt_band: tuple[ParameterBand, ...] = ()
     """Where each parameter may lie by what is uncertain; empty where that is not known."""
+    doubt_cost: float | None = None
+    """Power that the best twist is expected to need above the least, because the least may lie elsewhere [W]."""
 
     def __repr__(self) -> str:
         head = f"Optimum({self.concept}, {self.status.value}"

@@ -1,12 +1,17 @@
-"""How sure a power is, and how much surer a difference between two designs: what uncertain inputs do, to first order.
+"""How sure a power is, and how much surer a difference between two designs.
 
 What is uncertain and by how much: `rotor.design.uncertain`; what it does: `rotor.trim.power_changes`.
 An input is as wrong for one design as for another, so the change of a *difference* is the difference of the changes.
 Inputs are wrong independently of one another, so their changes are summed as squares.
+
+The model's own errors are shares of induced and profile power, fitted to measured powers (`rotor.validation.doubt`).
+They say little about how induced power differs between two designs. For that inflow models are compared.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
@@ -14,6 +19,7 @@ from rotor.design.uncertain import Uncertain, uncertain_inputs
 from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
+from rotor.trim.low_speed import hover_share
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -21,6 +27,10 @@ SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
 LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
+OF_DIFFERENCES = HOVER_WAKE, INFLOW_MODEL = "hover_wake_percent", "inflow_model_percent"
+"""Uncertain inputs that count for differences only."""
+COMPARED_INFLOWS = ("lifting-line", "pitt-peters")
+"""Inflow models whose disagreement about a difference is taken as its error."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +41,11 @@ class DoubtRow(Uncertain):
     """Change of total power where the input is larger by its size [W]."""
     change: float | None = None
     """Change by the input of the power less that of the design compared with [W]; None without one."""
+
+    @property
+    def size_words(self) -> str:
+        """The size with its unit, as `5 %`."""
+        return f"{self.size:g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -59,6 +74,8 @@ class Doubt:
     """SPEC of its twist."""
     models: tuple[OtherModels, ...] = ()
     """Beside the band, not in it."""
+    of_total: bool = True
+    """Whether `power` is total power; else the drag of a free rotor times speed."""
 
     def __repr__(self) -> str:
         return f"Doubt({self.sentence})"
@@ -106,7 +123,8 @@ class Doubt:
         """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
-        words = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        name = "Power" if self.of_total else "Drag times speed"
+        words = f"{name} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
         change, within, sure = self.change, self.change_band_percent, self.change_words
         if change is None or within is None or not self.against:
             return words
@@ -158,7 +176,8 @@ def decimals(band: float) -> int:
 def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = None, *, models: bool = False) -> Doubt:
     """The uncertainty of a design's power, and that of its difference from another design.
 
-    Most causes act on both designs alike, so the difference is far more certain than the power.
+    Most causes act on both designs alike, so the difference is more certain than the power. Of a free rotor the power
+    is its drag times speed.
 
     Parameters:
         solution: a converged trim, or its `rotor.trim.Analysis`, which keeps what this computes.
@@ -169,7 +188,8 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
         Bands [W] of the power and of the difference, each with its parts.
 
     Raises:
-        RuntimeError: a solution is not converged, or is of a free rotor, which takes no power.
+        RuntimeError: a solution is not converged.
+        ValueError: one rotor is free and the other is driven.
 
     Example:
         >>> here, built = (rotor.solve(rotor.make_design(mu=0.3, twist=twist)) for twist in ("linear:-12", "builtin"))
@@ -178,25 +198,95 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
         True
     """
     trim, other = analysed(solution), None if against is None else analysed(against)
-    solution, here, there = trim.solution, trim.power_changes, None if other is None else other.power_changes
-    known = {row.name: row for row in uncertain_inputs(solution.design)}
+    found = mean_doubt((1.0,), (trim,), None if other is None else (other,))
+    designs = (each.solution.design for each in (trim, other) if each is not None)
+    return replace(found, models=alternative_models(*designs)) if models else found
+
+
+def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None) -> Doubt:
+    """`doubt` of a mean power over conditions."""
+    first = here[0].solution.design
+    if there is not None and _is_free(first) != _is_free(there[0].solution.design):
+        raise ValueError("A free rotor takes no power from its shaft: compare it with another free rotor.")
+    changes, others = mean_changes(shares, here, there) if there is not None else (*mean_changes(shares, here), None)
     rows = [
         DoubtRow(
             **vars(row),
-            power=here.get(name, 0.0),
-            change=None if there is None else here.get(name, 0.0) - there.get(name, 0.0),
+            power=0.0 if row.name in OF_DIFFERENCES else changes.get(row.name, 0.0),
+            change=None if others is None else changes.get(row.name, 0.0) - others.get(row.name, 0.0),
         )
-        for name, row in known.items()
-        if name in here or (there is not None and name in there)
+        for row in uncertain_inputs(first)
+        if row.name in changes or (others is not None and row.name in others)
     ]
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
-        solution.power.total,
+        _mean_power(shares, here),
         tuple(rows),
-        None if other is None else other.solution.power.total,
-        None if other is None else other.solution.design.twist.spec(),
-        alternative_models(solution.design, None if other is None else other.solution.design) if models else (),
+        None if there is None else _mean_power(shares, there),
+        None if there is None else there[0].solution.design.twist.spec(),
+        of_total=not _is_free(first),
     )
+
+
+def mean_changes(shares: Sequence[float], *designs: Sequence[Analysis]) -> list[dict[str, float]]:
+    """What every uncertain input does to the mean power of each design [W], as `rotor.trim.power_changes`.
+
+    Of several designs, given with the trim in each condition, with the inputs that only their difference has.
+    """
+    means = [dict[str, float]() for _ in designs]
+    for share, trims in zip(shares, zip(*designs, strict=True), strict=True):
+        changes = [dict(trim.power_changes) for trim in trims]
+        if len(trims) > 1:
+            _add_inflow_changes(changes, [trim.solution for trim in trims])
+        for mean, each in zip(means, changes, strict=True):
+            for name, change in each.items():
+                mean[name] = mean.get(name, 0.0) + share * change
+    return means
+
+
+def _add_inflow_changes(changes: Sequence[dict[str, float]], solutions: Sequence[Solution]) -> None:
+    """Add the inputs `OF_DIFFERENCES` in one condition, by design [W].
+
+    Errors that two inflow models share cancel in a difference of designs; those that they do not share stay. In hover,
+    and where the other model has no trim, it is a part of induced power.
+    """
+    designs = [solution.design for solution in solutions]
+    size = {row.name: 0.01 * row.size for row in uncertain_inputs(designs[0])}
+    hovering = any(design.hovering for design in designs)
+    others = [None if hovering else _power_with_other_inflow(design) for design in designs]
+    for each, solution, other in zip(changes, solutions, others, strict=True):
+        share, differ = 1.0, 0.0
+        if other is not None and None not in others:
+            share, differ = hover_share(solution.design), known_power(solution) - other
+        each[HOVER_WAKE] = share * size[HOVER_WAKE] * solution.power.induced
+        each[INFLOW_MODEL] = size[INFLOW_MODEL] * differ
+
+
+def with_other_inflow(design: Design) -> Design:
+    """The design with the other of `COMPARED_INFLOWS`."""
+    inflow = next(name for name in COMPARED_INFLOWS if name != design.models.inflow)
+    return replace(design, models=replace(design.models, inflow=inflow))
+
+
+@lru_cache(maxsize=64)
+def _power_with_other_inflow(design: Design) -> float | None:
+    """[W]; None where it does not trim."""
+    other = solve(with_other_inflow(design))
+    return known_power(other) if other.converged else None
+
+
+def known_power(solution: Solution) -> float:
+    """Total power, or of a free rotor, which takes none from its shaft, drag times speed [W]."""
+    power = solution.power
+    return power.total - power.parasite if _is_free(solution.design) else power.total
+
+
+def _mean_power(shares: Sequence[float], trims: Sequence[Analysis]) -> float:
+    return sum(share * known_power(trim.solution) for share, trim in zip(shares, trims, strict=True))
+
+
+def _is_free(design: Design) -> bool:
+    return design.models.trim == "free-rotor"
 
 
 def usual_inflows() -> tuple[str, ...]:

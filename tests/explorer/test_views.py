@@ -195,9 +195,10 @@ class TestWithoutATrim:
         assert (card.total, card.parts, card.status.kind) == ("–", (), "problem")
 
 
-def test_a_free_rotor_has_neither_doubt_nor_slopes():
-    now = now_at(FREE)
-    assert (sureness(now), worth(now)["worth"], slopes_asked(now)) == (Sureness(), {}, ())
+def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
+    now = soon(now_at(FREE))
+    assert (sureness(now).within, worth(now)["worth"], slopes_asked(now)) == ("", {}, ())
+    assert sureness(now).doubt.startswith("Drag times speed")
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
