@@ -2,7 +2,7 @@
 
 from rotor.validation.airloads import CASES, FlownCase, MeasuredCurve, agreement, computed_curve, measured_curves
 from rotor.validation.compare import Comparison, MeasuredSet, compare, compare_point, design_at, load_set, sets_of
-from rotor.validation.trust import TrustRow, trust_rows
+from rotor.validation.trust import TrustRow, coverage, trust_rows
 from rotor.validation.uh60a import public_data
 
 __all__ = (
@@ -16,6 +16,7 @@ __all__ = (
     "compare",
     "compare_point",
     "computed_curve",
+    "coverage",
     "design_at",
     "load_set",
     "measured_curves",

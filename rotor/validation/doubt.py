@@ -22,7 +22,7 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.compare import SETS, at_zero, design_at, load_set
 from rotor.validation.flown import measured_powers
-from rotor.validation.trust import TrustRow, TrustSet, description
+from rotor.validation.trust import LEFT_OUT, TrustRow, TrustSet, description
 
 NAME = "doubt"
 ROTORS = {
@@ -43,8 +43,6 @@ MODEL = ("induced_power_percent", "profile_power_percent")
 """Uncertain inputs whose sizes are fitted."""
 COVERAGES = {50: 0.6745, 68: 1.0, 90: 1.6449}
 """Part of the points that belongs within so many bands [%], of a normal distribution."""
-LEFT_OUT = "Mean over rotors, each left out of the fit"
-"""The row that states how often a band holds for a rotor that had no part in it."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +160,8 @@ def doubt_set() -> TrustSet:
         over = [point.over_band(sizes) for point in mine]
         band = float(np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)]))
         mean, inside = float(np.mean([point.error for point in mine])), sum(abs(z) <= 1.0 for z in over)
-        shown = f"mean {100 * mean:+.0f} %, {inside} of {len(mine)} within ± {100 * band:.0f} %"
+        way = "low" if mean > 0.0 else "high"
+        shown = f"{100 * abs(mean):.0f} % too {way} in the mean, {inside} of {len(mine)} within ± {100 * band:.0f} %"
         rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
         series.append(Points("", over, [k] * len(mine), 1))
         held = _percent(coverage((point, sizes) for point in mine))
