@@ -8,6 +8,7 @@ from explorer.parts.results import Sureness
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import Doubt, OtherModels, decimals
+from rotor.validation import coverage
 
 _SQUARE_METRE = Unit("m²", 1.0)
 MOST_ROWS = 6
@@ -19,7 +20,10 @@ _LEAST_PART = 1e-4
 def card_words(band: Doubt, units: Units) -> Sureness:
     """Beside the power, its band; the sentence has that of the change too."""
     within = units.power[0].of(band.band)
-    return Sureness(f"± {number(within, decimals(within))}" if band.of_total else "", band.sentence)
+    if not band.of_total:
+        return Sureness(doubt=band.sentence)
+    holds = f"{100.0 * coverage():.0f} % of measurements lie in this band"
+    return Sureness(f"± {number(within, decimals(within))}", holds, band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:
@@ -77,6 +81,8 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))
     title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
+    if best.cost is not None:
+        title += f"; if inputs or inflow are otherwise, it costs about {units.watts(best.cost, 1)}"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

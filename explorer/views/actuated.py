@@ -150,10 +150,10 @@ class ActuatedBlade:
         return PowerChange(known.power[0], known.band) if isinstance(known, EffectInFlight) else None
 
     @property
-    def vibration(self) -> tuple[float, ...]:
-        """In this flight [%], by inflow model; empty where there are no hub loads."""
+    def vibration(self) -> EffectInFlight | None:
+        """In this flight; None where there are no hub loads."""
         known = self.now.of(change_here)
-        return known.index if isinstance(known, EffectInFlight) else ()
+        return known if isinstance(known, EffectInFlight) and known.index else None
 
     @property
     def over_flight(self) -> PowerChange | None:

@@ -50,7 +50,13 @@ class EffectInFlight:
     index: tuple[float, ...]
     """Change of the vibration index [%]; empty where there are no hub loads, as of blades that do not bend."""
     band: float | None = None
-    """Of the first power by uncertain inputs, to both sides [W]."""
+    """Of the first power, to both sides [W]."""
+
+    @property
+    def index_band(self) -> float | None:
+        """Of the first index, to both sides [%]: half of the largest difference of another model; None without one."""
+        first, *others = self.index or (0.0,)
+        return 0.5 * max(abs(other - first) for other in others) if others else None
 
 
 def effect(design: Design, reference: Design) -> EffectInFlight:

@@ -285,9 +285,14 @@ def verdict_sentence(verdict: Verdict) -> str:
 
 
 def _sure(verdict: Verdict) -> str:
+    words = net_band_words(verdict)
+    return f" ({words})" if words else ""
+
+
+def net_band_words(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    return "" if band is None else f" (± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)})"
+    return "" if band is None else f"± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)}"
 
 
 def verdict_details(verdict: Verdict) -> str:

@@ -40,9 +40,9 @@ def _cold(design: Design) -> Sequence[Solution]:
 def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
     """The uncertainty of a mean power and of its difference from that of the baseline.
 
-    None where one does not trim, or the objective is not total power.
+    None where one does not trim, or the objective is induced power.
     """
-    if objective.quantity != "total":
+    if objective.quantity == "induced":
         return None
     here, there = (
         evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.doubt import difference_doubt, saving_doubt
 from rotor.optimisation.evaluator import TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
@@ -222,6 +222,8 @@ def _searches(
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
+        if optimum.best is not None:
+            optimum = replace(optimum, doubt=saving_doubt(objective, optimum.design, design))
         known[condition, concept.name] = cell = ScheduleOptimum(condition, concept.name, optimum)
         yield cell
 

@@ -404,7 +404,8 @@ def best_linear_twist(design: Design) -> BestTwist:
         ranges += [
             TwistRange("wake", (result.best.parameters[0], rate(line))) for line in other_models(design).values()
         ]
-    return BestTwist(result.best.parameters[0], tuple(each for each in ranges if math.isfinite(each.width)))
+    known = tuple(each for each in ranges if math.isfinite(each.width))
+    return BestTwist(result.best.parameters[0], known, result.doubt_cost)
 
 
 def nearby_flights(design: Design) -> list[tuple[str, tuple[float, float], tuple[Design, Design]]]:

@@ -125,14 +125,18 @@ class Doubt:
         band = self.band / size
         name = "Power" if self.of_total else "Drag times speed"
         words = f"{name} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        return f"{words} {design} {self.saving_words}." if self.saving_words else words
+
+    @property
+    def saving_words(self) -> str:
+        """`saves 1.8 ± 0.7 %: sure`; empty without a change."""
         change, within, sure = self.change, self.change_band_percent, self.change_words
         if change is None or within is None or not self.against:
-            return words
+            return ""
         if not sure:
-            return f"{words} {design} neither saves nor costs."
-        verb = "saves" if change <= 0.0 else "costs"
-        amount = abs(100.0 * change / self.against)
-        return f"{words} {design} {verb} {amount:.{min(decimals(within), 2)}f} {sure}."
+            return "neither saves nor costs"
+        verb, amount = "saves" if change <= 0.0 else "costs", abs(100.0 * change / self.against)
+        return f"{verb} {amount:.{min(decimals(within), 2)}f} {sure}"
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
