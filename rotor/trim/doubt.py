@@ -149,14 +149,8 @@ class Doubt:
             "change_band_w": self.change_band,
             "sureness": self.sureness,
             "rows": [
-                {
-                    "name": row.name,
-                    "size": row.size,
-                    "unit": row.unit,
-                    "source": row.source,
-                    "power_w": row.power,
-                    "change_w": row.change,
-                }
+                {name: getattr(row, name) for name in ("name", "size", "unit", "source")}
+                | {"power_w": row.power, "change_w": row.change}
                 for row in self.rows
             ],
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},

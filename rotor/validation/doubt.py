@@ -24,7 +24,7 @@ from rotor.validation.compare import SETS, at_zero, design_at, load_set
 from rotor.validation.flown import measured_powers
 from rotor.validation.trust import LEFT_OUT, TrustRow, TrustSet, description
 
-NAME = "doubt"
+NAME, HOVER = "doubt", "hover"
 ROTORS = {
     "uh60a": "UH-60A",
     "xv15": "XV-15",
@@ -81,7 +81,7 @@ def _of_sets() -> Iterator[PointAndBand]:
                 continue
             unit = design.power_unit * (design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0)
             power = point[measured.quantity] * unit + (at_zero(design).power.main_rotor if above_zero else 0.0)
-            yield _point(measured.rotor, "hover" if design.hovering else "forward flight", solution, power)
+            yield _point(measured.rotor, HOVER if design.hovering else "forward flight", solution, power)
 
 
 def _flown() -> Iterator[PointAndBand]:
@@ -145,53 +145,43 @@ def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[fl
 def doubt_set() -> TrustSet:
     """For the trust page."""
     words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
-    groups = {
-        f"{ROTORS[rotor]}, {kind}": mine
-        for rotor in ROTORS
-        for kind in ("hover", "forward flight")
-        if (mine := [point for point in points if (point.rotor, point.kind) == (rotor, kind)])
-    }
     rows: list[TrustRow] = []
     series: list[Points] = []
-    cells = [
-        ("Rotor", "Points", *(f"In the {part} % band [%]" for part in COVERAGES), "Mean band [%]", "Mean error [%]")
-    ]
-    for k, (name, mine) in enumerate(groups.items()):
+    for rotor, kind in dict.fromkeys((point.rotor, point.kind) for point in points):
+        mine = [point for point in points if (point.rotor, point.kind) == (rotor, kind)]
         over = [point.over_band(sizes) for point in mine]
-        band = float(np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)]))
-        mean, inside = float(np.mean([point.error for point in mine])), sum(abs(z) <= 1.0 for z in over)
-        way = "low" if mean > 0.0 else "high"
-        shown = f"{100 * abs(mean):.0f} % too {way} in the mean, {inside} of {len(mine)} within ± {100 * band:.0f} %"
+        band = np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)])
+        mean, inside = np.mean([point.error for point in mine]), sum(abs(z) <= 1.0 for z in over)
+        shown = (
+            f"{100 * abs(mean):.0f} % too {'low' if mean > 0.0 else 'high'} in the mean, {inside} of {len(mine)} "
+            f"within ± {100 * band:.0f} % ({_percent(coverage((point, sizes) for point in mine))})"
+        )
+        name = f"{ROTORS[rotor]}, {kind}"
+        series.append(Points("", over, [len(rows)] * len(mine), 1))
         rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
-        series.append(Points("", over, [k] * len(mine), 1))
-        held = _percent(coverage((point, sizes) for point in mine))
-        cells.append((name, f"{len(mine)}", *held, f"{100 * band:.1f}", f"{100 * mean:+.1f}"))
+    chart = Chart(
+        "Error over band",
+        Axis("(measured − computed)/band"),
+        Axis(names=tuple(row.what for row in rows)),
+        tuple(series),
+    )
     left = left_out_sizes(points)
     means = {
-        **{
-            f"Mean over rotors, {kind}": [(p, sizes) for p in points if p.kind == kind]
-            for kind in ("hover", "forward flight")
-        },
+        "Mean over rotors, hover": [(point, sizes) for point in points if point.kind == HOVER],
+        "Mean over rotors, forward flight": [(point, sizes) for point in points if point.kind != HOVER],
         "Mean over rotors": [(point, sizes) for point in points],
         LEFT_OUT: [(point, left[point.rotor]) for point in points],
     }
     for name, mine in means.items():
-        shares = coverage(mine)
-        rows.append(
-            words.row(name, f"{', '.join(_percent(shares))} % within the bands of 50, 68 and 90 %", shares[1], 0.05)
-        )
-        cells.append((name, f"{len(mine)}", *_percent(shares), "", ""))
-    ends = [sorted(f"{100 * each[k]:.0f}" for each in left.values()) for k in range(2)]
-    text = (
-        paragraph.format(
-            induced=f"{100 * sizes[0]:g}", profile=f"{100 * sizes[1]:g}", rotors=len(left),
-            induced_range=f"{ends[0][0]} to {ends[0][-1]}", profile_range=f"{ends[1][0]} to {ends[1][-1]}",
-        )
-        for paragraph in words.text
+        held = coverage(mine)
+        rows.append(words.row(name, f"{_percent(held)} in the bands of 50, 68 and 90 %", held[1], 0.05))
+    (low_i, low_0), (high_i, high_0) = (end(list(left.values()), axis=0) for end in (np.min, np.max))
+    text = words.text[0].format(
+        induced=f"{100 * sizes[0]:g}", profile=f"{100 * sizes[1]:g}", rotors=len(left),
+        others=f"{100 * low_i:.0f} to {100 * high_i:.0f} % and {100 * low_0:.0f} to {100 * high_0:.0f} %",
     )  # fmt: skip
-    chart = Chart("Error over band", Axis("(measured − computed)/band"), Axis(names=tuple(groups)), tuple(series))
-    return words.page(rows[-1].shown, rows, (chart,), text=text, points=cells)
+    return words.page(rows[-1].shown, rows, (chart,), text=(text, *words.text[1:]))
 
 
-def _percent(shares: Iterable[float]) -> tuple[str, ...]:
-    return tuple(f"{100 * share:.0f}" for share in shares)
+def _percent(shares: Iterable[float]) -> str:
+    return f"{', '.join(f'{100 * share:.0f}' for share in shares)} %"

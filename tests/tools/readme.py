@@ -46,7 +46,7 @@ def verdicts(sets: dict[str, TrustRow], names: tuple[str, ...]) -> str:
 
 def cells(row: TrustRow) -> tuple[str, str]:
     """How far a rotor's power is off, and how many points its band holds."""
-    off, inside = row.shown.split(", ")
+    off, inside = row.shown.partition(" (")[0].split(", ")
     return off.removesuffix(" in the mean"), inside.replace(" within", ",")
 
 
