@@ -25,5 +25,5 @@ def shown_doubt(now: PageState) -> tuple[PanelWork, ...]:
     if (state := now.state) is None:
         return ()
     design, other = state.solution.design, state.reference
-    compared = other.converged and other.design != design and has_power(other.design) == has_power(design)
+    compared = other.converged and other.design != design and has_power(design) and has_power(other.design)
     return (doubt_work("doubt", state.solution, other if compared else None, now.analyses),)

@@ -22,8 +22,8 @@
     const problemOrChange = problem
       ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
         <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
-      : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="moved">
-        <span class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span>
+      : `<div class="rxf-change"><div class="rxf-since rxf-num">
+        <span data-explorer="moved" class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span>
         <small data-explorer="sure">${text(moved && power.sure)}</small></div>${change}
         <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
     card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">

@@ -73,7 +73,7 @@ def _doubt(solution: Solution) -> Doubt:
     """Against the blade as built, where that has another twist and trims."""
     design = solution.design
     built = replace(design, twist=design.aircraft.twist_for(design.preset))
-    other = None if built == design else solve(built)
+    other = None if built == design or design.models.trim == "free-rotor" else solve(built)
     return doubt(solution, other if other is not None and other.converged else None, models=True)
 
 

@@ -187,7 +187,7 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
 
     Raises:
         RuntimeError: a solution is not converged.
-        ValueError: one rotor is free and the other is driven.
+        ValueError: two designs of which one is a free rotor, whose drag has no multipliers.
 
     Example:
         >>> here, built = (rotor.solve(rotor.make_design(mu=0.3, twist=twist)) for twist in ("linear:-12", "builtin"))
@@ -204,8 +204,8 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
 def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None) -> Doubt:
     """`doubt` of a mean power over conditions."""
     first = here[0].solution.design
-    if there is not None and _is_free(first) != _is_free(there[0].solution.design):
-        raise ValueError("A free rotor takes no power from its shaft: compare it with another free rotor.")
+    if there is not None and (_is_free(first) or _is_free(there[0].solution.design)):
+        raise ValueError("A free rotor takes no power from its shaft, so no saving is known: leave against out.")
     changes, others = mean_changes(shares, here, there) if there is not None else (*mean_changes(shares, here), None)
     rows = [
         DoubtRow(
