@@ -113,7 +113,7 @@ def best_twist_doubt(
         return BestTwistDoubt()
     hessian = slopes(powers)
     hessian = 0.5 * (hessian + hessian.T)
-    changes = [mean_changes(objective.shares, each.trims)[0] for each in found]
+    changes = [mean_changes(objective.shares, each.trims) for each in found]
     names = list(changes[0])
     by_input = np.array([[each[name] for name in names] for each in changes])
     shifts = _solved(hessian, -slopes(by_input))

@@ -27,8 +27,6 @@ SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
 LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
-OF_DIFFERENCES = HOVER_WAKE, INFLOW_MODEL = "hover_wake_percent", "inflow_model_percent"
-"""Uncertain inputs that count for differences only."""
 COMPARED_INFLOWS = ("lifting-line", "pitt-peters")
 """Inflow models whose disagreement about a difference is taken as its error."""
 
@@ -206,15 +204,17 @@ def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequenc
     first = here[0].solution.design
     if there is not None and (_is_free(first) or _is_free(there[0].solution.design)):
         raise ValueError("A free rotor takes no power from its shaft, so no saving is known: leave against out.")
-    changes, others = mean_changes(shares, here, there) if there is not None else (*mean_changes(shares, here), None)
+    changes, differences = mean_changes(shares, here), dict[str, float]()
+    if there is not None:
+        others = mean_changes(shares, there)
+        differences = {name: changes.get(name, 0.0) - others.get(name, 0.0) for name in {**changes, **others}}
+        for share, one, other in zip(shares, here, there, strict=True):
+            for name, change in _inflow_differences(one.solution, other.solution).items():
+                differences[name] = differences.get(name, 0.0) + share * change
     rows = [
-        DoubtRow(
-            **vars(row),
-            power=0.0 if row.name in OF_DIFFERENCES else changes.get(row.name, 0.0),
-            change=None if others is None else changes.get(row.name, 0.0) - others.get(row.name, 0.0),
-        )
+        DoubtRow(**vars(row), power=changes.get(row.name, 0.0), change=differences.get(row.name))
         for row in uncertain_inputs(first)
-        if row.name in changes or (others is not None and row.name in others)
+        if row.name in changes or row.name in differences
     ]
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
@@ -226,38 +226,32 @@ def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequenc
     )
 
 
-def mean_changes(shares: Sequence[float], *designs: Sequence[Analysis]) -> list[dict[str, float]]:
-    """What every uncertain input does to the mean power of each design [W], as `rotor.trim.power_changes`.
-
-    Of several designs, given with the trim in each condition, with the inputs that only their difference has.
-    """
-    means = [dict[str, float]() for _ in designs]
-    for share, trims in zip(shares, zip(*designs, strict=True), strict=True):
-        changes = [dict(trim.power_changes) for trim in trims]
-        if len(trims) > 1:
-            _add_inflow_changes(changes, [trim.solution for trim in trims])
-        for mean, each in zip(means, changes, strict=True):
-            for name, change in each.items():
-                mean[name] = mean.get(name, 0.0) + share * change
-    return means
+def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str, float]:
+    """What every uncertain input does to a mean power over conditions [W], as `rotor.trim.power_changes`."""
+    mean = dict[str, float]()
+    for share, trim in zip(shares, trims, strict=True):
+        for name, change in trim.power_changes.items():
+            mean[name] = mean.get(name, 0.0) + share * change
+    return mean
 
 
-def _add_inflow_changes(changes: Sequence[dict[str, float]], solutions: Sequence[Solution]) -> None:
-    """Add the inputs `OF_DIFFERENCES` in one condition, by design [W].
+def _inflow_differences(here: Solution, there: Solution) -> dict[str, float]:
+    """What the inflow model does to the difference of two powers [W], by uncertain input.
 
     Errors that two inflow models share cancel in a difference of designs; those that they do not share stay. In hover,
-    and where the other model has no trim, it is a part of induced power.
+    and where the other model has no trim, it is a part of the change of induced power.
     """
-    designs = [solution.design for solution in solutions]
-    size = {row.name: 0.01 * row.size for row in uncertain_inputs(designs[0])}
+    designs = here.design, there.design
+    size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
     hovering = any(design.hovering for design in designs)
-    others = [None if hovering else _power_with_other_inflow(design) for design in designs]
-    for each, solution, other in zip(changes, solutions, others, strict=True):
-        share, differ = 1.0, 0.0
-        if other is not None and None not in others:
-            share, differ = hover_share(solution.design), known_power(solution) - other
-        each[HOVER_WAKE] = share * size[HOVER_WAKE] * solution.power.induced
-        each[INFLOW_MODEL] = size[INFLOW_MODEL] * differ
+    first, second = (None if hovering else _power_with_other_inflow(design) for design in designs)
+    induced = size["hover_wake_percent"] * (here.power.induced - there.power.induced)
+    if first is None or second is None:
+        return {"hover_wake_percent": induced}
+    differ = known_power(here) - known_power(there) - (first - second)
+    found = {"inflow_model_percent": size["inflow_model_percent"] * differ}
+    share = max(map(hover_share, designs))
+    return {**found, "hover_wake_percent": share * induced} if share else found
 
 
 def with_other_inflow(design: Design) -> Design:
@@ -299,8 +293,8 @@ def alternative_models(design: Design, against: Design | None = None) -> tuple[O
         here = solve(changed)
         there = None if against is None else solve(other_models(against).get(name, against))
         if here.converged and (there is None or there.converged):
-            change = None if there is None else here.power.total - there.power.total
-            rows.append(OtherModels(name, here.power.total, change))
+            change = None if there is None else known_power(here) - known_power(there)
+            rows.append(OtherModels(name, known_power(here), change))
     return tuple(rows)
 
 
