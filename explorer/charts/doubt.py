@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 
 from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
@@ -11,6 +12,7 @@ from rotor.trim.doubt import Doubt, OtherModels, decimals
 from rotor.validation import coverage
 
 _SQUARE_METRE = Unit("m²", 1.0)
+_COUNTED = ("no", "one", "two", "three", "four", "five")
 MOST_ROWS = 6
 """What comes after is too small to see."""
 _LEAST_PART = 1e-4
@@ -22,7 +24,8 @@ def card_words(band: Doubt, units: Units) -> Sureness:
     within = units.power[0].of(band.band)
     if not band.of_total:
         return Sureness(doubt=band.sentence)
-    holds = f"{100.0 * coverage():.0f} % of measurements lie in this band"
+    part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
+    holds = f"± holds {part} times in {of}"
     return Sureness(f"± {number(within, decimals(within))}", holds, band.sentence)
 
 
@@ -46,7 +49,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     ]
     words = f"Other models: {'; '.join(_in_words(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
-        words += " The band covers uncertain inputs of this model; other models may lie outside it."
+        words += " At least one lies outside the band."
     with_others = tag("div.rx-dim", words) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
@@ -91,7 +94,7 @@ def _cause(each: TwistRange, units: Units) -> str:
         case "flat":
             return "power within 0.1 %"
         case "doubt":
-            return "with uncertain inputs"
+            return "uncertain inputs, inflow"
         case "wake":
             return "annuli … lifting line"
         case _:

@@ -83,7 +83,7 @@ def _built(now: PageState) -> "ActuatedBlade | str":
 
 
 class PowerChange(NamedTuple):
-    """A change of power [W], more is positive, and its band by uncertain inputs, to both sides; None: not known."""
+    """A change of power [W], more is positive, and its band, to both sides; None: not known."""
 
     power: float
     band: float | None

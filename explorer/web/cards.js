@@ -29,7 +29,9 @@
     card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
         <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
         <small data-explorer="within">${text(power.within)}</small></div>
-      <div class="rxf-sub" data-explorer="holds">total power${power.holds && `; ${text(power.holds)}`}</div></div>
+      <div class="rxf-sub">total power</div>
+      <div class="rxf-sub" data-explorer="holds" title="How often measured powers lie in this band, for rotors that had no
+        part in its size">${text(power.holds)}</div></div>
       <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
@@ -78,7 +80,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± from uncertain inputs; of vibration half of what inflow models differ by. Blades bend here.')}
+          'With its mass. ± is one standard deviation; of vibration half of what inflow models differ by. Blades bend here.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${
         text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);

@@ -266,7 +266,7 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         if sure := doubts.get(parameter.name):
             low, high = parameter.shown(sure.low), parameter.shown(sure.high)
             causes = ", ".join(f"{words} {parameter.shown(by):+z.{digits}f}" for words, by in sure.causes)
-            line += f", {low:z.{digits}f} to {high:z.{digits}f} with uncertain inputs ({causes})"
+            line += f", {low:z.{digits}f} to {high:z.{digits}f} with other inputs or inflow ({causes})"
         for line_rate in _in_hover(beside, optimum, k):
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:z.{digits}f} to {high:z.{digits}f} between annuli and a lifting line"
