@@ -56,8 +56,6 @@ def patch_sections(name: str, amount: float, patch: Patch) -> None:
         table = _loaded(section)
         cells, moment = table.coefficients.copy(), table.moment_coefficients.copy()
         match name:
-            case "section_drag_percent":
-                cells[:, :, 1] *= 1.0 + 0.01 * amount
             case "section_lift_percent":
                 cells[:, :, 0] *= 1.0 + 0.01 * amount
             case "section_moment":

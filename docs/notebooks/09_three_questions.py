@@ -20,8 +20,8 @@ one linear twist that follows speed. One good fixed twist saves 0.6 % against âˆ
 **Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs 23 kW
 more than the best fixed twist, because of its mass. Unlimited twist would gain 3 kW, an eighth of that.
 
-How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known ten times
-better than power itself.
+How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known better
+than power itself, although inflow models disagree about it.
 """
 
 import matplotlib.pyplot as plt

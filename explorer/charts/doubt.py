@@ -2,14 +2,17 @@
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 
 from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import Doubt, OtherModels, decimals
+from rotor.validation import coverage
 
 _SQUARE_METRE = Unit("m²", 1.0)
+_COUNTED = ("no", "one", "two", "three", "four", "five")
 MOST_ROWS = 6
 """What comes after is too small to see."""
 _LEAST_PART = 1e-4
@@ -19,7 +22,11 @@ _LEAST_PART = 1e-4
 def card_words(band: Doubt, units: Units) -> Sureness:
     """Beside the power, its band; the sentence has that of the change too."""
     within = units.power[0].of(band.band)
-    return Sureness(f"± {number(within, decimals(within))}", band.sentence)
+    if not band.of_total:
+        return Sureness(doubt=band.sentence)
+    part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
+    holds = f"± holds {part} times in {of}"
+    return Sureness(f"± {number(within, decimals(within))}", holds, band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:
@@ -35,14 +42,14 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
             tag("td", row.words),
             tag("td", tag("i", style=f"width:{100.0 * size / longest:.0f}%")),
             tag("td.rx-num", f"± {number(size, decimals(size))} {unit.symbol}"),
-            title=f"{row.words}, {f'{row.size:g} {row.unit}'.rstrip()}: {row.source}",
+            title=f"{row.words}, {row.size_words}: {row.source}",
         )
         for row, size in sizes
         if size >= _LEAST_PART * longest
     ]
     words = f"Other models: {'; '.join(_in_words(each, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
-        words += " The band covers uncertain inputs of this model; other models may lie outside it."
+        words += " At least one lies outside the band."
     with_others = tag("div.rx-dim", words) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
@@ -77,6 +84,8 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))
     title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
+    if best.cost is not None:
+        title += f"; if inputs or inflow are otherwise, it costs about {units.watts(best.cost, 1)}"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 
@@ -85,7 +94,7 @@ def _cause(each: TwistRange, units: Units) -> str:
         case "flat":
             return "power within 0.1 %"
         case "doubt":
-            return "with uncertain inputs"
+            return "uncertain inputs, inflow"
         case "wake":
             return "annuli … lifting line"
         case _:

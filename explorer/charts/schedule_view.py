@@ -3,20 +3,21 @@
 import csv
 import io
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
-from explorer.model.units import SI, Units, number
+from explorer.model.units import BLANK, SI, Units, number
 from explorer.workers.background import WorkRecord
-from explorer.workers.solver import FixedPowers
+from explorer.workers.solver import FixedBlade
 from rotor import Optimum
 from rotor.design.aircraft import reported_names
 from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
 from rotor.support.chart import Axis, Chart, Line
 from rotor.support.markup import Markup, tag
+from rotor.trim.doubt import Doubt
 
 _COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
@@ -27,13 +28,13 @@ class ScheduleProgress:
 
     plan: SchedulePlan
     cells: tuple[ScheduleOptimum, ...] = ()
-    fixed_powers: tuple[float | None, ...] = ()
+    fixed: FixedBlade = field(default_factory=FixedBlade)
 
     @staticmethod
     def of(record: WorkRecord) -> "ScheduleProgress":
         reports = record.reports
         cells = tuple(one for one in reports if isinstance(one, ScheduleOptimum))
-        fixed = next((one.powers for one in reports if isinstance(one, FixedPowers)), ())
+        fixed = next((one for one in reports if isinstance(one, FixedBlade)), FixedBlade())
         return ScheduleProgress(record.task.plan, cells, fixed)
 
     @property
@@ -46,7 +47,7 @@ class ScheduleProgress:
 
     def fixed_power(self, leg: int) -> float | None:
         """Power of the best fixed blade at a leg [W]; None while it is not known."""
-        return self.fixed_powers[leg] if leg < len(self.fixed_powers) else None
+        return self.fixed.powers[leg] if leg < len(self.fixed.powers) else None
 
     @property
     def count(self) -> str:
@@ -118,15 +119,22 @@ def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
     gain = progress.schedule.in_flight_gain(progress.plan.concepts[0].name)
     if gain is None:
         return Markup()
-    saved = gain.baseline - gain.fixed
-    saving = tag("td.rx-num", units.watts(saved, 1)), f"{number(100.0 * saved / gain.baseline, 2)} %"
-    more = tag("td", tag("b", "Additional saving from variable twist"), style="white-space:normal")
-    gained = (units.watts(gain.gain, 1), f"{number(100.0 * gain.share, 2)} %")
+    fixed = progress.at(None)
+    rows = (
+        ("Best fixed blade", gain.baseline - gain.fixed, fixed and fixed.doubt),
+        ("Variable twist, beyond that", gain.gain, progress.fixed.gain),
+    )
     return tag(
         "table",
-        tag("tr", tag("td", "Best fixed blade saves"), saving[0], tag("td.rx-num", saving[1], style="width:20%")),
-        tag("tr", more, [tag("td.rx-num", tag("b", words)) for words in gained]),
+        (
+            tag("tr", tag("td", name), tag("td.rx-num", units.watts(saved, 1)), tag("td.rx-num", _sure(band)))
+            for name, saved, band in rows
+        ),
     )
+
+
+def _sure(band: Doubt | None) -> str:
+    return BLANK if band is None else band.saving_words
 
 
 def csv_of(progress: ScheduleProgress) -> bytes:

@@ -17,7 +17,7 @@ from rotor import Design, Solution, doubt, hub_loads
 from rotor.aero.problem import grid_of
 from rotor.support.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
-from rotor.trim.doubt import DoubtRow, decimals
+from rotor.trim.doubt import Doubt, DoubtRow, decimals
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""
@@ -36,7 +36,16 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
-    return tag("span.change", f"{number(change, 1, sign=True)} %", class_=kind)
+    words = f"{number(change, 1, sign=True)} {_band(report, entry).change_words or '%'}"
+    return tag("span.change", words, class_=kind)
+
+
+def _band(report: DesignReport, entry: ReportEntry) -> Doubt:
+    """How sure power is, and its change from the reference."""
+    solution, other = entry.solution, report.reference.solution
+    free = "free-rotor" in {one.design.models.trim for one in (solution, other)}
+    compared = report.comparable(entry) and not report.is_reference(entry) and not free
+    return doubt(solution, other if compared else None)
 
 
 def comparison(report: DesignReport) -> Markup:
@@ -118,16 +127,12 @@ def trim(solution: Solution) -> Markup:
 
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
-    """How sure power is, and its change from the reference, each above its causes; nothing for a free rotor."""
-    solution, other = entry.solution, report.reference.solution
-    if solution.design.models.trim == "free-rotor" or other.design.models.trim == "free-rotor":
-        return Markup()
-    compared = report.comparable(entry) and not report.is_reference(entry)
-    band, unit = doubt(solution, other if compared else None), report.units.power[0]
+    """How sure power is, and its change from the reference, each above its causes."""
+    band, unit = _band(report, entry), report.units.power[0]
 
     def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
         """The largest, and the rest as one: their squares add up to that of the first row."""
-        named = [(f"{row.words} ± {row.size:g} {row.unit}".rstrip(), abs(of(row))) for row in band.rows]
+        named = [(f"{row.words} ± {row.size_words}", abs(of(row))) for row in band.rows]
         named.sort(key=lambda one: -one[1])
         sizes = [(words, math.hypot(*(size for _, size in named))), *named[:MOST_ROWS]]
         if rest := named[MOST_ROWS:]:

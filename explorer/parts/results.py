@@ -32,9 +32,10 @@ class PowerShare:
 
 @dataclass(frozen=True)
 class Sureness:
-    """How sure the power is: its band, and with that of its change as a sentence."""
+    """How sure the power is: its band, how often such a band holds, and with that of its change as a sentence."""
 
     within: str = ""
+    holds: str = ""
     doubt: str = ""
 
 
@@ -43,8 +44,8 @@ class PowerPart(Sureness):
     """The power card.
 
     `ideal`: least induced power at this lift, as a share of all parts. `moved`: the change of power from the reference,
-    `change` its per cent; `rest`: in place of both, while nothing has changed. `problem`: why there is no trim; the
-    numbers are those of the last one.
+    `sure` its band and whether its sign is known, `change` its per cent; `rest`: in place of these, while nothing has
+    changed. `problem`: why there is no trim; the numbers are those of the last one.
     """
 
     status: Status
@@ -57,6 +58,7 @@ class PowerPart(Sureness):
     ideal: float | None = None
     ideal_title: str = ""
     moved: str = ""
+    sure: str = ""
     rest: str = ""
     why: str = ""
     problem: str = ""

@@ -23,8 +23,9 @@ from explorer.story.steps import (
     on_one_line,
     speed_words,
 )
-from rotor import Solution, make_design, solve, vibration_front
+from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import try_actuator
+from rotor.actuator.verdict import net_band_words
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import Harmonic, LinearTwist
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist, rung_design
@@ -315,6 +316,7 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
         | _said(harmonics=" and ".join(map(str, _HARMONICS)), reach=f"{_REACH:g}°")
         | _of("count", blades=last.design.rotor.blades)
         | _of("fine", power_saving=-powers[0], power_cost=powers[-1])
+        | _said(sure=doubt(solve(front.points[0].design), solve(front.start.design)).change_words)
         | _of("signed", index_change=indices[0], best_index=indices[-1])
         | _of("signed", wakes_low=0.01 * ends[0], wakes_high=0.01 * ends[1])
     )
@@ -342,6 +344,7 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         | _of("angle", required=math.degrees(verdict.required), attainable=reach)
         | _of("power", gross=verdict.gross_saving, net_cost=-verdict.net_saving)
         | _of("change", net=-verdict.net_saving)
+        | _said(sure=net_band_words(verdict))
         | _of("mass", mass=verdict.installed.masses.aircraft)
     )
     none, level = (0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)
@@ -429,7 +432,7 @@ def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[st
         of_a, of_b = getattr(a.power, name), getattr(b.power, name)
         numbers |= _of("power", **{f"{name}_a": of_a, f"{name}_b": of_b})
         numbers |= _of("change", **{f"{name}_change": of_b - of_a})
-    numbers |= _of("power", saving=a.power.total - b.power.total)
+    numbers |= _of("power", saving=a.power.total - b.power.total) | _said(sure=doubt(b, a).change_words)
     return numbers | _of("fine", saving_percent=1.0 - b.power.total / a.power.total)
 
 

@@ -310,8 +310,7 @@ def needs_words(net: float, band: float | None, units: Units) -> str:
     if band is not None:
         size += f" ± {number(math.ceil(10.0**digits * unit.of(band)) / 10.0**digits, digits)}"
     words = f"saves {size} {unit.symbol}" if net > 0.0 else f"needs {size} {unit.symbol} more"
-    word = "sure" if band is None else sureness(net, band)
-    return words if word == "sure" else f"{words} ({word})"
+    return words if band is None else f"{words} ({sureness(net, band)})"
 
 
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:

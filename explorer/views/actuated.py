@@ -83,7 +83,7 @@ def _built(now: PageState) -> "ActuatedBlade | str":
 
 
 class PowerChange(NamedTuple):
-    """A change of power [W], more is positive, and its band by uncertain inputs, to both sides; None: not known."""
+    """A change of power [W], more is positive, and its band, to both sides; None: not known."""
 
     power: float
     band: float | None
@@ -150,10 +150,10 @@ class ActuatedBlade:
         return PowerChange(known.power[0], known.band) if isinstance(known, EffectInFlight) else None
 
     @property
-    def vibration(self) -> tuple[float, ...]:
-        """In this flight [%], by inflow model; empty where there are no hub loads."""
+    def vibration(self) -> EffectInFlight | None:
+        """In this flight; None where there are no hub loads."""
         known = self.now.of(change_here)
-        return known.index if isinstance(known, EffectInFlight) else ()
+        return known if isinstance(known, EffectInFlight) and known.index else None
 
     @property
     def over_flight(self) -> PowerChange | None:

@@ -9,6 +9,7 @@ from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.verdict import Against
+from rotor.trim.doubt import sureness
 
 _URGENCY, _DELAY_S = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
@@ -37,13 +38,12 @@ def _title(one: ActuatedBlade) -> str:
 
 def _vibration(one: ActuatedBlade) -> str:
     """The change of vibration here, with its band over inflow models."""
-    if not one.vibration:
+    if one.vibration is None:
         return "" if one.here is None else "no vibration data here"
-    ends = min(one.vibration), max(one.vibration)
-    own, low, high = (number(change, 0, sign=True) for change in (one.vibration[0], *ends))
-    if ends[0] * ends[1] <= 0.0:
-        return f"vibration unclear ({low}…{high} %)"
-    return f"vibration {own} % ({low}…{high})"
+    own, band = number(one.vibration.index[0], 0, sign=True), one.vibration.index_band
+    within = "" if band is None else f" ± {number(band)}"
+    word = "" if band is None else f" ({sureness(one.vibration.index[0], band)})"
+    return f"vibration {own}{within} %{word}"
 
 
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:

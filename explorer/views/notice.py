@@ -8,7 +8,7 @@ from explorer.parts.stage import SceneLabel
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
-from rotor.trim.doubt import Doubt, decimals
+from rotor.trim.doubt import Doubt, decimals, sureness
 
 _EQUAL = 50.0
 """Changes of power below this [W] are none."""
@@ -25,10 +25,10 @@ def optimised_doubt(now: PageState) -> tuple[PanelWork, ...]:
 
 
 def notice(now: PageState) -> dict[str, Any]:
-    """While the blade moves, the difference of the two powers stands without its band."""
+    """While the blade moves, the difference of the two powers has the band of the step before."""
     words, state, optimised = now.searching, now.state, now.optimised
     if words is None and state is not None and optimised is not None:
-        band = now.answers.get(optimised_doubt(now)[0].key)
+        band, _ = now.latest(optimised_doubt(now)[0])
         actions = [("rival_take", "Take its twist"), ("rival_end", "End")]
         words = NoticePart(comparison(state.solution, optimised, band, now.units), actions)
     return {"notice": words}
@@ -45,7 +45,7 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
     within = unit.of(band.change_band or 0.0)
     digits = max(decimals(within), 1)
     amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)}"
-    return f"{power}, yours {amount} {unit.symbol} {way}: {band.sureness}"
+    return f"{power}, yours {amount} {unit.symbol} {way}: {sureness(change, band.change_band or 0.0)}"
 
 
 def prompt(now: PageState) -> dict[str, SceneLabel | None]:

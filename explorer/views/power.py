@@ -13,6 +13,7 @@ from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel
 from explorer.views.work import shown_doubt
+from rotor.trim.doubt import Doubt, decimals, sureness
 
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
@@ -30,27 +31,32 @@ def power_card(now: PageState) -> dict[str, Any]:
     if state is None:
         card = PowerPart(status=Status("problem", "no trim", now.problem))
     else:
-        card = replace(_numbers(state, now.units), **_change(state, now.units), **vars(sureness(now)))
+        band = _band(now)
+        sure = Sureness() if band is None else card_words(band, now.units)
+        card = replace(_numbers(state, now.units), **_change(state, band, now.units), **vars(sure))
     if now.problem:
         problem = f"{now.problem.rstrip('.')}. Greyed: last converged solution."
         card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
     return {"power": card}
 
 
-def sureness(now: PageState) -> Sureness:
+def _band(now: PageState) -> Doubt | None:
     """How sure the power is. While the design moves the band of the step before stays."""
     asked = shown_doubt(now)
-    found = now.latest(asked[0])[0] if asked else None
-    return Sureness() if found is None else card_words(found, now.units)
+    return now.latest(asked[0])[0] if asked else None
 
 
-def _change(state: SessionState, units: Units) -> dict[str, Any]:
+def _change(state: SessionState, band: Doubt | None, units: Units) -> dict[str, Any]:
     """Change from the reference, and why."""
     solution, reference = state.solution, state.reference
     if solution.design == reference.design or not reference.converged:
         return {"rest": "same as A" if state.pinned else "as built", "why": "Pull the blade tip up or down."}
-    change = solution.power.total - reference.power.total
+    change, sure = solution.power.total - reference.power.total, ""
+    if band is not None and (within := band.change_band) is not None:
+        size = units.power[0].of(within)
+        sure = f"± {number(size, decimals(size))}: {sureness(change, within)}"
     return {
+        "sure": sure,
         "moved": units.watts(change, fineness(solution.power, units), sign=True),
         "why": why(reference, solution, units),
     }

@@ -21,10 +21,9 @@ def doubt_work(name: str, solution: Solution, reference: Solution | None, analys
 
 
 def shown_doubt(now: PageState) -> tuple[PanelWork, ...]:
-    """The doubt of what is shown; none of a free rotor."""
-    state = now.state
-    if state is None or not has_power(state.solution.design):
+    """The doubt of what is shown."""
+    if (state := now.state) is None:
         return ()
-    other = state.reference
-    compared = other.converged and other.design != state.solution.design and has_power(other.design)
+    design, other = state.solution.design, state.reference
+    compared = other.converged and other.design != design and has_power(design) and has_power(other.design)
     return (doubt_work("doubt", state.solution, other if compared else None, now.analyses),)

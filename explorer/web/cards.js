@@ -22,13 +22,16 @@
     const problemOrChange = problem
       ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
         <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
-      : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="moved">
-        <span class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span></div>${change}
+      : `<div class="rxf-change"><div class="rxf-since rxf-num">
+        <span data-explorer="moved" class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span>
+        <small data-explorer="sure">${text(moved && power.sure)}</small></div>${change}
         <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
     card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
         <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
         <small data-explorer="within">${text(power.within)}</small></div>
-      <div class="rxf-sub">total power</div></div>
+      <div class="rxf-sub">total power</div>
+      <div class="rxf-sub" data-explorer="holds" title="How often measured powers lie in this band, for rotors that had no
+        part in its size">${text(power.holds)}</div></div>
       <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
@@ -77,7 +80,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± from uncertain inputs; vibration: range over inflow models. Blades bend here.')}
+          'With its mass. ± is one standard deviation; of vibration half of what inflow models differ by. Blades bend here.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${
         text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);

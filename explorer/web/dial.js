@@ -49,17 +49,17 @@
     const watts = all.map(([power], k) => power / 100 * models[k].power * dial.per_watt);
     return {power: watts, index: all.map(([, index]) => index)};
   }
-  const ends = list => [Math.min(...list), Math.max(...list)];
+  // About that of the design's own inflow model, which is the first: half of the largest difference of another.
+  const spread = ([own, ...others]) => Math.max(0, ...others.map(other => Math.abs(other - own))) / 2;
   function needs(power) {
     const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.shown('dial').unit}`;
     return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
   }
   function shakes(index) {
     if (!index.length) return 'vibration is shown from µ 0.2';
-    const [low, high] = ends(index), range = (from, to) => `${fixed(from)}…${fixed(to)} %`;
-    if (high < 0) return `cuts vibration by ${fixed(-index[0])} % (${range(-high, -low)})`;
-    if (low > 0) return `raises vibration by ${fixed(index[0])} % (${range(low, high)})`;
-    return `vibration unclear (${signed(low, 0)}…${signed(high, 0)} %)`;
+    const [own] = index, within = spread(index), size = Math.abs(own);
+    const sure = size >= 2 * within ? 'sure' : size >= within ? 'likely' : 'unclear';
+    return `${own < 0 ? 'cuts' : 'raises'} vibration by ${fixed(size)} ± ${fixed(within)} % (${sure})`;
   }
   // Power and vibration in one sentence.
   function verdict() {
@@ -146,7 +146,7 @@
     });
     const marks = least.map(({point, over, agreed}, k) => {
       const [mark, name] = [['P', 'least power'], ['V', 'least vibration']][k];
-      const [x, y] = at(...point), [low, high] = ends(over);
+      const [x, y] = at(...point), low = Math.min(...over), high = Math.max(...over);
       const band = `${signed(low)} to ${signed(high)} % over inflow models`;
       const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
       return `<g data-agreed="${agreed}"><title>${agreed ? `Predicted ${name} on this dial: ${where}, ${band}`
@@ -256,9 +256,9 @@
     }));
   }
 
-  // Two meters: the bar is the band over inflow models, the mark the design's own, the line the other blade.
+  // Two meters: the bar is the band, the mark the design's own, the line the other blade.
   function meter(name, models, most, least, words) {
-    const at = value => 50 + 50 * clamp(value / most, -1, 1), [low, high] = ends(models).map(at), [own] = models;
+    const at = value => 50 + 50 * clamp(value / most, -1, 1), [own] = models, [low, high] = [own - spread(models), own + spread(models)].map(at);
     const kind = Math.abs(own) < least ? '' : own > 0 ? 'loss' : 'gain';
     return `<div class="rxd-meter" role="img" aria-label="${name}: ${words}"><span>${name}</span>
       <div><i style="left:${low}%;width:${high - low}%"></i><s style="left:50%"></s>

@@ -395,6 +395,7 @@ interface RxPackedTable {
 
 interface RxPowerPart {
   within: string;
+  holds: string;
   doubt: string;
   status: RxStatus;
   total: string;
@@ -406,6 +407,7 @@ interface RxPowerPart {
   ideal: number | null;
   ideal_title: string;
   moved: string;
+  sure: string;
   rest: string;
   why: string;
   problem: string;

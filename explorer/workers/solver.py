@@ -25,6 +25,7 @@ from rotor.optimisation import (
 from rotor.study.point import WarmStarts
 from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
 from rotor.trim import analyse, power_gradient
+from rotor.trim.doubt import Doubt
 
 _NICE = 5
 """Lower priority than the server, so that frames come before searches where processors are short."""
@@ -168,7 +169,7 @@ class ScheduleTask:
     plan: SchedulePlan
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
-        """Reports every `ScheduleOptimum`, then `FixedPowers`."""
+        """Reports every `ScheduleOptimum`, then `FixedBlade`."""
         plan = self.plan
         schedule = run_plan(plan, tell, stop)
         if schedule.complete:
@@ -177,12 +178,15 @@ class ScheduleTask:
                 evaluate_objective(Objective(plan.quantity, (leg,)), fixed, gradient=False).power
                 for leg in plan.conditions
             )
-            tell(FixedPowers(tuple(powers)))
+            tell(FixedBlade(tuple(powers), schedule.gain_doubt(plan.concepts[0].name)))
         return schedule
 
 
 @dataclass(frozen=True)
-class FixedPowers:
-    """Power of the best fixed blade on each leg [W]; None where it does not trim."""
+class FixedBlade:
+    """The best fixed blade, for comparison with one that moves."""
 
-    powers: tuple[float | None, ...]
+    powers: tuple[float | None, ...] = ()
+    """On each leg [W]; None where it does not trim."""
+    gain: Doubt | None = None
+    """How sure it is what moving saves beyond it."""

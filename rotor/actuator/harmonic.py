@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from rotor.actuator.kind import InstalledActuator
 from rotor.design.design import Design
-from rotor.optimisation.doubt import mean_doubt
+from rotor.optimisation.doubt import difference_doubt
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
@@ -50,7 +50,13 @@ class EffectInFlight:
     index: tuple[float, ...]
     """Change of the vibration index [%]; empty where there are no hub loads, as of blades that do not bend."""
     band: float | None = None
-    """Of the first power by uncertain inputs, to both sides [W]."""
+    """Of the first power, to both sides [W]."""
+
+    @property
+    def index_band(self) -> float | None:
+        """Of the first index, to both sides [%]: half of the largest difference of another model; None without one."""
+        first, *others = self.index or (0.0,)
+        return 0.5 * max(abs(other - first) for other in others) if others else None
 
 
 def effect(design: Design, reference: Design) -> EffectInFlight:
@@ -68,7 +74,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
         if inflow == design.models.inflow:
             one.require()
             other.require()
-            doubt = mean_doubt((1.0,), (one,), (other,))
+            doubt = difference_doubt((1.0,), (one,), (other,))
         if one.converged and other.converged:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:

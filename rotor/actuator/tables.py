@@ -134,6 +134,7 @@ def _comparison(verdict: Verdict) -> Row:
         "mass kW": kilowatts(-verdict.mass_cost),
         "drive kW": kilowatts(-verdict.drive_cost),
         "net kW": kilowatts(verdict.net_saving),
+        "± kW": NONE if verdict.net_band is None else kilowatts(verdict.net_band),
         "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
     }
 

@@ -15,7 +15,7 @@ from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseli
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept
-from rotor.optimisation.doubt import mean_doubt
+from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
 from rotor.trim.doubt import Doubt, sureness
 from rotor.trim.solution import Solution
@@ -259,7 +259,7 @@ def judge(
         ),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
-        doubt=mean_doubt(pair.shares, heavy, counted_from),
+        doubt=difference_doubt(pair.shares, heavy, counted_from),
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
@@ -287,9 +287,14 @@ def verdict_sentence(verdict: Verdict) -> str:
 
 
 def _sure(verdict: Verdict) -> str:
+    words = net_band_words(verdict)
+    return f" ({words})" if words else ""
+
+
+def net_band_words(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    return "" if band is None else f" (± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)})"
+    return "" if band is None else f"± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)}"
 
 
 def verdict_details(verdict: Verdict) -> str:

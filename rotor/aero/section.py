@@ -83,8 +83,8 @@ class SectionData(NamedTuple):
 
 NO_INCREMENTS = np.zeros((3, 0, 0))
 """`SectionData.added` in steady flow."""
-SCATTER = (MORE_LIFT, MORE_DRAG, MORE_MOMENT, EARLIER_RISE) = tuple(range(4))
-"""Rows of `SectionData.scatter`: shares of C_l and C_d, an amount of C_m, and the Mach number by which drag rises
+SCATTER = (MORE_LIFT, MORE_MOMENT, EARLIER_RISE) = tuple(range(3))
+"""Rows of `SectionData.scatter`: a share of C_l, an amount of C_m, and the Mach number by which drag rises
 earlier, to first order: partial derivatives leave out that of the last."""
 NO_SCATTER = np.zeros(0)
 _NONE = np.zeros(0)
@@ -292,8 +292,6 @@ def _scatter(scatter: Any, coeffs: Any) -> None:
         coeffs[3, j] += scatter[EARLIER_RISE] * coeffs[5, j]
         for k in range(3):
             coeffs[k, j] *= 1.0 + scatter[MORE_LIFT]
-            coeffs[3 + k, j] *= 1.0 + scatter[MORE_DRAG]
-        coeffs[_TURN, j] *= 1.0 + scatter[MORE_DRAG]
         coeffs[6, j] += scatter[MORE_MOMENT]
 
 

@@ -10,6 +10,7 @@ from rotor.command import common
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
+from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.objective import (
     QUANTITIES,
     Objective,
@@ -22,7 +23,7 @@ from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress
 from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text
-from rotor.trim.doubt import other_models
+from rotor.trim.doubt import Doubt, other_models
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import Solution
 
@@ -73,6 +74,8 @@ def run(args: argparse.Namespace) -> int:
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
+    if optimum.best is not None and optimum.doubt is None:
+        optimum = replace(optimum, doubt=saving_doubt(objective, optimum.design, design))
     beside = _extra_results(design, objective, optimum)
     if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
         if args.doubt:
@@ -95,8 +98,8 @@ class _ExtraResults:
     """Caveats of the best design."""
     index_band: tuple[float, float] | None = None
     """Least and largest mean index of the best design over inflow models [%]; None where it is not asked for."""
-    same_airfoils: float | None = None
-    """Power of the starting twist on the airfoils of the best design [W]; None where the airfoils are the same."""
+    same_airfoils: Doubt | None = None
+    """Beside the starting twist on the airfoils of the best design; None where the airfoils are the same."""
     models: tuple[tuple[str, Optimum], ...] = ()
     """What searches with other models find, by the name of the model."""
     flights: tuple[tuple[str, Optimum], ...] = ()
@@ -110,9 +113,9 @@ def _extra_results(design: Design, objective: Objective, optimum: Optimum) -> _E
     caveats = dict.fromkeys(caveat.sentence for solution in solutions for caveat in solution.caveats)
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
-    power = evaluate_objective(objective, start, gradient=False).power if changed else None
+    same = saving_doubt(objective, optimum.design, start) if changed else None
     return _ExtraResults(
-        tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), power
+        tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), same
     )
 
 
@@ -194,11 +197,12 @@ def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[st
         "saving_doubt_percent": None if optimum.doubt is None else optimum.doubt.change_band_percent,
         "sureness": optimum.doubt and optimum.doubt.sureness,
         "doubt_band": _bands(concept, optimum.doubt_band),
+        "doubt_cost_w": optimum.doubt_cost,
         "active": [] if best is None else list(best.active),
         "airfoils": airfoils_spec(optimum.design.rotor),
         "starts": optimum.starts,
         "seed": optimum.seed,
-        "same_airfoils_power_w": beside.same_airfoils,
+        "same_airfoils_power_w": beside.same_airfoils and beside.same_airfoils.against,
         "caveats": list(beside.caveats),
         **({"models": {name: _other(other, concept) for name, other in beside.models}} if beside.models else {}),
         **({"flights": {name: _other(other, concept) for name, other in beside.flights}} if beside.flights else {}),
@@ -262,7 +266,7 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         if sure := doubts.get(parameter.name):
             low, high = parameter.shown(sure.low), parameter.shown(sure.high)
             causes = ", ".join(f"{words} {parameter.shown(by):+z.{digits}f}" for words, by in sure.causes)
-            line += f", {low:z.{digits}f} to {high:z.{digits}f} with uncertain inputs ({causes})"
+            line += f", {low:z.{digits}f} to {high:z.{digits}f} with other inputs or inflow ({causes})"
         for line_rate in _in_hover(beside, optimum, k):
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:z.{digits}f} to {high:z.{digits}f} between annuli and a lifting line"
@@ -275,9 +279,10 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         f"power {power_text(best.power, 1)}" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
-        lines.append(f"starting design {power_text(optimum.baseline_power, 1)}, saving {100 * optimum.saving:.2f} %")
-        if optimum.doubt is not None:
-            lines.append(optimum.doubt.sentence)
+        lines.append(f"starting design {power_text(optimum.baseline_power, 1)}; the best {optimum.saving_words}")
+        if optimum.doubt_cost is not None:
+            cost = power_text(optimum.doubt_cost, 1)
+            lines.append(f"if inputs or inflow are otherwise, this twist is expected to cost {cost} above the least")
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
@@ -286,8 +291,8 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
             f"not an absolute level{before}"
         )
     if beside.same_airfoils is not None:
-        saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
-        lines.append(f"starting twist on these airfoils {power_text(beside.same_airfoils, 1)}, saving {saving:.2f} %")
+        power = power_text(beside.same_airfoils.against or 0.0, 1)
+        lines.append(f"starting twist on these airfoils {power}; the best {beside.same_airfoils.saving_words}")
     for name, outcome in (*beside.models, *beside.flights):
         twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
         saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"

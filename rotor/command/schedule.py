@@ -144,7 +144,8 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
         "twist": None if best is None else best.twist,
         "met": [] if best is None else list(best.active),
         "power_w": None if best is None else best.power,
-        "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
+        "saving_percent": optimum.saving_percent,
+        "saving_doubt_percent": optimum.doubt and optimum.doubt.change_band_percent,
     }
 
 
@@ -171,12 +172,8 @@ def report(schedule: Schedule) -> str:
                 f"Additional saving from variable twist {gain.gain / size:.1f} {symbol} "
                 f"({100 * gain.share:.2f} %)."
             )
-            if (
-                (sure := schedule.gain_doubt(concept.name)) is not None
-                and sure.change_band is not None
-                and sure.sureness
-            ):
-                sentence += f" Known to ± {sure.change_band / size:.1f} {symbol}: {sure.sureness}."
+            if (sure := schedule.gain_doubt(concept.name)) is not None and sure.sureness:
+                sentence += f" Known to ± {(sure.change_band or 0.0) / size:.1f} {symbol}: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end.")
@@ -200,11 +197,10 @@ def _line(cell: ScheduleOptimum, width: int) -> str:
     optimum = cell.optimum
     if optimum.best is None:
         return wrapped(f"  {cell.concept:<{width}}  {optimum.status.value}: {optimum.message}", "    ")
-    saving = "" if optimum.saving is None else f"saves {100 * optimum.saving:.2f} %"
     met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
     status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
     power, twist = _power(optimum.best.power), common.short_spec(optimum.best.twist)
-    return f"  {cell.concept:<{width}}{power:>11}  {saving:<14}{twist}{status}{met}"
+    return f"  {cell.concept:<{width}}{power:>11}  {optimum.saving_words:<26}{twist}{status}{met}"
 
 
 def optima_table(schedule: Schedule) -> Table:

@@ -69,13 +69,11 @@ def run(args: argparse.Namespace) -> int:
     return 0 if solution.converged else 1
 
 
-def _doubt(solution: Solution) -> Doubt | None:
-    """Against the blade as built, where that has another twist and trims; None for a free rotor."""
+def _doubt(solution: Solution) -> Doubt:
+    """Against the blade as built, where that has another twist and trims."""
     design = solution.design
-    if design.models.trim == "free-rotor":
-        return None
     built = replace(design, twist=design.aircraft.twist_for(design.preset))
-    other = None if built == design else solve(built)
+    other = None if built == design or design.models.trim == "free-rotor" else solve(built)
     return doubt(solution, other if other is not None and other.converged else None, models=True)
 
 
@@ -83,8 +81,7 @@ def doubt_table(doubt: Doubt) -> str:
     """The sentence, and what the band consists of."""
     symbol, size = power_unit(doubt.power, doubt.band)
     rows: list[tuple[CellValue, ...]] = [
-        (row.words, f"{row.size:g} {row.unit}", f"{row.power / size:+.2f}", row.change and row.change / size)
-        for row in doubt.rows
+        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
     ]
     rows += [
         (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)

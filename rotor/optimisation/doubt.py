@@ -1,11 +1,13 @@
 """How sure the saving of a search is, and where its best twist may lie: what uncertain inputs do to both.
 
 An uncertain input adds δ(x) to the power P(x) of twist parameters x, to first order (`rotor.trim.doubt`). The least of
-P + δ lies beside that of P by −H⁻¹ ∇δ with H = ∇²P, both by central differences: of the exact gradient of P, and of δ.
-Inputs are independent, so the shifts of a parameter are summed as squares.
+P + δ lies beside that of P by s = −H⁻¹ ∇δ with H = ∇²P, both by central differences: of the exact gradient of P, and of
+δ. Another inflow model has its own P and H; its least, by one step of Newton's method, is a shift as well. Inputs are
+independent, so the shifts of a parameter are summed as squares. A twist that is off by s needs ½ sᵀ H s more power.
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,11 +15,11 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, evaluate_objective, evaluate_objectives
+from rotor.optimisation.objective import Objective, ObjectiveValue, evaluate_objective, evaluate_objectives
 from rotor.optimisation.results import ParameterBand
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis, analysed
-from rotor.trim.doubt import Doubt, DoubtRow
+from rotor.trim.doubt import Doubt, mean_changes, mean_doubt, with_other_inflow
 from rotor.trim.solution import Solution
 
 _STEP = 0.03
@@ -38,44 +40,35 @@ def _cold(design: Design) -> Sequence[Solution]:
 def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
     """The uncertainty of a mean power and of its difference from that of the baseline.
 
-    None where one does not trim, or the objective is not total power.
+    None where one does not trim, or the objective is induced power.
     """
-    if objective.quantity != "total":
+    if objective.quantity == "induced":
         return None
     here, there = (
         evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)
     )
-    return mean_doubt(objective.shares, here, there)
+    return difference_doubt(objective.shares, here, there)
 
 
-def mean_doubt(
+def difference_doubt(
     shares: Sequence[float], here: Sequence[Solution | Analysis], there: Sequence[Solution | Analysis]
 ) -> Doubt | None:
     """The uncertainty of a mean power over conditions, and of its difference from other trims; None where one is
     missing."""
-    ours, theirs = ([analysed(trim).solution for trim in trims] for trims in (here, there))
-    if len(here) < len(shares) or len(there) < len(shares) or not all(trim.converged for trim in (*ours, *theirs)):
+    ours, theirs = ([analysed(trim) for trim in trims] for trims in (here, there))
+    if min(len(here), len(there)) < len(shares) or not all(trim.solution.converged for trim in (*ours, *theirs)):
         return None
-    power, other = (
-        sum(share * trim.power.total for share, trim in zip(shares, trims, strict=True)) for trims in (ours, theirs)
-    )
-    changes, others = _changes(shares, here), _changes(shares, there)
-    rows = [
-        DoubtRow(row.name, row.words, row.size, row.source, changes[row.name], changes[row.name] - others[row.name])
-        for row in uncertain_inputs(ours[0].design)
-        if row.name in changes and row.name in others
-    ]
-    rows.sort(key=lambda row: -abs(row.change or 0.0))
-    return Doubt(power, tuple(rows), other, theirs[0].design.twist.spec())
+    return mean_doubt(shares, ours, theirs)
 
 
-def _changes(shares: Sequence[float], trims: Sequence[Solution | Analysis]) -> dict[str, float]:
-    """What every uncertain input does to the mean power [W]."""
-    changes = dict[str, float]()
-    for share, trim in zip(shares, trims, strict=True):
-        for name, change in analysed(trim).power_changes.items():
-            changes[name] = changes.get(name, 0.0) + share * change
-    return changes
+@dataclass(frozen=True)
+class BestTwistDoubt:
+    """Where the best twist may lie."""
+
+    bands: tuple[ParameterBand, ...] = ()
+    """The range of each parameter within its bounds, SI."""
+    cost: float | None = None
+    """Power that the best twist found is expected to need above the least [W]."""
 
 
 def best_twist_doubt(
@@ -85,36 +78,54 @@ def best_twist_doubt(
     limits: Limits,
     best: tuple[float, ...],
     starts: Starts = _cold,
-) -> tuple[ParameterBand, ...]:
-    """The range of each parameter of the best twist that follows from the uncertain inputs, within its bounds, SI.
+) -> BestTwistDoubt:
+    """Where the best twist may lie by the uncertain inputs, and by another inflow model.
 
     Empty where the objective is not total power, a neighbour does not trim, or the best lies on a bound.
     """
     low, high = (np.array(ends) for ends in zip(*limits.bounds_of(concept), strict=True))
     x, steps = np.array(best), _STEP * (high - low)
     if objective.quantity != "total" or np.any(x - steps < low) or np.any(x + steps > high):
-        return ()
+        return BestTwistDoubt()
 
     places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
     designs = [concept.apply(design, place) for place in places]
-    found = evaluate_objectives(objective, designs, [starts(each) for each in designs])
-    gradients, changes = list[Array](), list[dict[str, float]]()
-    for place, measured in zip(places, found, strict=True):
-        if measured.by_pitch is None:
-            return ()
-        gradients.append(concept.slopes(place, measured.solutions[0].disk.r) @ measured.by_pitch)
-        changes.append(_changes(objective.shares, measured.trims))
     width = 2.0 * steps[:, None]
-    hessian = (np.array(gradients[::2]) - np.array(gradients[1::2])) / width
+
+    def slopes(values: Array) -> Array:
+        return (values[::2] - values[1::2]) / width
+
+    def gradients(found: Sequence[ObjectiveValue]) -> Array | None:
+        """∇P at every place, (places, parameters); None unless P has a minimum nearby."""
+        rows = [
+            concept.slopes(place, each.solutions[0].disk.r) @ each.by_pitch
+            for place, each in zip(places, found, strict=True)
+            if each.by_pitch is not None
+        ]
+        if len(rows) < len(places):
+            return None
+        hessian = slopes(np.array(rows))
+        return np.array(rows) if np.linalg.eigvalsh(hessian + hessian.T).min() > 0.0 else None
+
+    found = evaluate_objectives(objective, designs, [starts(each) for each in designs])
+    powers = gradients(found)
+    if powers is None:
+        return BestTwistDoubt()
+    hessian = slopes(powers)
+    hessian = 0.5 * (hessian + hessian.T)
+    changes = [mean_changes(objective.shares, each.trims) for each in found]
     names = list(changes[0])
     by_input = np.array([[each[name] for name in names] for each in changes])
-    slopes = (by_input[::2] - by_input[1::2]) / width
-    values, axes = np.linalg.eigh(0.5 * (hessian + hessian.T))
-    if values.min() <= 0.0:
-        return ()
-    shifts = -(axes @ ((axes.T @ slopes) / values[:, None]))
+    shifts = _solved(hessian, -slopes(by_input))
     words = {row.name: row.words for row in uncertain_inputs(design)}
-    return tuple(
+    others = [with_other_inflow(each) for each in designs]
+    flies = not all(solution.design.hovering for solution in found[0].solutions)
+    there = gradients(evaluate_objectives(objective, others, [()] * len(others))) if flies else None
+    if there is not None:
+        shifts = np.column_stack((shifts, _solved(slopes(there), -there.mean(axis=0))))
+        names.append(f"inflow {others[0].models.inflow}")
+        words[names[-1]] = names[-1]
+    bands = tuple(
         ParameterBand(
             parameter.name,
             float(max(centre - half, least)),
@@ -125,3 +136,8 @@ def best_twist_doubt(
             concept.parameters, x, shifts, np.sqrt(np.square(shifts).sum(axis=1)), low, high, strict=True
         )
     )
+    return BestTwistDoubt(bands, 0.5 * float(np.sum(shifts * (hessian @ shifts))))
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)

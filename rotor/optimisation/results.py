@@ -100,15 +100,17 @@ class Optimum:
     baseline_index: float | None = None
     """Vibration index of the design given [%] where objective or limits ask for it."""
     doubt: Doubt | None = None
-    """How sure the saving is; None where the band was not requested, or the objective is not total power."""
+    """How sure the saving is; None where the band was not requested, or the objective is induced power."""
     doubt_band: tuple[ParameterBand, ...] = ()
     """Where each parameter may lie by what is uncertain; empty where that is not known."""
+    doubt_cost: float | None = None
+    """Power that the best twist is expected to need above the least, because the least may lie elsewhere [W]."""
 
     def __repr__(self) -> str:
         head = f"Optimum({self.concept}, {self.status.value}"
         if self.best is None:
             return f"{head}: {self.message})"
-        saving = "" if self.saving_percent is None else f", saves {self.saving_percent:.2f} %"
+        saving = f", {self.saving_words}" if self.saving_words else ""
         index = "" if self.best.index is None else f", index {self.best.index:.2f} %"
         return f"{head}, twist {self.best.twist}, {power_text(self.best.power, 1)}{saving}{index})"
 
@@ -116,6 +118,14 @@ class Optimum:
     def twist(self) -> TwistLaw:
         """The best twist; that of the design given where nothing was found."""
         return self.design.twist
+
+    @property
+    def saving_words(self) -> str:
+        """`saves 1.8 ± 0.7 %: sure`, without the band where that is not known; empty without a saving."""
+        if self.doubt is not None:
+            return self.doubt.saving_words
+        saving = self.saving_percent
+        return "" if saving is None else f"{'saves' if saving >= 0.0 else 'costs'} {abs(saving):.2f} %"
 
     @property
     def saving_percent(self) -> float | None:
@@ -155,3 +165,5 @@ class BestTwist:
     """[rad/R]"""
     ranges: tuple[TwistRange, ...]
     """Without those where one end has no trim."""
+    cost: float | None = None
+    """`Optimum.doubt_cost`."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.doubt import mean_doubt
+from rotor.optimisation.doubt import difference_doubt, saving_doubt
 from rotor.optimisation.evaluator import TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition, check_index
@@ -122,7 +122,7 @@ class Schedule:
         flights = [condition.flight for condition in self.plan.conditions]
         here = [solve(replace(design, condition=flight)) for design, flight in zip(designs, flights, strict=True)]
         there = [solve(replace(fixed.design, condition=flight)) for flight in flights]
-        return mean_doubt(shares, here, there)
+        return difference_doubt(shares, here, there)
 
     def in_flight_gain(self, concept: str) -> InFlightGain | None:
         """Gain of in-flight twist; None while an optimum of the concept is missing."""
@@ -222,6 +222,8 @@ def _searches(
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
+        if optimum.best is not None:
+            optimum = replace(optimum, doubt=saving_doubt(objective, optimum.design, design))
         known[condition, concept.name] = cell = ScheduleOptimum(condition, concept.name, optimum)
         yield cell
 

@@ -18,7 +18,7 @@ from rotor.design.design import Design, require_design
 from rotor.design.quantity import number
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.descent import BAND, TOLERANCE, LocalModel, descend, measure_band
-from rotor.optimisation.doubt import best_twist_doubt, saving_doubt
+from rotor.optimisation.doubt import BestTwistDoubt, best_twist_doubt, saving_doubt
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Objective, ObjectiveValue, Quantity, at_condition, check_index, over_conditions
@@ -129,7 +129,7 @@ class _Run:
         self.lost = 0
         self.band: tuple[ParameterBand, ...] = ()
         self.doubt: Doubt | None = None
-        self.doubt_band: tuple[ParameterBand, ...] = ()
+        self.twist_doubt = BestTwistDoubt()
 
     @property
     def best(self) -> Evaluation | None:
@@ -185,7 +185,7 @@ class _Run:
         search, values, starts = self.search, self.evaluate.values(self.best.x), self.evaluate.starts_for
         best = search.concept.apply(search.design, values)
         self.doubt = saving_doubt(objective, best, search.design, starts)
-        self.doubt_band = best_twist_doubt(search.design, search.concept, objective, search.limits, values, starts)
+        self.twist_doubt = best_twist_doubt(search.design, search.concept, objective, search.limits, values, starts)
 
     def _leads_to(self, lead: Evaluation, x: Array) -> bool:
         """Whether a point is so near a minimum that a descent from there ends in it."""
@@ -261,7 +261,8 @@ class _Run:
             minima=minima,
             band=self.band,
             doubt=self.doubt,
-            doubt_band=self.doubt_band,
+            doubt_band=self.twist_doubt.bands,
+            doubt_cost=self.twist_doubt.cost,
             baseline_power=self.baseline.power,
             baseline_index=self.baseline.index,
             evaluations=evaluate.count,
@@ -403,7 +404,8 @@ def best_linear_twist(design: Design) -> BestTwist:
         ranges += [
             TwistRange("wake", (result.best.parameters[0], rate(line))) for line in other_models(design).values()
         ]
-    return BestTwist(result.best.parameters[0], tuple(each for each in ranges if math.isfinite(each.width)))
+    known = tuple(each for each in ranges if math.isfinite(each.width))
+    return BestTwist(result.best.parameters[0], known, result.doubt_cost)
 
 
 def nearby_flights(design: Design) -> list[tuple[str, tuple[float, float], tuple[Design, Design]]]:

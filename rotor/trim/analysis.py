@@ -52,10 +52,7 @@ class Analysis:
 
     @cached_property
     def power_changes(self) -> Mapping[str, float]:
-        """What every uncertain input does to total power [W], where it is larger by its size.
-
-        RuntimeError for a free rotor.
-        """
+        """What every uncertain input does to total power [W], where it is larger by its size."""
         return power_changes(self.adjoint)
 
 

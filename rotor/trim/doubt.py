@@ -1,12 +1,17 @@
-"""How sure a power is, and how much surer a difference between two designs: what uncertain inputs do, to first order.
+"""How sure a power is, and how much surer a difference between two designs.
 
 What is uncertain and by how much: `rotor.design.uncertain`; what it does: `rotor.trim.power_changes`.
 An input is as wrong for one design as for another, so the change of a *difference* is the difference of the changes.
 Inputs are wrong independently of one another, so their changes are summed as squares.
+
+The model's own errors are shares of induced and profile power, fitted to measured powers (`rotor.validation.doubt`).
+They say little about how induced power differs between two designs. For that inflow models are compared.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
@@ -14,6 +19,7 @@ from rotor.design.uncertain import Uncertain, uncertain_inputs
 from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
+from rotor.trim.low_speed import hover_share
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -21,6 +27,8 @@ SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
 LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
+COMPARED_INFLOWS = ("lifting-line", "pitt-peters")
+"""Inflow models whose disagreement about a difference is taken as its error."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +39,11 @@ class DoubtRow(Uncertain):
     """Change of total power where the input is larger by its size [W]."""
     change: float | None = None
     """Change by the input of the power less that of the design compared with [W]; None without one."""
+
+    @property
+    def size_words(self) -> str:
+        """The size with its unit, as `5 %`."""
+        return f"{self.size:g} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -59,6 +72,8 @@ class Doubt:
     """SPEC of its twist."""
     models: tuple[OtherModels, ...] = ()
     """Beside the band, not in it."""
+    of_total: bool = True
+    """Whether `power` is total power; else the drag of a free rotor times speed."""
 
     def __repr__(self) -> str:
         return f"Doubt({self.sentence})"
@@ -106,15 +121,20 @@ class Doubt:
         """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
-        words = f"Power {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        name = "Power" if self.of_total else "Drag times speed"
+        words = f"{name} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        return f"{words} {design} {self.saving_words}." if self.saving_words else words
+
+    @property
+    def saving_words(self) -> str:
+        """`saves 1.8 ± 0.7 %: sure`; empty without a change."""
         change, within, sure = self.change, self.change_band_percent, self.change_words
         if change is None or within is None or not self.against:
-            return words
+            return ""
         if not sure:
-            return f"{words} {design} neither saves nor costs."
-        verb = "saves" if change <= 0.0 else "costs"
-        amount = abs(100.0 * change / self.against)
-        return f"{words} {design} {verb} {amount:.{min(decimals(within), 2)}f} {sure}."
+            return "neither saves nor costs"
+        verb, amount = "saves" if change <= 0.0 else "costs", abs(100.0 * change / self.against)
+        return f"{verb} {amount:.{min(decimals(within), 2)}f} {sure}"
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
@@ -127,14 +147,8 @@ class Doubt:
             "change_band_w": self.change_band,
             "sureness": self.sureness,
             "rows": [
-                {
-                    "name": row.name,
-                    "size": row.size,
-                    "unit": row.unit,
-                    "source": row.source,
-                    "power_w": row.power,
-                    "change_w": row.change,
-                }
+                {name: getattr(row, name) for name in ("name", "size", "unit", "source")}
+                | {"power_w": row.power, "change_w": row.change}
                 for row in self.rows
             ],
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
@@ -158,7 +172,8 @@ def decimals(band: float) -> int:
 def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = None, *, models: bool = False) -> Doubt:
     """The uncertainty of a design's power, and that of its difference from another design.
 
-    Most causes act on both designs alike, so the difference is far more certain than the power.
+    Most causes act on both designs alike, so the difference is more certain than the power. Of a free rotor the power
+    is its drag times speed.
 
     Parameters:
         solution: a converged trim, or its `rotor.trim.Analysis`, which keeps what this computes.
@@ -169,7 +184,8 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
         Bands [W] of the power and of the difference, each with its parts.
 
     Raises:
-        RuntimeError: a solution is not converged, or is of a free rotor, which takes no power.
+        RuntimeError: a solution is not converged.
+        ValueError: two designs of which one is a free rotor, whose drag has no multipliers.
 
     Example:
         >>> here, built = (rotor.solve(rotor.make_design(mu=0.3, twist=twist)) for twist in ("linear:-12", "builtin"))
@@ -178,25 +194,91 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
         True
     """
     trim, other = analysed(solution), None if against is None else analysed(against)
-    solution, here, there = trim.solution, trim.power_changes, None if other is None else other.power_changes
-    known = {row.name: row for row in uncertain_inputs(solution.design)}
+    found = mean_doubt((1.0,), (trim,), None if other is None else (other,))
+    designs = (each.solution.design for each in (trim, other) if each is not None)
+    return replace(found, models=alternative_models(*designs)) if models else found
+
+
+def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None) -> Doubt:
+    """`doubt` of a mean power over conditions."""
+    first = here[0].solution.design
+    if there is not None and (_is_free(first) or _is_free(there[0].solution.design)):
+        raise ValueError("A free rotor takes no power from its shaft, so no saving is known: leave against out.")
+    changes, differences = mean_changes(shares, here), dict[str, float]()
+    if there is not None:
+        others = mean_changes(shares, there)
+        differences = {name: changes.get(name, 0.0) - others.get(name, 0.0) for name in {**changes, **others}}
+        for share, one, other in zip(shares, here, there, strict=True):
+            for name, change in _inflow_differences(one.solution, other.solution).items():
+                differences[name] = differences.get(name, 0.0) + share * change
     rows = [
-        DoubtRow(
-            **vars(row),
-            power=here.get(name, 0.0),
-            change=None if there is None else here.get(name, 0.0) - there.get(name, 0.0),
-        )
-        for name, row in known.items()
-        if name in here or (there is not None and name in there)
+        DoubtRow(**vars(row), power=changes.get(row.name, 0.0), change=differences.get(row.name))
+        for row in uncertain_inputs(first)
+        if row.name in changes or row.name in differences
     ]
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
-        solution.power.total,
+        _mean_power(shares, here),
         tuple(rows),
-        None if other is None else other.solution.power.total,
-        None if other is None else other.solution.design.twist.spec(),
-        alternative_models(solution.design, None if other is None else other.solution.design) if models else (),
+        None if there is None else _mean_power(shares, there),
+        None if there is None else there[0].solution.design.twist.spec(),
+        of_total=not _is_free(first),
     )
+
+
+def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str, float]:
+    """What every uncertain input does to a mean power over conditions [W], as `rotor.trim.power_changes`."""
+    mean = dict[str, float]()
+    for share, trim in zip(shares, trims, strict=True):
+        for name, change in trim.power_changes.items():
+            mean[name] = mean.get(name, 0.0) + share * change
+    return mean
+
+
+def _inflow_differences(here: Solution, there: Solution) -> dict[str, float]:
+    """What the inflow model does to the difference of two powers [W], by uncertain input.
+
+    Errors that two inflow models share cancel in a difference of designs; those that they do not share stay. In hover,
+    and where the other model has no trim, it is a part of the change of induced power.
+    """
+    designs = here.design, there.design
+    size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
+    hovering = any(design.hovering for design in designs)
+    first, second = (None if hovering else _power_with_other_inflow(design) for design in designs)
+    induced = size["hover_wake_percent"] * (here.power.induced - there.power.induced)
+    if first is None or second is None:
+        return {"hover_wake_percent": induced}
+    differ = known_power(here) - known_power(there) - (first - second)
+    found = {"inflow_model_percent": size["inflow_model_percent"] * differ}
+    share = max(map(hover_share, designs))
+    return {**found, "hover_wake_percent": share * induced} if share else found
+
+
+def with_other_inflow(design: Design) -> Design:
+    """The design with the other of `COMPARED_INFLOWS`."""
+    inflow = next(name for name in COMPARED_INFLOWS if name != design.models.inflow)
+    return replace(design, models=replace(design.models, inflow=inflow))
+
+
+@lru_cache(maxsize=64)
+def _power_with_other_inflow(design: Design) -> float | None:
+    """[W]; None where it does not trim."""
+    other = solve(with_other_inflow(design))
+    return known_power(other) if other.converged else None
+
+
+def known_power(solution: Solution) -> float:
+    """Total power, or of a free rotor, which takes none from its shaft, drag times speed [W]."""
+    power = solution.power
+    return power.total - power.parasite if _is_free(solution.design) else power.total
+
+
+def _mean_power(shares: Sequence[float], trims: Sequence[Analysis]) -> float:
+    return sum(share * known_power(trim.solution) for share, trim in zip(shares, trims, strict=True))
+
+
+def _is_free(design: Design) -> bool:
+    return design.models.trim == "free-rotor"
 
 
 def usual_inflows() -> tuple[str, ...]:
@@ -211,8 +293,8 @@ def alternative_models(design: Design, against: Design | None = None) -> tuple[O
         here = solve(changed)
         there = None if against is None else solve(other_models(against).get(name, against))
         if here.converged and (there is None or there.converged):
-            change = None if there is None else here.power.total - there.power.total
-            rows.append(OtherModels(name, here.power.total, change))
+            change = None if there is None else known_power(here) - known_power(there)
+            rows.append(OtherModels(name, known_power(here), change))
     return tuple(rows)
 
 

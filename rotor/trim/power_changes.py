@@ -8,7 +8,6 @@ one evaluation of its equations, no new trim. The course of the wake, and at low
 another path of the wake has a trim of its own: to first order its change would be up to three times too large.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from operator import attrgetter
@@ -16,7 +15,7 @@ from operator import attrgetter
 import numpy as np
 
 from rotor.aero.problem import Problem, build_problem
-from rotor.aero.section import EARLIER_RISE, MORE_DRAG, MORE_LIFT, MORE_MOMENT, SCATTER
+from rotor.aero.section import EARLIER_RISE, MORE_LIFT, MORE_MOMENT, SCATTER
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
 from rotor.design.design import Design
@@ -39,38 +38,25 @@ _STEP_SHARE = 0.1
 def power_changes(adjoint: Adjoint) -> dict[str, float]:
     """What every uncertain input does to total power [W], where it is larger by its size.
 
-    Raises RuntimeError for a free rotor.
+    Of a free rotor, what the errors of the model do to its drag times speed.
     """
     solution = adjoint.solution
-    if solution.design.models.trim == "free-rotor":
-        raise RuntimeError("A free rotor takes no power from its shaft, so there is no band: use trim wind-tunnel.")
-    near = _PowerNearby(adjoint)
+    near = None if solution.design.models.trim == "free-rotor" else _PowerNearby(adjoint)
     changes = dict[str, float]()
     for row in uncertain_inputs(solution.design):
         if row.name in _POWERS:
             if power := _POWERS[row.name](solution):
                 changes[row.name] = 0.01 * row.size * power
+        elif near is None:
+            continue
         elif row.name == WAKE_PATH:
             if change := near.along_beddoes(0.01 * row.size):
                 changes[row.name] = change
+        elif row.name not in _CHANGES:
+            continue
         elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
             changes[row.name] = near.change(changed) / _STEP_SHARE
     return changes
-
-
-def _hover_induced(solution: Solution) -> float:
-    """Induced power [W], as far as the wake is that of hover, and what the tail rotor takes for it."""
-    part = hover_part(solution.design.condition.advance_ratio, solution.ct)
-    return part * solution.power.induced * tail_gain(solution)
-
-
-def hover_part(mu: float, thrust: float) -> float:
-    """How far a wake in level flight at C_T is that of hover: cos²χ = λ²/(µ² + λ²), χ the skew of the wake.
-
-    It is the share of the axial transport in the squared velocity through the disk, with λ by Glauert's momentum
-    theory, λ² (µ² + λ²) = (C_T/2)²: 1 in hover, without slope there, and (C_T/2µ²)² at speed.
-    """
-    return (thrust / (math.hypot(mu**2, thrust) + mu**2)) ** 2 if mu else 1.0
 
 
 class _PowerNearby:
@@ -171,7 +157,6 @@ def _tip_loss(problem: Problem, amount: float) -> Problem | None:
 
 
 _CHANGES: Mapping[str, Change] = {
-    "section_drag_percent": _section(MORE_DRAG, 0.01),
     "section_lift_percent": _section(MORE_LIFT, 0.01),
     "section_moment": _section(MORE_MOMENT),
     "drag_rise_mach": _section(EARLIER_RISE),
@@ -187,7 +172,8 @@ _CHANGES: Mapping[str, Change] = {
 }
 """By name, in the order of `assets/doubt.toml`."""
 _POWERS: Mapping[str, Callable[[Solution], float]] = {
-    "hover_induced_percent": _hover_induced,
+    "induced_power_percent": lambda solution: solution.power.induced * tail_gain(solution),
+    "profile_power_percent": lambda solution: solution.power.profile * tail_gain(solution),
     "tail_rotor_percent": lambda solution: solution.power.tail,
 }
-"""Powers [W] of which a part is uncertain, by name. No trim follows them: what balances the rotor stays."""
+"""Powers [W] of which a part is uncertain, by name; of the rotor's, with what the tail rotor takes for it."""

@@ -1,117 +1,187 @@
-"""Whether measured powers lie within the bands of `rotor.trim.doubt`: for the trust page, good or bad."""
+"""Whether measured powers lie within the bands of `rotor.trim.doubt`, and the sizes of the model's errors behind them.
+
+The errors of induced and of profile power are fitted to measured powers: their sizes are those under which the errors
+seen are most likely. The points of a rotor share an error, so together they count as one.
+`python -m tests.tools.bands` fits them again.
+"""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
+import numpy as np
+from scipy.optimize import minimize
+
+from rotor.design.uncertain import UNCERTAIN
 from rotor.files.make_design import make_design
+from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Points
-from rotor.trim.doubt import doubt
+from rotor.trim.doubt import doubt, known_power
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.compare import MeasuredSet, at_zero, design_at, load_set
-from rotor.validation.flown import TITLES, measured_powers
-from rotor.validation.trust import TrustRow, TrustSet, description
+from rotor.validation.compare import SETS, at_zero, design_at, load_set
+from rotor.validation.flown import measured_powers
+from rotor.validation.trust import LEFT_OUT, TrustRow, TrustSet, description
 
-NAME = "doubt"
-POWERS = {
-    "hover": (
-        "uh60a-hover", "knight-hefner-3", "knight-hefner-4", "castles-gray-hover", "castles-gray-4ft",
-        "castles-gray-tapered", "castles-gray", "castles-gray-twisted",
-    ),
-    "XV-15 hover": ("xv15-hover",),
-    "XV-15 tunnel": ("xv15-forward-15deg", "xv15-forward-0deg"),
-}  # fmt: skip
-"""Sets of shaft powers by kind of flight. The free rotor of `pca2` takes none."""
-FLOWN = {"gazelle": "level flight", "bo105": "Bo 105, mass assumed"}
-"""Kind of the powers measured in flight, by rotor."""
+NAME, HOVER = "doubt", "hover"
+ROTORS = {
+    "uh60a": "UH-60A",
+    "xv15": "XV-15",
+    "knight-hefner": "Knight and Hefner",
+    "castles-gray": "Castles and Gray",
+    "gazelle": "SA349/2 Gazelle",
+    "bo105": "Bo 105",
+    "pca2": "PCA-2",
+}
+"""Titles, by the name with which the names of the shipped rotors of a test begin."""
+QUANTITIES = ("cp", "cq_over_sigma", "cq_above_zero", "cp_drag")
+"""Measured quantities that are powers."""
+LEAST_LIFT = 0.03
+"""Least C_T/σ where torque was measured above a zero that drifted: below it, that torque is small."""
+MODEL = ("induced_power_percent", "profile_power_percent")
+"""Uncertain inputs whose sizes are fitted."""
+COVERAGES = {50: 0.6745, 68: 1.0, 90: 1.6449}
+"""Part of the points that belongs within so many bands [%], of a normal distribution."""
 
 
 @dataclass(frozen=True)
 class PointAndBand:
-    """One measured power beside the computed one with its band."""
+    """One measured power beside the computed one with its band; all in parts of the computed power."""
 
-    name: str
-    """Name of the set, or the helicopter."""
+    rotor: str
+    """Of `ROTORS`."""
     kind: str
-    """Kind of flight: of `POWERS` or `FLOWN`."""
+    """`hover` or `forward flight`."""
     error: float
-    """Measured over computed, less 1 [-]."""
-    band: float
-    """Over our power."""
+    """Measured less computed [-]."""
+    induced: float
+    profile: float
+    rest: float
+    """Band of all inputs but `MODEL`."""
 
-    @property
-    def inside(self) -> bool:
-        return abs(self.error) <= self.band
+    def over_band(self, sizes: Sequence[float]) -> float:
+        """Error over band, with the sizes of `MODEL` as fractions."""
+        return self.error / math.hypot(sizes[0] * self.induced, sizes[1] * self.profile, self.rest)
 
 
-def points_and_bands() -> Iterator[PointAndBand]:
-    """All measured powers at which our rotor trims, in order of kind."""
-    for kind, names in POWERS.items():
-        for measured in map(load_set, names):
-            points = [point for point in measured.points if measured.counts(point) or not measured.indicative]
-            yield from (held for point in points for held in _held_of(measured, point, kind))
-        if kind == "hover":
-            yield from _flown()
+@cache
+def points_and_bands() -> tuple[PointAndBand, ...]:
+    """All measured powers at which our rotor trims."""
+    return (*_of_sets(), *_flown())
+
+
+def _of_sets() -> Iterator[PointAndBand]:
+    for measured in map(load_set, SETS):
+        if measured.quantity not in QUANTITIES:
+            continue
+        for point in measured.points:
+            solution, above_zero = solve(design := design_at(measured, point)), measured.quantity == "cq_above_zero"
+            if not solution.converged or (above_zero and solution.ct < LEAST_LIFT * design.rotor.solidity):
+                continue
+            unit = design.power_unit * (design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0)
+            power = point[measured.quantity] * unit + (at_zero(design).power.main_rotor if above_zero else 0.0)
+            yield _point(measured.rotor, HOVER if design.hovering else "forward flight", solution, power)
 
 
 def _flown() -> Iterator[PointAndBand]:
     for power in measured_powers():
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
         if solution.converged:
-            yield _point_and_band(TITLES[power.rotor], FLOWN[power.rotor], solution, power.power)
+            yield _point(power.rotor, "forward flight", solution, power.power)
 
 
-def _held_of(measured: MeasuredSet, point: dict[str, float], kind: str) -> Iterator[PointAndBand]:
-    """One point of a set; none where our rotor does not trim."""
-    solution = solve(design_at(measured, point))
-    if solution.converged:
-        design, above_zero = solution.design, measured.quantity == "cq_above_zero"
-        part = design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0
-        power = point[measured.quantity] * part * design.power_unit
-        yield _point_and_band(measured.title, kind, solution, power, at_zero(design) if above_zero else None)
+def _point(rotor: str, kind: str, solution: Solution, measured: float) -> PointAndBand:
+    """A power at the main rotor's shaft, or of a free rotor drag times speed; the band is without the tail rotor's."""
+    computed = known_power(solution) - solution.power.tail
+    rows = [row for row in doubt(solution).rows if row.name not in {*MODEL, "tail_rotor_percent"}]
+    rest = math.hypot(*(row.power for row in rows)) / known_power(solution)
+    name = next(name for name in ROTORS if rotor.startswith(name))
+    power = solution.power
+    return PointAndBand(name, kind, measured / computed - 1.0, power.induced / computed, power.profile / computed, rest)
 
 
-def _point_and_band(
-    name: str, kind: str, solution: Solution, measured: float, zero: Solution | None = None
-) -> PointAndBand:
-    """A power at the main rotor's shaft, or what it is above that without thrust, beside a measurement.
+def fitted(points: Iterable[PointAndBand]) -> tuple[float, float]:
+    """The sizes of `MODEL`, as fractions, under which the errors are most likely; each rotor counts once."""
+    by_rotor: dict[str, list[PointAndBand]] = {}
+    for point in points:
+        by_rotor.setdefault(point.rotor, []).append(point)
 
-    The band is that of the same power or difference, without that of the tail rotor.
-    """
-    computed, total = solution.power.main_rotor, solution.power.total
-    if zero is not None:
-        computed, total = computed - zero.power.main_rotor, total - zero.power.total
-    rows = [row for row in doubt(solution, zero).rows if row.name != "tail_rotor_percent"]
-    band = math.hypot(*(row.power if row.change is None else row.change for row in rows))
-    return PointAndBand(name, kind, measured / computed - 1.0, band / abs(total))
+    def unlikely(logs: Array) -> float:
+        """−ln of the likelihood, but for a constant."""
+        sizes = tuple(np.exp(logs).tolist())
+        each = (
+            np.mean([0.5 * (z := point.over_band(sizes)) ** 2 + math.log(abs(point.error / z)) for point in mine])
+            for mine in by_rotor.values()
+        )
+        return float(sum(each))
+
+    first, second = np.exp(minimize(unlikely, np.log([0.1, 0.2]), method="Nelder-Mead").x).tolist()
+    return first, second
+
+
+def shipped_sizes() -> tuple[float, float]:
+    """The sizes of `MODEL` in `assets/doubt.toml`, as fractions."""
+    first, second = (0.01 * row.size for name in MODEL for row in UNCERTAIN if row.name == name)
+    return first, second
+
+
+def left_out_sizes(points: Sequence[PointAndBand]) -> dict[str, tuple[float, float]]:
+    """By rotor the sizes that all others give."""
+    return {name: fitted(point for point in points if point.rotor != name) for name in ROTORS}
+
+
+def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[float, ...]:
+    """Part of the points within the bands of `COVERAGES`, the mean over rotors; each point with the sizes it has."""
+    by_rotor: dict[str, list[float]] = {}
+    for point, sizes in points:
+        by_rotor.setdefault(point.rotor, []).append(abs(point.over_band(sizes)))
+    return tuple(
+        float(np.mean([np.mean([one <= bands for one in mine]) for mine in by_rotor.values()]))
+        for bands in COVERAGES.values()
+    )
 
 
 def doubt_set() -> TrustSet:
     """For the trust page."""
-    words, held = description(NAME), list(points_and_bands())
-    by_name = {name: [point for point in held if point.name == name] for name in dict.fromkeys(p.name for p in held)}
-    heads = ("Set", "Kind of flight", "Points", "Inside", "Mean band [%]", "Mean error [%]", "Worst error [%]")
+    words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
     rows: list[TrustRow] = []
     series: list[Points] = []
-    cells: list[tuple[str, ...]] = [heads]
-    for k, (name, points) in enumerate(by_name.items()):
-        count, inside = len(points), sum(point.inside for point in points)
-        rows.append(words.row(name, f"{inside} of {count}", inside / count, 0.1, note=words.notes.get(name, "")))
-        series.append(Points("", [point.error / point.band for point in points], [k] * count, 1))
-        errors = [point.error for point in points]
-        band, mean = sum(point.band for point in points) / count, sum(errors) / count
-        parts = f"{100 * band:.1f}", f"{100 * mean:+.1f}", f"{100 * max(errors, key=abs):+.1f}"
-        cells.append((name, points[0].kind, f"{count}", f"{inside}", *parts))
-    chart = Chart("Error over band", Axis("(measured − computed)/band"), Axis(names=tuple(by_name)), tuple(series))
-    text = (paragraph.format(counted=count_by_kind(held)) for paragraph in words.text)
-    return words.page(count_by_kind(held), rows, (chart,), text=text, points=cells)
+    for rotor, kind in dict.fromkeys((point.rotor, point.kind) for point in points):
+        mine = [point for point in points if (point.rotor, point.kind) == (rotor, kind)]
+        over = [point.over_band(sizes) for point in mine]
+        band = np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)])
+        mean, inside = np.mean([point.error for point in mine]), sum(abs(z) <= 1.0 for z in over)
+        shown = (
+            f"{100 * abs(mean):.0f} % too {'low' if mean > 0.0 else 'high'} in the mean, {inside} of {len(mine)} "
+            f"within ± {100 * band:.0f} % ({_percent(coverage((point, sizes) for point in mine))})"
+        )
+        name = f"{ROTORS[rotor]}, {kind}"
+        series.append(Points("", over, [len(rows)] * len(mine), 1))
+        rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
+    chart = Chart(
+        "Error over band",
+        Axis("(measured − computed)/band"),
+        Axis(names=tuple(row.what for row in rows)),
+        tuple(series),
+    )
+    left = left_out_sizes(points)
+    means = {
+        "Mean over rotors, hover": [(point, sizes) for point in points if point.kind == HOVER],
+        "Mean over rotors, forward flight": [(point, sizes) for point in points if point.kind != HOVER],
+        "Mean over rotors": [(point, sizes) for point in points],
+        LEFT_OUT: [(point, left[point.rotor]) for point in points],
+    }
+    for name, mine in means.items():
+        held = coverage(mine)
+        rows.append(words.row(name, f"{_percent(held)} in the bands of 50, 68 and 90 %", held[1], 0.05))
+    (low_i, low_0), (high_i, high_0) = (end(list(left.values()), axis=0) for end in (np.min, np.max))
+    text = words.text[0].format(
+        induced=f"{100 * sizes[0]:g}", profile=f"{100 * sizes[1]:g}", rotors=len(left),
+        others=f"{100 * low_i:.0f} to {100 * high_i:.0f} % and {100 * low_0:.0f} to {100 * high_0:.0f} %",
+    )  # fmt: skip
+    return words.page(rows[-1].shown, rows, (chart,), text=(text, *words.text[1:]))
 
 
-def count_by_kind(held: Iterable[PointAndBand]) -> str:
-    """Points inside their band, by kind of flight: many of one rotor in hover do not stand for the rest."""
-    kinds: dict[str, list[bool]] = {}
-    for point in held:
-        kinds.setdefault(point.kind, []).append(point.inside)
-    each = (f"{kind} {sum(inside)} of {len(inside)}" for kind, inside in kinds.items())
-    return f"inside the band: {'; '.join(each)}"
+def _percent(shares: Iterable[float]) -> str:
+    return f"{', '.join(f'{100 * share:.0f}' for share in shares)} %"

@@ -135,8 +135,8 @@ def summary(sets: Sequence[TrustSet]) -> str:
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        "No model was tuned to these points but the wake path, to the tip vortices of HART II; the size of the band in "
-        "hover was chosen with points known "
+        "No model was tuned to these points but the wake path, to the tip vortices of HART II; the sizes of the "
+        "model's errors in bands are fitted to powers "
         f"([bands](validation/doubt.md)). {words}. How uncertain a power is, and what "
         "moves the best twist: [uncertainty](guide/doubt.md).",
         *parts,

@@ -26,6 +26,8 @@ KINDS: dict[Kind, str] = {
     "document": "Statements of the thesis (python -m rotor reproduce)",
 }
 """Titles of the kinds of rows."""
+LEFT_OUT = "Mean over rotors, each left out of the fit"
+"""What the row states that tells how often the band of a power holds, in `rotor.validation.doubt`."""
 Verdict = Literal["met", "missed", "fitted", "no target"]
 VERDICTS: dict[Verdict, str] = {
     "met": "the error is within the target: at every point, or the rms where the page of the set judges that",
@@ -181,6 +183,13 @@ def _descriptions() -> dict[str, Any]:
 def trust_rows() -> tuple[TrustRow, ...]:
     """The shipped rows, in order of kind."""
     return read_trust(asset_path("trust.csv"))
+
+
+def coverage() -> float:
+    """Part of measured powers within the band that is called 68 %, for rotors that had no part in its fit."""
+    share = next(row.error for row in trust_rows() if row.what == LEFT_OUT)
+    assert share is not None
+    return share
 
 
 def read_trust(path: Path) -> tuple[TrustRow, ...]:

@@ -276,7 +276,8 @@ class TestSchedule:
         empty = ScheduleProgress(progress.plan)
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
-        assert "Additional saving from variable twist" in table
+        assert "Variable twist, beyond that" in table
+        assert re.search(r"saves [\d.]+ ± [\d.]+ %: \w+", table)
         assert "nan" not in table.lower()
         assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 

@@ -15,11 +15,11 @@ from explorer.model.stand import StandInputs
 from explorer.model.units import AVIATION, number
 from explorer.page import PANELS
 from explorer.parts import Parts
-from explorer.parts.results import LeastPower, PowerPart, Sureness
+from explorer.parts.results import LeastPower, PowerPart
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.inset import blade_inset
 from explorer.views.page_state import HeldStation, OpenPanels, PageState, Panel, PanelWork
-from explorer.views.power import held_power, power_card, sureness
+from explorer.views.power import held_power, power_card
 from explorer.views.strip import remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
@@ -116,10 +116,13 @@ class TestWhileADragGoesOn:
         return soon(now_at(replace(OPENING, built_outer=-4.0)))
 
     def test_the_band_of_the_step_before_stays(self, rest: PageState):
-        before, during = sureness(rest), sureness(moved(rest, CHANGED))
+        before, during, after = (
+            power_card(now)["power"] for now in (rest, moved(rest, CHANGED), soon(moved(rest, CHANGED)))
+        )
         assert before.within.startswith("± ")
-        assert during == before
-        assert sureness(soon(moved(rest, CHANGED))).doubt != before.doubt
+        assert (during.within, during.doubt) == (before.within, before.doubt)
+        assert during.sure.partition(":")[0] == before.sure.partition(":")[0] != after.sure.partition(":")[0]
+        assert after.doubt != before.doubt
 
     def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
         assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
@@ -147,7 +150,8 @@ class TestWhileADragGoesOn:
 
     def test_another_rotor_forgets_them(self, rest: PageState):
         other = moved(rest, with_rotor(OPENING, "bo105"))
-        assert (sureness(other), worth(other)["worth"]) == (Sureness(), {})
+        card = power_card(other)["power"]
+        assert (card.within, card.doubt, card.sure, worth(other)["worth"]) == ("", "", "", {})
         assert TRUST.view(other)["trust.doubts"] == ""
 
 
@@ -195,9 +199,11 @@ class TestWithoutATrim:
         assert (card.total, card.parts, card.status.kind) == ("–", (), "problem")
 
 
-def test_a_free_rotor_has_neither_doubt_nor_slopes():
-    now = now_at(FREE)
-    assert (sureness(now), worth(now)["worth"], slopes_asked(now)) == (Sureness(), {}, ())
+def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
+    now = soon(now_at(FREE))
+    card = power_card(now)["power"]
+    assert (card.within, worth(now)["worth"], slopes_asked(now)) == ("", {}, ())
+    assert card.doubt.startswith("Drag times speed")
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():

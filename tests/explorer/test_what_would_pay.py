@@ -83,7 +83,7 @@ def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):
     value, shown = actuated_blade(now), PAY.view(now)["suppose"]
     assert value.over_flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
-    words = re.search(r"needs .* more", shown.words)
+    words = re.search(r"needs .* more \(\w+\)", shown.words)
     assert words[0] == ACTUATOR_CARD.view(now)["assessed"].flight
     other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
     assert PAY.view(other)["suppose"] is None

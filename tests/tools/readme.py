@@ -1,30 +1,32 @@
 """Write the section of README.md that says how far to trust the program: `python -m tests.tools.readme`.
 
-`make trust` runs it. Every set of assets/trust.csv that has a target stands in it, with the row that decides: the first
-that missed its target, else the first that met it. Target and error are in the words of the trust page.
+`make trust` runs it. The table has every measured rotor of the bands: how far its power is off, and how many measured
+points lie within the band. Verdicts are of the sets of assets/trust.csv that have a target: missed, if one row is.
 """
 
 import re
 from pathlib import Path
 
-from rotor.validation.trust import TrustRow, trust_rows
+from rotor.validation.trust import TrustRow, coverage, trust_rows
 
 README = Path(__file__).parents[2] / "README.md"
-ROTORS = (
-    {"xv15-hover": "XV-15 hover power"},
-    {"xv15-forward-15deg": "XV-15 C_Q/σ, shaft 15° forward", "xv15-forward-0deg": "upright"},
-    {"knight-hefner-3": "Knight–Hefner hover, three blades", "knight-hefner-4": "four"},
-    {"pca2": "PCA-2 autogiro drag"},
-    {"caradonna-tung-lift": "Caradonna–Tung section C_l"},
-    {"hart2-airloads": "HART II airloads, correlation"},
-    {"gazelle-airloads": "Gazelle airloads, correlation"},
-    {"flown-power": "Gazelle power over speed, shape"},
-)
-"""The sets of measured rotors by line, and what each is called there."""
+ROTORS = {
+    "UH-60A, hover": ("uh60a-hover",),
+    "XV-15, hover": ("xv15-hover",),
+    "XV-15, forward flight": ("xv15-forward-15deg", "xv15-forward-0deg"),
+    "Knight and Hefner, hover": ("knight-hefner-3", "knight-hefner-4"),
+    "Castles and Gray, hover": ("castles-gray-hover",),
+    "SA349/2 Gazelle, forward flight": ("flown-power",),
+    "Bo 105, forward flight": (),
+    "PCA-2, forward flight": ("pca2",),
+}
+"""The sets of each measured rotor, by what it is called among the bands."""
 OTHERS = {
-    "glasgow-loops": "pitching aerofoil C_m about 15°", "sc1095": "SC1095 drag", "theory": "identities", "grid": "grid",
+    "caradonna-tung-lift": "Caradonna–Tung section C_l", "hart2-airloads": "HART II airloads",
+    "gazelle-airloads": "Gazelle airloads", "glasgow-loops": "pitching aerofoil C_m", "sc1095": "SC1095 drag",
+    "theory": "identities", "grid": "grid",
 }  # fmt: skip
-"""Sets without a rotor, in the sentence below the table."""
+"""Sets of other quantities, in the sentence below the table."""
 
 
 def judged() -> dict[str, TrustRow]:
@@ -36,52 +38,37 @@ def judged() -> dict[str, TrustRow]:
     return found
 
 
-def linked(names: dict[str, str]) -> str:
-    return ", ".join(f"[{words}](docs/validation/{name}.md)" for name, words in names.items())
+def verdicts(sets: dict[str, TrustRow], names: tuple[str, ...]) -> str:
+    """The verdicts of some sets, those that say the same once, each with a link to its set."""
+    links = {sets[name].verdict: f"[{sets[name].verdict}](docs/validation/{name}.md)" for name in names if name in sets}
+    return ", ".join(links.values()) or "no target"
 
 
-def as_shown(words: str) -> str:
-    """The trust page's words of a target or an error, with its minus signs."""
-    words = re.sub(r" everywhere| at each", "", words).replace("for ct ", "for C_T ").replace("for mu ", "for µ ")
-    return re.sub(r"(?<![\w.])-(?=\d)", "−", words.replace("…", " to "))
+def cells(row: TrustRow) -> tuple[str, str]:
+    """How far a rotor's power is off, and how many points its band holds."""
+    off, inside = row.shown.partition(" (")[0].split(", ")
+    return off.removesuffix(" in the mean"), inside.replace(" within", ",")
 
 
 def section() -> str:
     """The heading, the table of measured rotors and the sentence on the other sets."""
-    sets = judged()
+    sets, bands = judged(), {row.what: row for row in trust_rows() if row.set == "doubt"}
     measured = [row for row in sets.values() if row.kind == "validation"]
     met = sum(row.verdict == "met" for row in measured)
     lines = [
-        "| measured rotor | target | error | verdict |",
+        "| measured rotor | computed power, mean | in its band | target |",
         "| --- | --- | --- | --- |",
-        *(
-            f"| {linked(names)} | {cell(sets, names, 'target')} | {cell(sets, names, 'shown')} | "
-            f"{cell(sets, names, 'verdict')} |"
-            for names in ROTORS
-        ),
+        *(f"| {what} | {' | '.join(cells(bands[what]))} | {verdicts(sets, ROTORS[what])} |" for what in ROTORS),
     ]
-    others = "; ".join(
-        f"{linked({name: words})} {as_shown(sets[name].shown)} ({bound(sets[name])}{sets[name].verdict})"
-        for name, words in OTHERS.items()
-    )
+    others = "; ".join(f"{words} {verdicts(sets, (name,))}" for name, words in OTHERS.items())
     return (
         "## How far to trust it\n\n"
-        "No model was tuned to these data; the uncertainty in hover was sized with points known. "
-        f"{met} of {len(measured)} measured\nsets meet their target. [All comparisons](docs/validation.md), "
-        "[what is not modelled](docs/validation.md#not-modelled).\n\n"
+        f"{100 * coverage():.0f} % of measured powers lie in the [band](docs/validation/doubt.md) of the computed one, "
+        f"sized without the rotor judged.\n{met} of {len(measured)} sets meet their target; no model was tuned. "
+        "[All comparisons](docs/validation.md), [what is not modelled](docs/validation.md#not-modelled).\n\n"
         + "\n".join(lines)
-        + f"\n\nSections, theory and grid: {others}.\n\n"
+        + f"\n\nOther targets: {others}.\n\n"
     )
-
-
-def cell(sets: dict[str, TrustRow], names: dict[str, str], field: str) -> str:
-    """One cell of a line; sets that say the same are said once."""
-    return "; ".join(dict.fromkeys(as_shown(getattr(sets[name], field)) for name in names))
-
-
-def bound(row: TrustRow) -> str:
-    """The target before the verdict, where the error does not state it itself."""
-    return "" if row.shown == row.target else f"target {as_shown(row.target)}, "
 
 
 def with_section(text: str) -> str:

@@ -49,7 +49,7 @@ def test_least_vibration(printed: Callable[..., str], answer: Answer):
     out = printed(*flags)
     for words in (
         "°/R",
-        "saving ",
+        "; the best ",
         "within 0.1 % of the index",
         "over inflow models: for comparison, not an absolute level",
     ):

@@ -11,14 +11,13 @@ import pytest
 
 import rotor
 from rotor.aero.lifting_line import WakeCourse
-from rotor.aero.momentum import glauert_inflow
 from rotor.aero.problem import Problem, build_problem
 from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, DoubtRow, doubt, other_models, sureness
-from rotor.trim.power_changes import hover_part, power_changes
+from rotor.trim.power_changes import power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
 
@@ -44,7 +43,7 @@ def exactly(condition: str, name: str, patch: Patch) -> np.ndarray:
 @pytest.mark.parametrize(
     "name",
     [
-        "section_drag_percent", "section_lift_percent", "section_moment", "drag_rise_mach", "drag_area_percent",
+        "section_lift_percent", "section_moment", "drag_rise_mach", "drag_area_percent",
         "torsional_stiffness_percent", "control_stiffness_percent", "torsional_inertia_percent",
     ],
 )  # fmt: skip
@@ -91,36 +90,34 @@ def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
     assert 1.0 < power_changes(Analysis(here).adjoint)["drag_area_percent"] / by_hand < 1.25
 
 
-def test_in_hover_the_drag_of_the_sections_costs_its_share_of_profile_power():
-    """No state follows it but the inflow of annuli, which balances lift: profile power, and the tail rotor's part."""
-    here = rotor.solve(rotor.make_design(hover=True)).require()
-    tail = 1.0 + here.power.tail / here.power.main_rotor
-    share = 0.01 * SIZES["section_drag_percent"] * here.power.profile * tail
-    assert power_changes(Analysis(here).adjoint)["section_drag_percent"] == pytest.approx(share, rel=0.12)
-
-
-def test_in_hover_a_tenth_of_induced_power_is_uncertain_and_what_the_tail_takes_for_it():
-    """The tail rotor's part follows from its power at two torques of the main rotor."""
-    here, there = (rotor.solve(rotor.make_design(twist=twist, hover=True)).require() for twist in TWISTS)
-    found = doubt(here, there)
-    row = next(row for row in found.rows if row.name == "hover_induced_percent")
+@pytest.mark.parametrize("condition", CONDITIONS)
+def test_the_errors_of_the_model_are_shares_of_induced_and_profile_power(condition: str):
+    """At every speed, with what the tail rotor takes for them: its power at two torques of the main rotor."""
+    here, there = (rotor.solve(design).require() for design in designs(condition))
     slope = (here.power.tail - there.power.tail) / (here.power.main_rotor - there.power.main_rotor)
-    induced = [one.power.induced for one in (here, there)]
-    assert row.power == pytest.approx(0.1 * induced[0] * (1.0 + slope), rel=2e-3)
-    assert row.change == pytest.approx(0.1 * (induced[0] - induced[1]) * (1.0 + slope), rel=0.1)
-    assert found.band > abs(row.power)
+    found = {row.name: row for row in doubt(here, there).rows}
+    for name, power in (("induced_power_percent", here.power.induced), ("profile_power_percent", here.power.profile)):
+        assert found[name].power == pytest.approx(0.01 * SIZES[name] * power * (1.0 + slope), rel=2e-3)
 
 
-def test_a_wake_in_flight_is_that_of_hover_by_the_skew_of_momentum_theory():
-    """cos²χ with Glauert's inflow, which is found by iteration; it leaves 1 without a slope and falls all the way."""
-    for thrust in (1e-4, 0.0067, 0.02):
-        speeds = math.sqrt(0.5 * thrust) * np.geomspace(1e-3, 10.0, 40)
-        parts = [hover_part(float(mu), thrust) for mu in speeds]
-        for mu, part in zip(speeds.tolist(), parts, strict=True):
-            inflow = glauert_inflow(thrust, mu, 0.0)[0]
-            assert part == pytest.approx(inflow**2 / (mu**2 + inflow**2), rel=1e-9)
-        assert hover_part(0.0, thrust) - parts[0] < 1e-5
-        assert (np.diff(parts) < 0.0).all()
+def test_of_a_difference_two_inflow_models_are_compared():
+    """In hover, and where the other model has no trim, a part of induced power; both never change the power itself."""
+    here, built = at_speed()
+    others = [
+        rotor.solve(replace(one.design, models=replace(one.design.models, inflow="pitt-peters")))
+        for one in (here, built)
+    ]
+    half = 0.5 * (here.power.total - built.power.total - others[0].power.total + others[1].power.total)
+    rows = {row.name: (row.power, row.change) for row in doubt(here, built).rows}
+    assert rows["inflow_model_percent"] == (0.0, pytest.approx(half, rel=1e-3))
+    assert "hover_wake_percent" not in rows
+    hover, there = (rotor.solve(rotor.make_design(twist=twist, hover=True)) for twist in TWISTS)
+    rows = {row.name: (row.power, row.change) for row in doubt(hover, there).rows}
+    assert rows["hover_wake_percent"] == (0.0, pytest.approx(0.25 * (hover.power.induced - there.power.induced)))
+    assert "inflow_model_percent" not in rows
+    slow = doubt(*(rotor.solve(rotor.make_design(twist=twist, mu=0.002)) for twist in TWISTS))
+    (near,) = (row.change for row in slow.rows if row.name == "hover_wake_percent")
+    assert near == pytest.approx(rows["hover_wake_percent"][1], rel=0.05)
 
 
 def test_the_band_of_slow_flight_is_that_of_hover():
@@ -141,9 +138,9 @@ def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
     found = power_changes(Analysis(rotor.solve(rotor.make_design(**options)).require()).adjoint)
     ends: list[float] = []
     for sign in (1.0, -1.0):
-        patch_sections("section_drag_percent", sign * SIZES["section_drag_percent"], patch)
+        patch_sections("drag_rise_mach", sign * SIZES["drag_rise_mach"], patch)
         ends.append(rotor.solve(rotor.make_design(**options)).require().power.total)
-    assert found["section_drag_percent"] == pytest.approx(0.5 * (ends[0] - ends[1]), rel=0.05)
+    assert found["drag_rise_mach"] == pytest.approx(0.5 * (ends[0] - ends[1]), rel=0.05)
 
 
 def test_what_a_design_does_not_have_is_no_row():
@@ -191,10 +188,19 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
     assert "wake_path_percent" not in Analysis(linear).power_changes
 
 
-def test_a_free_rotor_has_no_band():
-    solution = rotor.solve(rotor.make_design(rotor="pca2", mu=0.2, trim="free-rotor", stand={"ct_over_sigma": 0.07}))
-    with pytest.raises(RuntimeError, match="takes no power"):
-        doubt(solution)
+def test_the_band_of_a_free_rotor_is_that_of_its_drag():
+    """Its drag times speed is induced and profile power: no power comes from the shaft."""
+    free, driven = (
+        rotor.solve(rotor.make_design(rotor="pca2", mu=0.2, trim=trim, stand={"ct_over_sigma": 0.07})).require()
+        for trim in ("free-rotor", "wind-tunnel")
+    )
+    found, power = doubt(free), free.power
+    assert found.power == pytest.approx(free.lift_and_drag[1] * free.design.airspeed, rel=1e-3)
+    shares = (0.01 * SIZES[f"{part}_power_percent"] * getattr(power, part) for part in ("induced", "profile"))
+    assert found.band == pytest.approx(math.hypot(*shares))
+    assert found.sentence.startswith("Drag times speed ")
+    with pytest.raises(ValueError, match="no saving is known"):
+        doubt(driven, free)
 
 
 @pytest.mark.parametrize(("change", "band", "word"), [(-2.0, 1.0, "sure"), (1.5, 1.0, "likely"), (0.3, 1.0, "unclear")])
@@ -218,13 +224,13 @@ def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
 def test_a_rotor_file_states_its_own(tmp_path_factory: pytest.TempPathFactory):
     text = asset_path("r22.toml").read_text(encoding="utf-8")
     path = tmp_path_factory.mktemp("own") / "mine.toml"
-    path.write_text(text + "\n[doubt]\nsection_drag_percent = 3.0\n", encoding="utf-8")
+    path.write_text(text + "\n[doubt]\nsection_lift_percent = 3.0\n", encoding="utf-8")
     design = rotor.make_design(rotor=rotor.load_rotor(path), mu=0.2)
     sizes = {row.name: (row.size, row.source) for row in uncertain_inputs(design)}
-    assert sizes["section_drag_percent"] == (3.0, "rotor file")
+    assert sizes["section_lift_percent"] == (3.0, "rotor file")
     assert sizes["drag_area_percent"][0] == pytest.approx(50.0 * (0.50 - 0.31) / 0.40)
-    path.write_text(text + "\n[doubt]\nsection_drag = 3.0\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="section_drag"):
+    path.write_text(text + "\n[doubt]\nsection_lift = 3.0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="section_lift"):
         rotor.load_rotor(path)
 
 
