@@ -24,6 +24,7 @@ from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
+from explorer.text.glossary import hint
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.bar import BAR
@@ -185,7 +186,9 @@ class Page:
         with modal:
             gui = self.context.client.gui
             gui.add_html(tag("div.rx", brief(sentence)))
-            gui.add_button(f"Show the {opening.aircraft.name} instead").on_click(lambda _: modal.close())
+            gui.add_button(f"Show the {opening.aircraft.name} instead", hint=hint("instead")).on_click(
+                lambda _: modal.close()
+            )
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""

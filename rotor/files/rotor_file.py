@@ -295,4 +295,4 @@ def _read(path: Path) -> str:
         return read_text(
             path, "rotor file", "give a shipped rotor's name, or a text file of 2 MB at most", LARGEST_FILE
         )
-    return read_text(path, "section file", "save it as UTF-8 text of 2 MB at most", LARGEST_FILE)
+    return read_text(path, "section file", "save it as a UTF-8 text file of 2 MB at most", LARGEST_FILE)

@@ -69,7 +69,7 @@ class TestFlights:
 
 class TestBand:
     @pytest.mark.parametrize("name", ["gazelle", "bo105"])
-    def test_between_its_trims_it_is_within_two_per_cent_of_its_half_width(self, name: str):
+    def test_between_its_trims_it_is_within_three_per_cent_of_its_half_width(self, name: str):
         """Or half a kilowatt."""
         design, curves = with_rotor(OPENING, name).design(), PowerCurves()
         assert curves.sweep(design, design, lambda: False)
@@ -87,7 +87,7 @@ class TestBand:
             assert ends is not None
             for band, end in zip(curve.band, ends, strict=True):
                 change = (end.power.total - solution.power.total) / 1e3
-                assert band[k] - curve.design[k] == pytest.approx(change, rel=0.02, abs=0.5)
+                assert band[k] - curve.design[k] == pytest.approx(change, rel=0.03, abs=0.5)
 
     def test_none_where_the_sources_give_one_drag_area(self):
         curves = PowerCurves()

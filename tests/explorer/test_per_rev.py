@@ -124,7 +124,9 @@ def test_words():
     assert "collective and cyclic only" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
 
 
-BENDING = make_design(twist="builtin", mu=0.3, bending=True)
+STEADY = make_design(twist="builtin", mu=0.3, off="dynamic-stall")
+"""Dynamic stall has kinks: with it, half of what is left out remains at half the twist, in place of an eighth."""
+BENDING = replace(STEADY, models=replace(STEADY.models, bending=True))
 WAVES = (Harmonic(2, math.radians(0.8), 4.0), Harmonic(3, math.radians(0.5), 0.8))
 
 
@@ -190,7 +192,7 @@ def test_the_blade_with_the_actuator_is_compared_with_another_one():
     """Mass and stiffness are those that a verdict counts; the other blade is as it was given, and both bend."""
     installed = install(find_actuator("MFC_P1"), default_placement(2), HostBlade(), BENDING.rotor)
     fitted = FittedBlade(installed, (0.0,), LinearTwist(math.radians(-12.0)), "that blade")
-    design = make_design(mu=0.3, twist="builtin")
+    design = STEADY
     pair = compared(design, design, fitted)
     assert pair is not None
     flown, still = pair

@@ -211,7 +211,7 @@ def test_a_free_rotors_wake_lies_along_the_tilt_that_it_finds():
     third = trim(replace(problem, course=along(second, problem.course)), second.guess)
     assert abs(first.state.shaft_tilt / third.state.shaft_tilt - 1.0) > 0.02
     assert_allclose(found.controls.shaft_tilt, second.state.shaft_tilt, rtol=1e-7)
-    assert_allclose(second.state.shaft_tilt, third.state.shaft_tilt, rtol=2e-3)
+    assert_allclose(second.state.shaft_tilt, third.state.shaft_tilt, rtol=3e-3)
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
