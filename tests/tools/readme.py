@@ -64,8 +64,8 @@ def section() -> str:
     return (
         "## How far to trust it\n\n"
         f"{100 * coverage():.0f} % of measured powers lie in the [band](docs/validation/doubt.md) of the computed one, "
-        f"sized without the rotor judged.\n{met} of {len(measured)} sets meet their target; no model was tuned. "
-        "[All comparisons](docs/validation.md), [what is not modelled](docs/validation.md#not-modelled).\n\n"
+        f"sized without the rotor judged.\n{met} of {len(measured)} sets meet their target; only the wake path is "
+        "fitted. [All comparisons](docs/validation.md), [what is not modelled](docs/validation.md#not-modelled).\n\n"
         + "\n".join(lines)
         + f"\n\nOther targets: {others}.\n\n"
     )
