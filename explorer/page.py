@@ -24,6 +24,7 @@ from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
+from explorer.views.actuated import counted_from
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.bar import BAR
@@ -56,7 +57,7 @@ from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
-from rotor import Solution, solve
+from rotor import Design, Solution, solve
 from rotor.support.user_input import brief
 
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
@@ -186,18 +187,17 @@ class Page:
             leave()
 
     def read(self) -> PageState:
-        """What the widgets mean now, without what follows from it. A change of inputs becomes a step of undo.
-
-        Outside Actuate the actuator is at rest: there the design is that of sliders, link and search.
-        """
+        """What the widgets mean now, without what follows from it. A change of inputs becomes a step of undo."""
         tracker, context = self.context.tracker, self.context
         tracker.pause = context.controls.pauses.longest()
         with context.whole:
             hand = self.actuator.hand()
-            if context.layout.mode != "actuate":
-                hand = replace(hand, actuator=replace(hand.actuator, drives=AT_REST))
             inputs, view = self.history.read(tracker.pause), context.display.view
         return replace(self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem="")
+
+    def counted_from(self, now: PageState) -> Design | None:
+        """The blade that changes count from where the design carries an actuator; None: as usual."""
+        return counted_from(replace(now, ui=OpenPanels(self.context.layout.mode), answers=self.follower.answers()))
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
@@ -318,7 +318,7 @@ class Page:
 
             def trims(inputs: Inputs) -> bool:
                 try:
-                    return solve(self.latest.hand.actuator.apply(inputs.design()), state.solution).converged
+                    return solve(self.latest.hand.fit(inputs.design()), state.solution).converged
                 except ValueError:
                     return False
 

@@ -1,7 +1,7 @@
 """What `rotor` offers. It is slow to read, so `rotor` reads it with the first name that is asked for."""
 
 from rotor import actuator
-from rotor.actuator import failure
+from rotor.actuator import failure, with_actuator
 from rotor.aero.elements import TrimState
 from rotor.columns.blade import Freedom
 from rotor.design.aircraft import Aircraft, FlightCondition
@@ -65,4 +65,5 @@ __all__ = (
     "sweep",
     "t_matrix",
     "vibration_front",
+    "with_actuator",
 )

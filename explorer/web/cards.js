@@ -65,11 +65,15 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
+    const over = one.over.length ? `<p class="rxf-over rxf-num" data-explorer="over"><b>Over its limits:</b>
+      ${one.over.map(words => `<span>${text(words)}</span>`).join(' ')}
+      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
+        feasible: ${text(one.feasible)}</button>`}</p>` : '';
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
         <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
-      <div class="rxf-columns">
+      ${over}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
-          `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
+          `<span>reach ${text(one.reach)}</span>`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
@@ -77,7 +81,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± from uncertain inputs; vibration: range over inflow models. Blades bend here.')}
+          'With its mass. ± from uncertain inputs; vibration: mean and range over inflow models, with blades that bend.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${
         text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);

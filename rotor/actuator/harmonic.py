@@ -78,12 +78,8 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
 
 
 def powers(designs: Sequence[Design]) -> tuple[float, ...]:
-    """Power of each design by the rules of `effect` [W]. Raises RuntimeError where one does not trim."""
-    known = dict[Design, float]()
-    for design in designs:
-        if design not in known:
-            solution = solve(design).require()
-            known[design] = solution.power.total + _pitching(solution)
+    """Power of each design [W]. Raises RuntimeError where one does not trim."""
+    known = {design: solve(design).require().power.total for design in dict.fromkeys(designs)}
     return tuple(known[design] for design in designs)
 
 

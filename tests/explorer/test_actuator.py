@@ -33,6 +33,7 @@ from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
+from rotor.actuator import with_actuator
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
@@ -50,9 +51,12 @@ ALL = tuple(actuators())
 def test_full_voltage_makes_the_twist_that_the_range_gives():
     """+1500 V of a 2000 V range: three quarters of what the blade at rest gains, on its own blade.
 
-    Without voltage the design is the very same.
+    The design is the one that `rotor` makes, with its mass also at rest; a blade that carries none is as it was.
     """
-    assert ActuatorInputs().apply(DESIGN) is DESIGN
+    assert ActuatorInputs().apply(DESIGN) == with_actuator(DESIGN, "MFC_P1")
+    assert ActuatorInputs(drives=FULL).apply(DESIGN) == with_actuator(DESIGN, "MFC_P1,drive=100")
+    other = make_design(rotor="s61")
+    assert ActuatorInputs(drives=FULL).apply(other) is other
     inputs = ActuatorInputs(drives=FULL)
     applied, installed = inputs.apply(DESIGN), inputs.installed(DESIGN.rotor)
     made = applied.twist
