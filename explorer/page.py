@@ -14,7 +14,7 @@ import viser
 
 from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
-from explorer.model.actuator_inputs import AT_REST
+from explorer.model.actuator_inputs import AT_REST, ActuatorInputs, inputs_from_spec
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
@@ -103,7 +103,7 @@ class Page:
         self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
         self._add_rail(address)
         self._add_drawers(address, facts, presentation)
-        self._listen(opening)
+        self._listen(opening, address)
         for title, sentence in address.problems:  # Not closed by time: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
@@ -138,7 +138,7 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.drawers["share"]:
-            self.file = FilePanel(context, address, facts.kept, opened["Files"])
+            self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.drawers["lecture"]:
             lecture = LecturePanel(context, self.scene.camera, self._views)
@@ -159,7 +159,7 @@ class Page:
         with layout.drawers["lecture"]:
             presentation.begin(lecture, self._views, partial(self._hold, lecture))
 
-    def _listen(self, opening: Inputs) -> None:
+    def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
@@ -172,7 +172,11 @@ class Page:
         bridge.on("taken", lambda _: camera.let_go())
         bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.hand().on_stage and not context.held:
+        if context.held:
+            return
+        if (actuator := address.read(share.CARRIED, inputs_from_spec, None, "Link: actuator not used")) is not None:
+            self._carry(actuator)
+        elif self.actuator.hand().on_stage:
             context.layout.show_mode("actuate")
 
     def start(self) -> None:
@@ -375,6 +379,11 @@ class Page:
                 self.context.wake()
             case _:
                 self.actuator.perform(effect)
+
+    def _carry(self, actuator: ActuatorInputs) -> None:
+        """A link or a file has an actuator on board: show it."""
+        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
+        self.context.layout.show_mode("actuate")
 
     def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""

@@ -66,8 +66,9 @@ def twist_name(design: Design) -> str:
         for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
         for wave in harmonics
     ]
-    few = waves if len(waves) < 3 else [f"{len(waves)} harmonics"]
-    return ", ".join((_law_name(design.twist, design.rotor), *few))
+    few, carried = waves if len(waves) < 3 else [f"{len(waves)} harmonics"], design.rotor.blade.carried
+    rests = "" if carried is None or design.twist != design.jig else f" + {carried.name}"
+    return ", ".join((_law_name(design.twist, design.rotor) + rests, *few))
 
 
 def _law_name(law: TwistLaw, rotor: Rotor) -> str:

@@ -329,8 +329,12 @@
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
+  const sized = new ResizeObserver(() => draw());  // Its folder is opened.
   const draw = soon(() => {
-    for (const place of document.querySelectorAll('[data-dial]')) fill(place);
+    for (const place of document.querySelectorAll('[data-dial]')) {
+      sized.observe(place);
+      fill(place);
+    }
   });
   // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
   function arrived([n, [size, phase]]) {

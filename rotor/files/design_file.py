@@ -123,7 +123,7 @@ def _with_carried(design: Design, record: Any) -> Design:
     inner, outer = carried.span_m
     if not 0.0 < inner < outer <= 1.001 * design.rotor.radius or not 0.1 <= carried.gj_factor <= 2.0:
         raise ValueError(
-            f"design file key 'actuator' has span {inner:g}…{outer:g} m and GJ factor {carried.gj_factor:g}: give a "
+            f"design file key 'actuator' has span_m {inner:g}…{outer:g} and gj_factor {carried.gj_factor:g}: give a "
             "span on the blade and a factor of 0.1 to 2"
         )
     check_blade(design.aircraft)
