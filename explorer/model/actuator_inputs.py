@@ -153,7 +153,7 @@ class HandSettings:
     on_stage: bool = False
     here: bool = False
     place: tuple[float, float] | None = None
-    on_board: bool = False
+    on_board: bool = field(default=False, compare=False)
     """Whether the design carries the actuator: in Actuate."""
 
     @property

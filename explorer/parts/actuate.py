@@ -50,7 +50,7 @@ class DialPart:
 class DialNumbers:
     """Harmonics of the hub loads and the power, their slopes and curvatures by cosine and sine parts [°].
 
-    `power` [W] and `index` [%] are those of the blade compared with.
+    `power` [W] and `index` [%] are those without twist at n/rev.
     """
 
     base: list[float]

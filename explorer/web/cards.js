@@ -65,13 +65,14 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
-    const over = one.over.length ? `<p class="rxf-over rxf-num" data-explorer="over"><b>Over its limits:</b>
-      ${one.over.map(words => `<span>${text(words)}</span>`).join(' ')}
-      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
-        feasible: ${text(one.feasible)}</button>`}</p>` : '';
+    // Where there is little room the limits have no values: those are in the rail.
+    const over = one.over.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ');
+    const limits = over && `<p class="rxf-over rxf-num" data-explorer="over"><b>Over its limits:</b> ${over}
+      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Feasible:
+        ${text(one.feasible)}</button>`}</p>`;
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
         <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
-      ${over}<div class="rxf-columns">
+      ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}

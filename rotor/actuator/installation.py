@@ -181,7 +181,7 @@ def read_actuator(text: str) -> ActuatorSpec:
             numbers = tuple(map(float, value.split(":")))
         except ValueError:
             numbers = ()
-        if key not in known or not numbers or not np.isfinite(numbers).all() or len(numbers) > MOST_NUMBERS:
+        if key not in known or not numbers or not np.isfinite(numbers).all():
             raise ValueError(
                 f"actuator {text!r:.80} has {word!r:.40}: write KEY=NUMBER with {', '.join(sorted(known))}"
             )
@@ -195,10 +195,6 @@ def read_actuator(text: str) -> ActuatorSpec:
     find_actuator(id)
     host = HostBlade() if gj is None else HostBlade("new", gj[0])
     return ActuatorSpec(id, placement, host, drives, bool(given.get("crossed", (0.0,))[0]))
-
-
-MOST_NUMBERS = 12
-"""Of one key in the text of an actuator."""
 
 
 def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: bool, name: str) -> Carried:
