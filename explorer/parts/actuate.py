@@ -116,7 +116,8 @@ class AssessedPart:
     """The actuator as set, in words: what it moves, costs and gives, here and over the flight.
 
     `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`. `over`:
-    limits that are exceeded; `feasible`: what a press changes so that it can be built. `baselines`: name and title of
+    limits that are exceeded, `asked`: those that only the best twist would exceed; `feasible`: what a press changes so
+    that it can be built. `baselines`: name and title of
     each blade that changes may count from; `against`: the name of the one that they do. `sentence`: all of it. `pays`:
     words, and every second one a number with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
     """
@@ -132,6 +133,7 @@ class AssessedPart:
     vibration: str
     problem: str
     over: tuple[str, ...]
+    asked: tuple[str, ...]
     feasible: str
     against: str
     baselines: tuple[tuple[str, str], ...]

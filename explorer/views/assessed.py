@@ -76,18 +76,17 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     return moves, (*pays, "." if one.line is None else f"; no twist pays at {total}.")
 
 
-def _over(one: ActuatedBlade) -> tuple[str, ...]:
-    """Each limit that is exceeded, with its value and bound."""
+def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Each limit that is exceeded, with value and bound: its own, and those that only the best twist would exceed."""
     broken = () if one.verdict is None else one.verdict.broken
-    return tuple(
-        f"{limit_words(limit.name)} {number(limit.value, _digits(limit))} of {number(limit.bound, _digits(limit))} "
-        f"{limit.unit}"
-        for limit in broken
-    )
+    reach = one.installed.actuator.range_limits
+    own, asked = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
+    return tuple(own), tuple(asked)
 
 
-def _digits(limit: Limit) -> int:
-    return 0 if limit.bound >= 20.0 else 2
+def _limit(limit: Limit) -> str:
+    value, bound = (number(end, 0 if limit.bound >= 20.0 else 2) for end in (limit.value, limit.bound))
+    return f"{limit_words(limit.name)} {value} of {bound} {limit.unit}"
 
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:
@@ -96,7 +95,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         return {} if now.problem else {"assessed": None}
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
-    sentence, pays = _sentences(one, units)
+    (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
     both = one.here, one.over_flight
     here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
     part = AssessedPart(
@@ -110,7 +109,8 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         flight=flight,
         vibration=_vibration(one),
         problem=here_problem(now),
-        over=_over(one),
+        over=over,
+        asked=asked,
         feasible=_change_words(one, now.of(feasible)),
         against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),

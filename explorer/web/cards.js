@@ -66,10 +66,13 @@
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
     // Where there is little room the limits have no values: those are in the rail.
-    const over = one.over.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ');
-    const limits = over && `<p class="rxf-over rxf-num" data-explorer="over"><b>Over its limits:</b> ${over}
-      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Feasible:
-        ${text(one.feasible)}</button>`}</p>`;
+    const listed = (name, list) => list.length ? `<b>${name}:</b>
+      ${list.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ')}` : '';
+    const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
+      <span data-over>${listed('Over its limits', one.over)}</span>
+      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
+        feasible: ${text(one.feasible)}</button>`}
+      <span class="rxf-dim">${listed('The best twist would take', one.asked)}</span></p>` : '';
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
         <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">

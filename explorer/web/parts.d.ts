@@ -105,6 +105,7 @@ interface RxAssessedPart {
   vibration: string;
   problem: string;
   over: string[];
+  asked: string[];
   feasible: string;
   against: string;
   baselines: [string, string][];

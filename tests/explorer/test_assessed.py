@@ -18,6 +18,7 @@ from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
+from explorer.views.actuator_words import limit_words
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
@@ -120,8 +121,10 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["power over the flight"].append(total.lstrip("+−"))
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
-    for name, limit in zip(part.over, verdict.broken, strict=True):
-        read(f"limit {limit.name}", f"({NUMBER}) of {NUMBER} ", name.replace("\u2009", ""))
+    for words in (*part.over, *part.asked):
+        (name,) = [limit.name for limit in verdict.broken if words.startswith(f"{limit_words(limit.name)} ")]
+        read(f"limit {name}", f"({NUMBER}) of {NUMBER} ", words.replace("\u2009", ""))
+    assert not {limit.split()[0] for limit in part.over} & {"voltage", "field"}
     return found
 
 
