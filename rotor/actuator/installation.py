@@ -102,6 +102,8 @@ def with_actuator_mass(design: Design, installed: InstalledActuator, carried: Ca
 
     carried: what the design says of it; None: that it is there, without a drive.
     """
+    if design.rotor.blade.carried is not None:
+        raise ValueError(f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator")
     carried = carried or _carried(installed, (), False, installed.actuator.id.replace("_", " "))
     condition = replace(design.condition, mass=design.condition.mass + carried.aircraft_kg)
     rotor = carrying(design.rotor, carried, elastic=design.elastic)
@@ -147,8 +149,6 @@ def with_actuator(design: Design, actuator: str) -> Design:
         ValueError: the actuator, a key or a value cannot be used, or the blade cannot carry it.
     """
     check_blade(design.aircraft)
-    if design.rotor.blade.carried is not None:
-        raise ValueError(f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator")
     one = read_actuator(actuator)
     installed = install(find_actuator(one.id), one.placement, one.host, design.rotor)
     count = len(installed.shapes)

@@ -49,9 +49,11 @@ def trimmed(design: Design) -> Solution:
     return solve(design).require()
 
 
-def answered(against: Against, drives: tuple[float, ...], state: ActuatorState = "set") -> PageState:
+def answered(
+    against: Against, drives: tuple[float, ...], state: ActuatorState = "set", id: str = "MFC_P1"
+) -> PageState:
     """The page in a state of the actuator once all that the value waits for is known."""
-    now = actuate(INPUTS, actuator=ActuatorInputs(against=against, drives=drives))
+    now = actuate(INPUTS, actuator=ActuatorInputs(id, against=against, drives=drives))
     for name in ("lean_verdict", "flight_of"):
         now = told(ACTUATOR, now, **{name: run(asked(ACTUATOR, now)[name])})
     now = solved(done(now, FLIGHT.presses["state"](now, state)))
@@ -101,7 +103,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
     read("mass", "# kg:", rail["actuator.numbers"])
-    read("mass", "P1, # kg", part.sentence)
+    read("mass", ", # kg, ", part.sentence)
     read("mass", "# kg:", report)
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
@@ -129,18 +131,18 @@ def screen(now: PageState) -> dict[str, list[str]]:
 
 
 @cache
-def judged(against: Against) -> Verdict:
-    return try_actuator("MFC_P1", DESIGN, against=against)
+def judged(against: Against, id: str = "MFC_P1") -> Verdict:
+    return try_actuator(id, DESIGN, against=against)
 
 
-def of_rotor(against: Against, state: ActuatorState, drive: float) -> dict[str, str]:
+def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> dict[str, str]:
     """The same quantities, by `rotor` alone."""
-    verdict = judged(against)
+    verdict = judged(against, id)
     installed = verdict.installed
     if state == "schedule":
         swing = fly(verdict, [FlightLeg("here", 0.2)]).swings[0][0]
         drive = float(round(100.0 * installed.actuator.share_of(swing)))
-    flown = trimmed(with_actuator(DESIGN, f"MFC_P1,drive={drive}"))
+    flown = trimmed(with_actuator(DESIGN, f"{id},drive={drive}"))
     blade = DESIGN if against == "same-blade" else replace(DESIGN, twist=verdict.baseline.fixed_twist)
     other, change = trimmed(blade), lambda watts: f"{abs(1e-3 * watts):.{0 if abs(watts) >= 9950.0 else 1}f}"
     bent = [replace(one, models=replace(one.models, bending=True)) for one in (flown.design, blade)]
@@ -152,7 +154,7 @@ def of_rotor(against: Against, state: ActuatorState, drive: float) -> dict[str, 
         "tip": f"{tip:+.2f}°" if drive else "0.00°",
         "reach": "…".join(f"{math.degrees(end):+.2f}" for end in sorted(ends)) + "°",
         "power": f"{1e-3 * flown.power.total:.0f}",
-        "power here": change(flown.power.total - other.power.total),
+        "power here": change(flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0)),
         "power over the flight": change(verdict.net_saving),
         **{f"limit {limit.name}": f"{limit.value:.{0 if limit.bound >= 20.0 else 2}f}" for limit in verdict.broken},
     }
@@ -161,13 +163,20 @@ def of_rotor(against: Against, state: ActuatorState, drive: float) -> dict[str, 
     return {name: text.replace("-", "−") for name, text in found.items()}
 
 
-@pytest.mark.parametrize("against", AGAINST)
-@pytest.mark.parametrize(("state", "drive"), [("set", 0.0), ("set", 77.0), ("schedule", 77.0), ("stopped", 77.0)])
-def test_every_number_on_the_screen_is_that_of_rotor(against: Against, state: ActuatorState, drive: float):
-    now = answered(against, (drive,) * MOST_SEGMENTS, state)
+STATES = ("set", 0.0), ("set", 77.0), ("schedule", 77.0), ("stopped", 77.0)
+SCREENS = (
+    *(("MFC_P1", "same-blade", *state) for state in STATES),
+    *(("MFC_P1", "best-fixed", *state) for state in STATES[1:3]),
+    *((id, "same-blade", *state) for id in ("AFC", "SMA_tube") for state in STATES[1:]),
+)
+
+
+@pytest.mark.parametrize(("id", "against", "state", "drive"), SCREENS)
+def test_every_number_on_the_screen_is_that_of_rotor(id: str, against: Against, state: ActuatorState, drive: float):
+    now = answered(against, (drive,) * MOST_SEGMENTS, state, id)
     found = screen(now)
     assert {name: set(values) for name, values in found.items()} == {
-        name: {value} for name, value in of_rotor(against, state, drive).items()
+        name: {value} for name, value in of_rotor(id, against, state, drive).items()
     }
     parts = balance_here(now)
     *each, total = (float(text.replace("−", "-")) for text in parts.values())

@@ -271,6 +271,9 @@ def test_a_blade_that_cannot_carry_it_is_a_sentence():
         with_actuator(make_design(rotor="s61"), "MFC_P1")
     with pytest.raises(ValueError, match="carry MFC P1 at 0 V already"):
         with_actuator(with_actuator(make_design(), "MFC_P1"), "MFC_P1")
+    with pytest.raises(ValueError, match="leave rotor and preset"):
+        make_design(case=with_actuator(make_design(), "MFC_P1"), preset="thesis")
+    assert make_design(case=with_actuator(make_design(), "MFC_P1"), mu=0.2) == with_actuator(make_design(), "MFC_P1")
     record = with_actuator(make_design(), "MFC_P1").to_dict()
     for key, value in (("span_m", [5.0, 4.0]), ("aircraft_kg", -1.0), ("gj_factor", 0.0), ("weight", 3.0)):
         with pytest.raises(ValueError, match=key.partition("_")[0]):
