@@ -42,7 +42,7 @@ DISK_LABELS: dict[str, tuple[str, float]] = {
 def solution_record(solution: Solution) -> dict[str, Any]:
     """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
     design, controls, power = require_solution(solution).design, solution.controls, solution.last_power
-    stand = design.condition.stand
+    stand, carried = design.condition.stand, design.rotor.blade.carried
     values: dict[str, Any] = {
         "power_w": {
             "total": power.total,
@@ -97,6 +97,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
         **({} if stand is None else {"trim": design.models.trim, "stand": stand.record()}),
+        **({} if carried is None else {"actuator": carried.spec}),
         **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
         **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
         **_switches(solution),
