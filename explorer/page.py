@@ -14,7 +14,7 @@ import viser
 
 from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
-from explorer.model.actuator_inputs import AT_REST
+from explorer.model.actuator_inputs import AT_REST, ActuatorInputs, inputs_from_spec
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
@@ -25,6 +25,7 @@ from explorer.sharing import share
 from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.text.glossary import hint
+from explorer.views.actuated import counted_from
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.bar import BAR
@@ -57,7 +58,7 @@ from explorer.widgets.probe_panel import ProbePanel
 from explorer.widgets.results import drawer_texts
 from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
-from rotor import Solution, solve
+from rotor import Design, Solution, solve
 from rotor.support.markup import tag
 from rotor.support.user_input import brief
 
@@ -105,7 +106,7 @@ class Page:
         self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
         self._add_rail(address)
         self._add_drawers(address, facts, presentation)
-        self._listen(opening)
+        self._listen(opening, address)
         for title, sentence in address.problems:  # Stays until closed: the page does not show what the link names.
             if title == _NOT_USED:
                 self._tell(sentence, opening)
@@ -143,7 +144,7 @@ class Page:
                 self.history = HistoryPanel(context, start, facts.kept.get(share.STEPS_KEPT))
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.drawers["share"]:
-            self.file = FilePanel(context, address, facts.kept, opened["Files"])
+            self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.drawers["lecture"]:
             lecture = LecturePanel(context, self.scene.camera, self._views)
@@ -164,7 +165,7 @@ class Page:
         with layout.drawers["lecture"]:
             presentation.begin(lecture, self._views, partial(self._hold, lecture))
 
-    def _listen(self, opening: Inputs) -> None:
+    def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
@@ -177,7 +178,11 @@ class Page:
         bridge.on("taken", lambda _: camera.let_go())
         bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
         bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
-        if self.actuator.hand().on_stage and not context.held:
+        if context.held:
+            return
+        if (actuator := address.read(share.CARRIED, inputs_from_spec, None, "Link: actuator not used")) is not None:
+            self._carry(actuator)
+        elif self.actuator.hand().on_stage:
             context.layout.show_mode("actuate")
 
     def _tell(self, sentence: str, opening: Inputs) -> None:
@@ -202,18 +207,17 @@ class Page:
             leave()
 
     def read(self) -> PageState:
-        """What the widgets mean now, without what follows from it. A change of inputs becomes a step of undo.
-
-        Outside Actuate the actuator is at rest: there the design is that of sliders, link and search.
-        """
+        """What the widgets mean now, without what follows from it. A change of inputs becomes a step of undo."""
         tracker, context = self.context.tracker, self.context
         tracker.pause = context.controls.pauses.longest()
         with context.whole:
             hand = self.actuator.hand()
-            if context.layout.mode != "actuate":
-                hand = replace(hand, actuator=replace(hand.actuator, drives=AT_REST))
             inputs, view = self.history.read(tracker.pause), context.display.view
         return replace(self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem="")
+
+    def counted_from(self, now: PageState) -> Design | None:
+        """The blade that changes count from where the design carries an actuator; None: as usual."""
+        return counted_from(replace(now, ui=OpenPanels(self.context.layout.mode), answers=self.follower.answers()))
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
@@ -334,7 +338,7 @@ class Page:
 
             def trims(inputs: Inputs) -> bool:
                 try:
-                    return solve(self.latest.hand.actuator.apply(inputs.design()), state.solution).converged
+                    return solve(self.latest.hand.fit(inputs.design()), state.solution).converged
                 except ValueError:
                     return False
 
@@ -391,6 +395,11 @@ class Page:
                 self.context.wake()
             case _:
                 self.actuator.perform(effect)
+
+    def _carry(self, actuator: ActuatorInputs) -> None:
+        """A link or a file has an actuator on board: show it."""
+        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
+        self.context.layout.show_mode("actuate")
 
     def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""

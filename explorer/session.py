@@ -88,7 +88,7 @@ class Session:
         page.draw(now, solution, pinned, only_azimuth=not everything)
         if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
             return iter(())
-        as_built = baseline_of(solution.design)
+        as_built = page.counted_from(now) or baseline_of(solution.design)
         baseline = solution if as_built == solution.design else self._baseline.solve(as_built)
         pinned = pinboard.solve(solution.design, self._overtaken())
         state = SessionState(now.inputs, view, solution, baseline, pinned, pinboard.pinned)
@@ -116,10 +116,10 @@ class Session:
         now = self.page.read()
         try:
             sliders = now.inputs.design()
-            design = now.hand.actuator.apply(sliders)
+            design = now.hand.fit(sliders)
         except ValueError as error:
             return replace(now, problem=str(error)), None
-        # The designs of a search are shown without actuator, so a driven actuator takes precedence.
+        # The designs of a search are shown without actuator, so an actuator on board takes precedence.
         preview = self.page.optimise.preview(sliders) if design == sliders else None
         return replace(now, sliders=sliders, preview=preview), preview or design
 

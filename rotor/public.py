@@ -1,7 +1,7 @@
 """What `rotor` offers. It is slow to read, so `rotor` reads it with the first name that is asked for."""
 
 from rotor import actuator
-from rotor.actuator import failure
+from rotor.actuator import failure, with_actuator
 from rotor.aero.elements import TrimState
 from rotor.columns.blade import Freedom
 from rotor.design.aircraft import Aircraft, FlightCondition
@@ -32,5 +32,5 @@ __all__ = (
     "PowerBudget", "Rotor", "Solution", "Status", "SweepTable", "TrimState", "actuator", "distribution", "doubt",
     "failure", "hub_loads", "load_design", "load_rotor", "make_design", "optimise", "parse_twist", "plot_field",
     "plot_power", "run_study", "save_solution", "schedule", "solution_record", "solve", "solve_many", "sweep",
-    "t_matrix", "vibration_front",
+    "t_matrix", "vibration_front", "with_actuator",
 )  # fmt: skip

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
+from explorer.views.actuated import counted_from
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, Panel, SetHand
 from explorer.workers.call import Call
 from rotor.design import Harmonic
@@ -19,11 +20,18 @@ from rotor.trim.solve import solve
 
 def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> PageState:
     """The page in Actuate with this design, the blade lifted out; `hand`: fields of `HandSettings`."""
-    own = HandSettings(**hand)
-    design = inputs.design()
-    solution = solve(own.actuator.apply(design)).require()
-    state = SessionState(inputs, ViewState(), solution, solution, None)
-    return PageState(inputs, design, state, ui=OpenPanels("actuate", lifted=True), hand=own, answers=answers or {})
+    own = HandSettings(**hand, on_board=True)
+    now = PageState(inputs, None, None, ui=OpenPanels("actuate", lifted=True), hand=own, answers=answers or {})
+    return solved(now)
+
+
+def solved(now: PageState) -> PageState:
+    """As the session has it after its next update."""
+    design = now.inputs.design()
+    now = replace(now, sliders=design)
+    solution = solve(now.hand.fit(design)).require()
+    baseline = solve(counted_from(now) or baseline_of(design)).require()
+    return replace(now, state=SessionState(now.inputs, ViewState(), solution, baseline, None))
 
 
 def asked(panel: Panel, now: PageState) -> dict[str, Call]:

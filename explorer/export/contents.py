@@ -50,7 +50,7 @@ class DesignReport:
     actuator: Verdict | str = ""
     """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
     driven: ActuatedBlade | None = None
-    """The actuator that twists the first design, without its mass in the power of the trim."""
+    """The actuator on board of the first design."""
     when: datetime = field(default_factory=lambda: datetime.now().astimezone())
 
     def __post_init__(self) -> None:
@@ -78,7 +78,7 @@ class DesignReport:
 
     def comparable(self, entry: ReportEntry) -> bool:
         """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
-        return entry.solution.design.condition == self.reference.solution.design.condition
+        return entry.solution.design.bare.condition == self.reference.solution.design.bare.condition
 
     def is_reference(self, entry: ReportEntry) -> bool:
         """Whether it is the reference, or the same design, so that there is nothing to compare."""
@@ -96,11 +96,11 @@ class DesignReport:
 
 
 def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
-    """The change of power here with the mass of a driven actuator, as the page says it; what it counts from; and
-    whether it is `more` or `less`."""
+    """The change of power here by the actuator on board, as the page says it; what it counts from; and whether it is
+    `more` or `less`."""
     mass, here = mass_parts(driven.installed)["in all"], driven.here
     if here is None:
-        return "", f"without the {mass} of its actuator", ""
+        return "", f"with {mass} on board", ""
     against = f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
     return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
 

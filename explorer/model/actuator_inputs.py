@@ -6,8 +6,8 @@ Per cent, degrees and volts end here.
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain, pairwise
+from typing import Literal
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.model.units import number
@@ -15,8 +15,8 @@ from explorer.workers.call import Call
 from rotor import Design, Rotor
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
-from rotor.actuator.installation import InstalledActuator, install
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, divisions_of, twisted
+from rotor.actuator.installation import InstalledActuator, carrying_driven, install, read_actuator
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, ConditionPair, divisions_of
 from rotor.actuator.section import BladeKind, HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.dynamics.structure import KNOWN_BLADE
@@ -98,23 +98,39 @@ class ActuatorInputs:
         return min(low, high), max(low, high)
 
     def apply(self, design: Design) -> Design:
-        """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
-        if not self.driven or design.aircraft.key != KNOWN_BLADE:
+        """The design with the actuator on board, driven; the very same one on a blade of unknown structure."""
+        if design.aircraft.key != KNOWN_BLADE:
             return design
         installed = self.installed(design.rotor)
-        steady = np.asarray(self.swings(installed)) @ installed.shapes_in(design)
-        change = np.interp(STATIONS, installed.r, steady)
-        return installed.on(replace(design, twist=twisted(design.twist, change, self.name(installed))))
-
-    def name(self, installed: InstalledActuator) -> str:
-        """Of the twist: `MFC P1 at 1 155 V`; where segments differ, from the least to the most."""
-        drives = self.driven_at(installed)
-        ends = "…".join(number(end) for end in sorted({min(drives), max(drives)}))
-        return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}"
+        return carrying_driven(design, installed, self.drive_shares(installed), crossed=self.crossed)
 
     @property
     def driven(self) -> bool:
         return any(self.drives)
+
+
+def inputs_from_spec(text: str) -> ActuatorInputs:
+    """What the tab shows of the actuator of a design or a link; ValueError with one sentence."""
+    one = read_actuator(text)
+    concepts = [name for name in CONCEPTS if concept_divisions(name) == one.placement.divisions]
+    if not concepts:
+        raise ValueError(f"actuator {text!r:.80} has divisions that no concept of this page has: leave them out")
+    drives = one.drives * MOST_SEGMENTS if len(one.drives) == 1 else (*one.drives, *AT_REST)
+    return ActuatorInputs(
+        actuator=one.id,
+        plies=one.placement.plies,
+        span=one.placement.span,
+        chord=one.placement.chord,
+        blade=one.host.kind,
+        stiffness=one.host.stiffness if one.host.kind == "new" else ActuatorInputs.stiffness,
+        concept=concepts[0],
+        drives=drives[:MOST_SEGMENTS],
+        crossed=one.crossed,
+    )
+
+
+ActuatorState = Literal["set", "schedule", "stopped"]
+"""Its voltage is as a hand set it, or follows the flight, or stays as it was when the actuator stopped."""
 
 
 @dataclass(frozen=True)
@@ -137,6 +153,16 @@ class HandSettings:
     on_stage: bool = False
     here: bool = False
     place: tuple[float, float] | None = None
+    on_board: bool = field(default=False, compare=False)
+    """Whether the design carries the actuator: in Actuate."""
+
+    @property
+    def state(self) -> ActuatorState:
+        return "stopped" if self.stopped else "set" if self.flown is None else "schedule"
+
+    def fit(self, design: Design) -> Design:
+        """The design of the sliders as it flies."""
+        return self.actuator.apply(design) if self.on_board else design
 
 
 @dataclass(frozen=True)

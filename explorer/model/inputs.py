@@ -276,8 +276,8 @@ class ViewState:
 
 
 def inputs_of(design: Design) -> Inputs:
-    """The slider positions that mean `design`, as near as the sliders can hold it."""
-    active = design.active_twist
+    """The slider positions that mean `design`, as near as the sliders can hold it, without an actuator on board."""
+    design, active = design.bare, design.active_twist
     start = Inputs(
         rotor=design.aircraft.key or OWN,
         own_rotor=None if design.aircraft.key else design.aircraft,
@@ -357,12 +357,17 @@ def preset_inflow(preset: str) -> dict[str, Any]:
 
 
 def baseline_of(design: Design) -> Design:
-    """A flight and models with the preset's rotor and its baseline twist, without n/rev."""
+    """A flight and models with the preset's rotor and its baseline twist, without n/rev; of a design with an actuator
+    on board, the same without it."""
     craft, preset = design.aircraft, design.preset
+    if design.rotor.blade.carried is not None:
+        return replace(design.bare, active_twist=None, pitch_per_rev=())
     still = replace(design, active_twist=None, pitch_per_rev=())
     return replace(still, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
 
 
-def baseline_title(design: Design) -> str:
+def baseline_title(design: Design, reference: Design | None = None) -> str:
     """What the change of power is measured against, in the user's words."""
+    if design.rotor.blade.carried is not None:
+        return "same blade without it" if reference is None or reference.twist == design.jig else "best fixed blade"
     return design.aircraft.twist_title(design.preset)

@@ -8,7 +8,6 @@ from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import FLIGHT, Inputs, ViewState
 from explorer.workers.solver import BaselineCache, Solve
 from rotor import Design, Solution, solve
-from rotor.design import SumTwist
 from rotor.design.quantities import UNUSUAL
 from rotor.trim import DEFAULT_OPTIONS, Analysis, SolverOptions, analyse
 
@@ -46,8 +45,7 @@ class Pinned:
     def driven(self) -> bool:
         """Whether an actuator also twists the blade, which the sliders cannot show."""
         design = self.solution.design
-        added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
-        return added or design.active_twist != self.inputs.design().active_twist
+        return design.rotor.blade.carried is not None or design.active_twist != self.inputs.design().active_twist
 
     def design(self, present: Design) -> Design:
         """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
@@ -55,7 +53,9 @@ class Pinned:
         tested = design.condition.stand is not None, present.condition.stand is not None
         trim = present.models.trim if any(tested) else design.models.trim
         level = {row.field: row.default for row in UNUSUAL.values() if row.axial and not design.models.disk_axial_flow}
-        condition = replace(present.condition, **level)
+        carried = design.rotor.blade.carried
+        flown = present.bare.condition
+        condition = replace(flown, mass=flown.mass + (carried.aircraft_kg if carried else 0.0), **level)
         return replace(design, condition=condition, models=replace(design.models, trim=trim))
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:

@@ -50,7 +50,7 @@ class DialPart:
 class DialNumbers:
     """Harmonics of the hub loads and the power, their slopes and curvatures by cosine and sine parts [°].
 
-    `power` [W] and `index` [%] are those of the blade compared with.
+    `power` [W] and `index` [%] are those without twist at n/rev.
     """
 
     base: list[float]
@@ -72,16 +72,16 @@ class DialMatrix(DialNumbers):
 class FlightPart:
     """Tip twist from hover to fast flight, and where the design flies: `at`, counted in legs from 0.
 
-    `legs`: name and condition of each. `frozen`: twist of an actuator that has stopped [°]; `words` then say how it
-    flies. `flown`: the voltages are those of the flight.
+    `legs`: name and condition of each. `state`: of the actuator; `states`: all, with what they are called. `words`: how
+    it flies there. `tip`: the twist of that state.
     """
 
     legs: tuple[tuple[str, str], ...]
     at: float
     kind: Kind
     words: str
-    flown: bool
-    frozen: float | None
+    state: str
+    states: tuple[tuple[str, str], ...]
     tip: str
     chart: DrawnChart
 
@@ -116,16 +116,16 @@ class EarnsPart:
 class AssessedPart:
     """The actuator as set, in words: what it moves, costs and gives, here and over the flight.
 
-    `tip`, `reach`, `wanted`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`.
-    `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
-    `sentence`: all of it. `pays`: words, and every second one a number with which it would pay, the other
-    as it is: `range` of twist [°], `kilograms`.
+    `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`. `over`:
+    limits that are exceeded, `asked`: those that only the best twist would exceed; `feasible`: what a press changes so
+    that it can be built. `baselines`: name and title of
+    each blade that changes may count from; `against`: the name of the one that they do. `sentence`: all of it. `pays`:
+    words, and every second one a number with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
     """
 
     title: str
     tip: str
     reach: str
-    wanted: str
     mass: str
     masses: tuple[tuple[str, str], ...]
     here: str
@@ -133,6 +133,9 @@ class AssessedPart:
     flight: str
     vibration: str
     problem: str
+    over: tuple[str, ...]
+    asked: tuple[str, ...]
+    feasible: str
     against: str
     baselines: tuple[tuple[str, str], ...]
     sentence: str

@@ -71,7 +71,7 @@ class WavePress(_Fields):
 
 _ALONE = (
     *("pin", "swap", "back", "undo", "redo", "play", "apply", "discard"),
-    *("halt", "nearest", "aim", "taken", "beat", "rival_take", "rival_end"),
+    *("halt", "nearest", "aim", "taken", "beat", "rival_take", "rival_end", "feasible"),
 )
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {
@@ -80,12 +80,13 @@ PRESSES: dict[str, Any] = {
     **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
-    **dict.fromkeys(("difference", "more", "fails"), _Switch),
+    **dict.fromkeys(("difference", "more"), _Switch),
     "ride": Literal["off"] | SectionPress | None,
     "section": SectionPress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
     "against": Literal["same-blade", "best-fixed"],
+    "state": Literal["set", "schedule", "stopped"],
     "suppose": _Switch | SupposePress,
     "balance": Literal["here", "flight"],
     "map_at": MapPress,

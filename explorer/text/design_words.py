@@ -3,7 +3,7 @@ models."""
 
 import math
 
-from explorer.model.inputs import INFLOW_MENUS, PRESET_TITLES, Inputs, baseline_of
+from explorer.model.inputs import INFLOW_MENUS, PRESET_TITLES, Inputs, baseline_of, baseline_title
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor import Design, Rotor
@@ -23,10 +23,12 @@ LONGEST_TITLE = 70
 """Characters."""
 
 
-def against(design: Design, pinned: bool) -> str:
+def against(design: Design, reference: Design, pinned: bool) -> str:
     """What changes are measured against, in words."""
     if pinned:
         return "A"
+    if design.rotor.blade.carried is not None:
+        return baseline_title(design, reference)
     built = baseline_of(design).twist == design.rotor.builtin_twist
     return f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
 
@@ -64,8 +66,9 @@ def twist_name(design: Design) -> str:
         for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
         for wave in harmonics
     ]
-    few = waves if len(waves) < 3 else [f"{len(waves)} harmonics"]
-    return ", ".join((_law_name(design.twist, design.rotor), *few))
+    few, carried = waves if len(waves) < 3 else [f"{len(waves)} harmonics"], design.rotor.blade.carried
+    rests = "" if carried is None or design.twist != design.jig else f" + {carried.name}"
+    return ", ".join((_law_name(design.twist, design.rotor) + rests, *few))
 
 
 def _law_name(law: TwistLaw, rotor: Rotor) -> str:

@@ -45,7 +45,10 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
     rows = [_row(name, title, power, reference, units) for name, title in titles.items()]
-    words = tag("span", "total power"), tag("span", f"vs. {baseline_title(solution.design)}")
+    words = (
+        tag("span", "total power"),
+        tag("span", f"vs. {baseline_title(solution.design, baseline and baseline.design)}"),
+    )
     return _panel(solution, reference, words, tag("table", rows), units)
 
 
@@ -290,7 +293,7 @@ def balance(savings: Sequence[tuple[str, float]], units: Units) -> list[tuple[st
     """
     digits = digits_of(sum(power for _, power in savings), units)
     exact = [-units.power[0].of(power) for _, power in savings]
-    names = ["its twist" if name == "gross" else name for name, _ in savings]
+    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
     written = adding(exact, digits)
     rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
     return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]

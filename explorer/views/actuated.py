@@ -6,10 +6,8 @@ Tip twist is that in flight, at the tip, nose up positive: what the actuator add
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, Literal, NamedTuple, cast
-
-import numpy as np
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple, cast
 
 from explorer.model.actuator_inputs import (
     ActuatorInputs,
@@ -20,10 +18,11 @@ from explorer.model.actuator_inputs import (
     verdict_inputs_of,
     verdict_tasks,
 )
-from explorer.views.dial_answer import HARMONICS, FittedBlade, compared
-from explorer.views.page_state import OpenPanels, PageState
+from explorer.views.dial_answer import HARMONICS, FittedBlade, bending
+from explorer.views.page_state import OpenPanels, PageState, PanelWork
+from explorer.views.work import doubt_work
 from explorer.workers.call import Call
-from rotor import Design
+from rotor import Design, Solution
 from rotor.actuator import (
     ActuatorFlight,
     EffectInFlight,
@@ -36,6 +35,7 @@ from rotor.actuator import (
     powers,
 )
 from rotor.actuator.verdict import Against
+from rotor.design import TwistLaw
 from rotor.dynamics.structure import check_blade
 from rotor.trim.doubt import sureness
 
@@ -136,24 +136,29 @@ class ActuatedBlade:
         return self.installed.attainable
 
     @property
-    def wanted(self) -> float | None:
-        """Twist of least power in this flight; None: not known."""
-        if not isinstance(self.flight, ActuatorFlight):
-            return None
-        speeds = [leg.advance_ratio for leg in self.legs]
-        return float(np.interp(self.now.inputs.advance_ratio, speeds, self.flight.wanted))
+    def fixed_twist(self) -> TwistLaw | None:
+        """Of the blade that changes count from; None while that is worked out."""
+        if self.inputs.against == "same-blade":
+            return self.design.twist
+        return None if self.verdict is None else self.verdict.baseline.fixed_twist
 
     @property
     def here(self) -> PowerChange | None:
-        """In this flight."""
-        known = self.now.of(change_here)
-        return PowerChange(known.power[0], known.band) if isinstance(known, EffectInFlight) else None
+        """In this flight: the power on the page, its drive included, less that of the blade that changes count from."""
+        trims = self.now.of(trims_here)
+        if trims is None:
+            return None
+        flown, other = trims
+        task = self.now.of(doubt_here)
+        doubt = None if task is None else self.now.answers.get(task.key)
+        change = flown.power.total - other.power.total + drive_here(self.now)
+        return PowerChange(change, None if doubt is None else doubt.change_band)
 
     @property
-    def vibration(self) -> EffectInFlight | None:
-        """In this flight; None where there are no hub loads."""
-        known = self.now.of(change_here)
-        return known if isinstance(known, EffectInFlight) and known.index else None
+    def vibration(self) -> tuple[float, ...] | None:
+        """In this flight [%], by inflow model; empty where there are no hub loads, None on its way."""
+        known = self.now.answers.get(self.now.of(effect_asked))
+        return known.index if isinstance(known, EffectInFlight) else () if isinstance(known, str) else None
 
     @property
     def over_flight(self) -> PowerChange | None:
@@ -168,75 +173,89 @@ def against_words(one: ActuatedBlade, against: Against) -> str:
     return "same blade without it" if one.question.host.kind == "retrofit" else "present blade"
 
 
+def counted_from(now: PageState) -> Design | None:
+    """The blade that changes count from, without an actuator; the present one while the best is worked out.
+
+    None outside Actuate, and where the blade carries no actuator.
+    """
+    if not in_actuate(now.ui) or (one := actuated_blade(now)) is None:
+        return None
+    return replace(one.design, twist=one.fixed_twist or one.design.twist, active_twist=None, pitch_per_rev=())
+
+
+def trims_here(now: PageState) -> tuple[Solution, Solution] | None:
+    """What the page shows, and the blade that changes count from; None where not both are known."""
+    state, one = now.state, actuated_blade(now)
+    if now.problem or state is None or one is None or one.fixed_twist is None or not state.baseline.converged:
+        return None
+    known = state.solution.design.rotor.blade.carried is not None and state.baseline.design.twist == one.fixed_twist
+    return (state.solution, state.baseline) if known else None
+
+
+def doubt_here(now: PageState) -> PanelWork | None:
+    """How sure the change of power in this flight is; the power card asks the same unless A is pinned."""
+    trims = now.of(trims_here)
+    return None if trims is None or trims[0].design == trims[1].design else doubt_work("doubt", *trims, now.analyses)
+
+
 def fitted(now: PageState) -> FittedBlade | None:
-    """The actuator on the blade, and the blade compared with; None where there is no actuator."""
-    if (one := actuated_blade(now)) is None:
-        return None
-    inputs = one.inputs
-    fixed = None if one.verdict is None else one.verdict.baseline.fixed_twist
-    twist = one.design.twist if inputs.against == "same-blade" else fixed
-    return FittedBlade(
-        one.installed, inputs.driven_at(one.installed), twist, f"the {against_words(one, inputs.against)}"
-    )
-
-
-def pair_compared(now: PageState) -> Any:
-    """What flies, and the blade compared with; None where not both are known."""
-    if now.state is None or now.sliders is None or now.problem:
-        return None
-    return compared(now.state.solution.design, now.sliders, now.of(fitted))
+    """The actuator on the blade; None where there is none."""
+    one = actuated_blade(now)
+    return None if one is None else FittedBlade(one.installed, one.inputs.driven_at(one.installed))
 
 
 def effect_asked(now: PageState) -> Call | None:
-    """The trims of what flies and of the blade compared with."""
-    pair = now.of(pair_compared)
-    return None if pair is None else Call(effect, pair)
+    """Trims with blades that bend, of what the page shows and of the blade compared with: for vibration."""
+    trims = now.of(trims_here)
+    return None if trims is None else Call(effect, (bending(trims[0].design), bending(trims[1].design)))
 
 
-def change_here(now: PageState) -> EffectInFlight | str | None:
-    """What the actuator changes in this flight, its drive included; or why that is not known."""
-    found, on_blade = now.answers.get(now.of(effect_asked)), now.of(fitted)
-    if not isinstance(found, EffectInFlight) or on_blade is None:
-        return found
-    drive = _drive(now, on_blade)
-    return EffectInFlight(tuple(power + drive for power in found.power), found.index, found.band)
-
-
-def _drive(now: PageState, on_blade: FittedBlade) -> float:
-    """Power that the drive takes in this flight [W]."""
-    losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
-    drive = sum(losses.get(one.per_rev, 0.0) * math.degrees(one.amplitude) ** 2 for one in now.inputs.twist_per_rev)
+def drive_here(now: PageState) -> float:
+    """Power that the drive takes in this flight [W]: held, as heat at n/rev, and what pitch links then put in."""
+    trims = now.of(trims_here)
     verdict = one.verdict if (one := actuated_blade(now)) is not None and now.hand.actuator.driven else None
-    return drive + (0.0 if verdict is None else verdict.drive.hold_power)
+    held = 0.0 if verdict is None else verdict.drive.hold_power
+    if trims is None or not now.inputs.twist_per_rev:
+        return held
+    flown, other = (0.0 if trim.elastic is None else trim.elastic.control_power for trim in trims)
+    return held + heat_here(now) + flown - other
+
+
+def heat_here(now: PageState) -> float:
+    """Heat in the plies of all blades at n/rev [W]."""
+    if (on_blade := now.of(fitted)) is None:
+        return 0.0
+    losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
+    waves = now.inputs.twist_per_rev
+    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in waves)
 
 
 def parts_asked(now: PageState) -> Call | None:
-    """Trims of the blade compared with, with the twist, and with the stiffness too; None where not all are known."""
-    pair, one = now.of(pair_compared), actuated_blade(now)
-    if pair is None or one is None or now.state is None or now.sliders is None:
+    """Trims of the present blade, with the actuator's twist, and with its stiffness too; None where not all are
+    known."""
+    trims, one = now.of(trims_here), actuated_blade(now)
+    if trims is None or one is None:
         return None
-    twisted, _ = compared(now.state.solution.design, now.sliders, None) or pair
-    return Call(powers, ((pair[1], twisted, one.installed.on(twisted)),))
+    flown, bare = trims[0].design, replace(one.design, active_twist=None, pitch_per_rev=())
+    twisted = replace(one.design, twist=flown.twist)
+    return Call(powers, ((bare, twisted, one.installed.on(twisted)),))
 
 
 def parts_here(now: PageState) -> tuple[tuple[str, float], ...]:
-    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is that of `change_here`."""
-    found, on_blade, known = now.answers.get(now.of(parts_asked)), now.of(fitted), now.of(change_here)
-    if not isinstance(found, tuple) or on_blade is None or not isinstance(known, EffectInFlight):
+    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is `ActuatedBlade.here`."""
+    found, trims = now.answers.get(now.of(parts_asked)), now.of(trims_here)
+    if not isinstance(found, tuple) or trims is None:
         return ()
     bare, twisted, stiff = cast("tuple[float, float, float]", found)
-    drive = _drive(now, on_blade)
+    flown, other = (trim.power.total for trim in trims)
+    blades = (("blade", other - bare),) if now.hand.actuator.against == "best-fixed" else ()
     stiffness = (("stiffness", twisted - stiff),) if twisted != stiff else ()
-    return (
-        ("gross", bare - twisted),
-        *stiffness,
-        ("mass", stiff - bare - known.power[0] + drive),
-        ("drive", 0.0 - drive),
-    )
+    return (*blades, ("gross", bare - twisted), *stiffness, ("mass", stiff - flown), ("drive", 0.0 - drive_here(now)))
 
 
 def here_problem(now: PageState) -> str:
     """Why there is no verdict, or none in this flight; empty where there is one or it is on its way."""
-    one, found = actuated_blade(now), now.of(change_here)
-    outcome = None if one is None else one.outcome
-    return outcome if isinstance(outcome, str) else found if isinstance(found, str) else ""
+    one, state = actuated_blade(now), now.state
+    if one is not None and isinstance(one.outcome, str):
+        return one.outcome
+    return "" if state is None or state.baseline.converged else state.baseline.message

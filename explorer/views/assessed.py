@@ -1,15 +1,21 @@
 """The card that says what the actuator as set moves, costs and gives."""
 
 import math
+from dataclasses import replace
+from typing import Any
 
-from explorer.model.actuator_inputs import AGAINST
+from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
-from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
+from explorer.views.actuator_words import limit_words
+from explorer.views.flight import STATES
+from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
+from rotor.actuator.kind import Limit
+from rotor.actuator.limits import limits
 from rotor.actuator.verdict import Against
-from rotor.trim.doubt import sureness
+from rotor.dynamics.structure import structure_data
 
 _URGENCY, _DELAY_S = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
@@ -29,33 +35,35 @@ def _reach(one: ActuatedBlade) -> str:
 
 
 def _title(one: ActuatedBlade) -> str:
-    """What it is, and its drive as on the sliders."""
-    installed, inputs = one.installed, one.inputs
+    """What it is, its state, and its drive as it flies."""
+    installed, inputs, state = one.installed, one.inputs, STATES[one.now.hand.state]
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
-    driven = f"at {shares} % of its {installed.actuator.drive_noun}" if inputs.driven else "at rest"
-    return f"{one.name}, {installed.count}{' a side' if installed.actuator.on_skin else ''}, {driven}"
+    driven = f"{state} at {shares} % of its {installed.actuator.drive_noun}"
+    waves = [f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in one.now.inputs.twist_per_rev]
+    return ", ".join((one.name, f"{installed.count}{' a side' if installed.actuator.on_skin else ''}", driven, *waves))
 
 
 def _vibration(one: ActuatedBlade) -> str:
-    """The change of vibration here, with its band over inflow models."""
-    if one.vibration is None:
-        return "" if one.here is None else "no vibration data here"
-    own, band = number(one.vibration.index[0], 0, sign=True), one.vibration.index_band
-    within = "" if band is None else f" ± {number(band)}"
-    word = "" if band is None else f" ({sureness(one.vibration.index[0], band)})"
-    return f"vibration {own}{within} %{word}"
+    """The change of vibration here: mean and ends over inflow models."""
+    if not one.vibration:
+        return "" if one.vibration is None else "no vibration data here"
+    ends, middle = (min(one.vibration), max(one.vibration)), math.fsum(one.vibration) / len(one.vibration)
+    mean, low, high = (number(change, 0, sign=True) for change in (middle, *ends))
+    if ends[0] * ends[1] <= 0.0:
+        return f"vibration unclear ({low}…{high} %)"
+    return f"vibration {mean} % ({low}…{high})"
 
 
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    known = [change for change in (one.here, flight) if change]
-    powers = [needs_words(-change.power, change.band, units) for change in known]
-    if len(powers) == 2 and known[0].power * known[1].power > 0.0:  # One verb and one unit serve both.
-        powers[1] = powers[1].partition(" ")[2].replace(f" {units.power[0].symbol}", "").replace(" more", "")
-    places = (["here"] if one.here else []) + ["over the flight"]
-    parts = ", ".join(f"{power} {place}" for power, place in zip(powers, places, strict=False))
-    moves = f"{one.name} moves the tip by {_reach(one)} in flight for {total}{': it ' if parts else ''}{parts}."
+    state, tip = STATES[one.now.hand.state], _angle(one.inputs.tip(one.installed))
+    moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}"
+    if one.here is not None:
+        moves += f" and {needs_words(-one.here.power, one.here.band, units)} here"
+    moves += "."
+    if flight is not None:
+        moves += f" By schedule it {needs_words(-flight.power, flight.band, units)} over the flight."
     mass = None if verdict is None else verdict.mass_allowed
     if flight is None or mass is None:
         return moves, ()
@@ -68,20 +76,32 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     return moves, (*pays, "." if one.line is None else f"; no twist pays at {total}.")
 
 
+def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Each limit that is exceeded, with value and bound: its own, and those that only the best twist would exceed."""
+    broken = () if one.verdict is None else one.verdict.broken
+    reach = one.installed.actuator.range_limits
+    own, asked = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
+    return tuple(own), tuple(asked)
+
+
+def _limit(limit: Limit) -> str:
+    value, bound = (number(end, 0 if limit.bound >= 20.0 else 2) for end in (limit.value, limit.bound))
+    return f"{limit_words(limit.name)} {value} of {bound} {limit.unit}"
+
+
 def card(now: PageState) -> dict[str, AssessedPart | None]:
     """Three columns and the sentence."""
     if (one := actuated_blade(now)) is None:
         return {} if now.problem else {"assessed": None}
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
-    sentence, pays = _sentences(one, units)
+    (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
     both = one.here, one.over_flight
     here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
     part = AssessedPart(
         title=_title(one),
         tip=_angle(one.inputs.tip(one.installed)),
         reach=_reach(one),
-        wanted="" if one.wanted is None else _angle(one.wanted),
         mass=total,
         masses=tuple(parts),
         here=here,
@@ -89,6 +109,9 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         flight=flight,
         vibration=_vibration(one),
         problem=here_problem(now),
+        over=over,
+        asked=asked,
+        feasible=_change_words(one, now.of(feasible)),
         against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),
         sentence=sentence,
@@ -104,4 +127,43 @@ def choose(now: PageState, against: Against) -> tuple[Effect, ...]:
     return (SetHand(actuator={"against": against}),) if against in AGAINST else ()
 
 
-ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose})
+def feasible(now: PageState) -> ActuatorInputs | None:
+    """The nearest actuator of this kind on this blade whose own limits all hold: as many plies as may be, clear of the
+    heated nose. None where those hold, or where there is none."""
+    one = actuated_blade(now)
+    if one is None or one.verdict is None or one.verdict.buildable:
+        return None
+    kept, nose = one.installed.actuator.range_limits, float(structure_data()["limits"]["de_ice_end_c"])
+    for plies in range(one.inputs.plies, 0, -1):
+        for front in dict.fromkeys((one.inputs.chord[0], max(one.inputs.chord[0], nose))):
+            other = replace(one.inputs, plies=plies, chord=(front, one.inputs.chord[1]))
+            try:
+                installed = other.installed(one.design.rotor)
+            except ValueError:
+                continue
+            if all(limit.ok or limit.name in kept for limit in limits(installed, (1.0,) * len(installed.shapes))):
+                return other
+    return None
+
+
+def _change_words(one: ActuatedBlade, other: ActuatorInputs | None) -> str:
+    """What the press changes."""
+    if other is None:
+        return ""
+    plies = "" if other.plies == one.inputs.plies else f"{other.plies} {one.installed.actuator.noun[other.plies > 1]}"
+    chord = "" if other.chord == one.inputs.chord else f"from {number(other.chord[0], 2)} c"
+    return " ".join(filter(None, (plies, chord)))
+
+
+def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
+    """Set the actuator that could be built."""
+    other = now.of(feasible)
+    return () if other is None else (SetHand(actuator={"plies": other.plies, "chord": other.chord}),)
+
+
+def works(now: PageState) -> tuple[PanelWork, ...]:
+    task = now.of(doubt_here)
+    return () if task is None else (task,)
+
+
+ACTUATOR_CARD = Panel(card, blade_out, asks, works, presses={"against": choose, "feasible": make_feasible})

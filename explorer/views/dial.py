@@ -15,12 +15,12 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import change_here, effect_asked, fitted, in_actuate, pair_compared
-from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
+from explorer.views.actuated import effect_asked, fitted, heat_here, in_actuate
+from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, bending, dial_answer, front_dots
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, Questions, SetGrabbed
 from explorer.workers.call import Call
 from rotor import Design
-from rotor.actuator import EffectInFlight, Programme, programmes, steady_room
+from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
 from rotor.design import Harmonic
 from rotor.optimisation.vibration import with_harmonics
 from rotor.support.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
@@ -45,22 +45,47 @@ _URGENCY, _LATER, _DELAY_S = 3, 5, 0.4
 
 def _asked(now: PageState) -> tuple[Call, ...]:
     """What foresees with each inflow model, the design's own first; none where not all of it is known, or can be."""
-    pair, on_blade = now.of(pair_compared), now.of(fitted)
-    if now.state is None or pair is None or why_no_hub_loads(now.state.solution.design) is not None:
+    design, on_blade = now.of(_flown), now.of(fitted)
+    if design is None or why_no_hub_loads(design) is not None:
         return ()
     losses = (0.0,) * len(HARMONICS) if on_blade is None else tuple(on_blade.losses)
     reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH_DEG
-    both, calls = (with_harmonics(pair[0], (Harmonic(3, math.radians(1.0)),)), pair[1]), list[Call]()
-    for inflow in dict.fromkeys((pair[0].models.inflow, *band_inflows())):
-        flown, still = (replace(one, models=replace(one.models, inflow=inflow)) for one in both)
-        calls.append(Call(dial_answer, (flown, still, losses, 0.0 if calls else reach)))
+    shaped, calls = with_harmonics(design, (Harmonic(3, math.radians(1.0)),)), list[Call]()
+    for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
+        flown = replace(shaped, models=replace(shaped.models, inflow=inflow))
+        calls.append(Call(dial_answer, (flown, losses, 0.0 if calls else reach)))
     return tuple(calls)
+
+
+def _flown(now: PageState) -> Design | None:
+    """What the page shows, with blades that bend; None where there is nothing."""
+    return None if now.state is None or now.problem else bending(now.state.solution.design)
+
+
+def _moved(now: PageState) -> Call | None:
+    """Trims with n/rev twist and without it; None without it."""
+    design = now.of(_flown)
+    if design is None or design.active_twist is None:
+        return None
+    return Call(effect, (design, replace(design, active_twist=None)))
+
+
+def _settled(now: PageState) -> ModelChanges | str | None:
+    """What n/rev twist alone changes, as trimmed: nothing without it. Why that is not known, or None on its way."""
+    call, unit = now.of(_moved), now.units.power[0]
+    if now.of(_flown) is None or not now.inputs.twist_per_rev:
+        return ModelChanges((0.0,), (0.0,))
+    found = now.answers.get(call)
+    if not isinstance(found, EffectInFlight):
+        return found
+    powers = tuple(unit.of(power + heat_here(now)) for power in found.power)
+    return ModelChanges(powers, tuple(round(change, 2) for change in found.index))
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     """What is trimmed first; then two processes share the inflow models."""
-    trimmed, calls = now.of(effect_asked), now.of(_asked)
-    first = Questions(_URGENCY, () if trimmed is None else (trimmed,), _DELAY_S)
+    trimmed, calls = [call for call in (now.of(effect_asked), now.of(_moved)) if call], now.of(_asked)
+    first = Questions(_URGENCY, tuple(trimmed), _DELAY_S)
     return first, Questions(_LATER, calls[::2], _DELAY_S), Questions(_LATER + 1, calls[1::2], _DELAY_S)
 
 
@@ -103,9 +128,7 @@ def view(now: PageState) -> dict[str, Any]:
 def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> DialPart:
     on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if on_blade is None else on_blade.whole
-    moved, settled = now.of(change_here), None
-    if isinstance(moved, EffectInFlight):
-        settled = ModelChanges(tuple(map(unit.of, moved.power)), tuple(round(change, 2) for change in moved.index))
+    settled = now.of(_settled)
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -119,9 +142,9 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
         computing=not words and (answer is None or now.of(_waits)),
-        settled=settled,
-        problem=moved if isinstance(moved, str) else "",
-        against="the same blade at rest" if on_blade is None else on_blade.against,
+        settled=settled if isinstance(settled, ModelChanges) else None,
+        problem=settled if isinstance(settled, str) else "",
+        against="the same without n/rev",
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),

@@ -9,13 +9,12 @@ import numpy as np
 
 from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
-from rotor.actuator import InstalledActuator, tip_amplitude, with_actuator_mass
+from rotor.actuator import InstalledActuator, tip_amplitude
 from rotor.aero.bending import can_bend
-from rotor.design import Harmonic, TwistLaw
+from rotor.design import Harmonic
 from rotor.optimisation.vibration import front_twists
 from rotor.support.arrays import Array
-from rotor.trim import analyse
-from rotor.trim.hub_loads import hub_index, index_gains
+from rotor.trim.hub_loads import index_gains
 
 HARMONICS = (2, 3, 4, 5)
 """Harmonics of the dial: those at which four blades pass vibration on to the hub, and 2/rev, which saves power."""
@@ -25,13 +24,10 @@ _DIGITS = 6
 
 @dataclass(frozen=True)
 class FittedBlade:
-    """The actuator on the blade, with the steady drive of each segment in its unit, and the blade that power and
-    vibration are compared with: its twist, None while it is being worked out, and what it is called."""
+    """The actuator on the blade, with the steady drive of each segment in its unit."""
 
     installed: InstalledActuator
     volts: tuple[float, ...]
-    twist: TwistLaw | None
-    against: str
 
     @property
     def whole(self) -> float:
@@ -47,23 +43,15 @@ class FittedBlade:
         return [blades * kind.harmonic_loss(self.installed, n, 1.0 / self.whole) for n in HARMONICS]
 
 
-def compared(design: Design, undriven: Design, fitted: FittedBlade | None) -> tuple[Design, Design] | None:
-    """What flies, with the actuator on board, and the blade that it is compared with; None while that is not known.
-
-    Blades bend in both where they can, since vibration needs it, and no blade has pitch at n/rev.
-    """
-    pair, bends = (design, undriven), can_bend(design.rotor)
-    flown, still = (replace(one, pitch_per_rev=(), models=replace(one.models, bending=bends)) for one in pair)
-    if fitted is None:
-        return flown, replace(flown, active_twist=None)
-    if fitted.twist is None:
-        return None
-    return with_actuator_mass(flown, fitted.installed), replace(still, twist=fitted.twist, active_twist=None)
+def bending(design: Design) -> Design:
+    """The design with blades that bend where they can, since vibration needs it, and without pitch at n/rev."""
+    return replace(design, pitch_per_rev=(), models=replace(design.models, bending=can_bend(design.rotor)))
 
 
 @dataclass(frozen=True)
 class FrontDot:
-    """One compromise of the front, foreseen: changes of power and of the vibration index [%].
+    """One compromise of the front, foreseen: changes of power and, as the mean over inflow models, of the vibration
+    index [%].
 
     `over_inflows`: least and largest change of the index over inflow models.
     """
@@ -81,7 +69,7 @@ class FrontDot:
 
 @dataclass(frozen=True)
 class DialAnswer:
-    """The response to n/rev twist against another blade with one inflow model, per degree as `dial.js` needs it.
+    """The response to n/rev twist with one inflow model, per degree as `dial.js` needs it.
 
     `front`: cosines and sines [°] from least power to least vibration.
     """
@@ -90,14 +78,14 @@ class DialAnswer:
     front: tuple[tuple[float, ...], ...]
 
 
-def dial_answer(design: Design, reference: Design, losses: Sequence[float], reach: float) -> DialAnswer:
+def dial_answer(design: Design, losses: Sequence[float], reach: float) -> DialAnswer:
     """The answer for a design with the actuator on board; its active twist counts for its shape alone.
 
     losses: of the drive for 1° at each harmonic [W]. reach: largest amplitude of the front's harmonics [°]; at 0 there
     is no front. ValueError or RuntimeError with a sentence.
     """
-    matrix, other, degree = t_matrix(design, HARMONICS), analyse(reference), math.radians(1.0)
-    power, index = other.solution.require().power.total, hub_index(other.adjoint)
+    matrix, degree = t_matrix(design, HARMONICS), math.radians(1.0)
+    power, index = float(matrix.base[-1]), matrix.response(()).index
     second = matrix.second.copy()
     second[-1] += np.diag(2.0 * np.repeat(losses, 2) / degree**2)
     few, steps = 2 * len(_FRONT_HARMONICS), list[Array]()
@@ -123,6 +111,7 @@ def front_dots(own: DialAnswer, others: Sequence[DialNumbers]) -> tuple[FrontDot
     for step in own.front:
         (power, index), *rest = (_foreseen(numbers, np.array(step)) for numbers in (own.numbers, *others))
         over = index, *(other for _, other in rest)
+        index = math.fsum(over) / len(over)
         pairs = zip(HARMONICS, np.reshape(step, (-1, 2)).tolist(), strict=True)
         twist = tuple(Harmonic(n, math.radians(math.hypot(a, b)), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
         dots.append(FrontDot(twist, power, index, (min(over), max(over))))

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AT_REST, HandSettings
+from explorer.model.actuator_inputs import AT_REST, ActuatorState, HandSettings
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here, trims_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
@@ -78,49 +78,49 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     problem = one.flight if isinstance(one.flight, str) else wrong
     shown = None if problem else known or _last(now)
     tip = math.degrees(one.inputs.tip(one.installed))
-    frozen = tip if hand.stopped else None
-    words = problem or ("" if known else "computing…")
-    if hand.stopped and now.state is not None and not problem:
-        words = _failed_words(numbers_of(now.state.solution, one.design.twist), now.units)
+    state, words = hand.state, ""
+    if now.of(trims_here) is not None and now.state is not None:
+        words = _flown_words(STATES[state], numbers_of(now.state.solution, one.design.twist), now.units)
     return FlightPart(
         legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::POINTS_PER_LEG]),
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
-        words=words,
-        flown=hand.flown is not None and not hand.stopped,
-        frozen=frozen,
+        words="; ".join(filter(None, (words, problem))),
+        state=state,
+        states=tuple(STATES.items()),
         tip=f"{number(tip, 2, sign=True)}°",
-        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / POINTS_PER_LEG, frozen)),
+        chart=drawn_chart(flight_chart(shown, (len(legs) - 1) / POINTS_PER_LEG, state, tip)),
     )
 
 
-def _failed_words(there: TrimNumbers, units: Units) -> str:
-    """How it flies with the twist frozen."""
+STATES: Mapping[ActuatorState, str] = {"set": "as set", "schedule": "by schedule", "stopped": "stopped"}
+"""States of the actuator, as they are called."""
+
+
+def _flown_words(state: str, there: TrimNumbers, units: Units) -> str:
+    """How it flies in this state."""
     left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
-    return f"stopped: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
+    return f"{state}: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
 
 
-def flight_chart(flight: ActuatorFlight | None, last: float, frozen: float | None = None) -> Chart:
-    """Tip twist over the legs, counted from 0 to `last`: wanted, reached, within reach.
-
-    `frozen`: twist of an actuator that has stopped [°], the same wherever it flies.
-    """
+def flight_chart(flight: ActuatorFlight | None, last: float, state: ActuatorState, tip: float) -> Chart:
+    """Tip twist over the legs, counted from 0 to `last`: within reach, by schedule, and that of another state [°]."""
     series: list[Series] = []
     low, high = -_MIN_HEIGHT_DEG, _MIN_HEIGHT_DEG
     if flight is not None:
-        wanted, reached, reach = (np.degrees(angles) for angles in (flight.wanted, flight.reached, flight.reach))
-        curves = np.concatenate((wanted, reached, reach))
-        low, high = min(low, float(curves.min())), max(high, float(curves.max()))
-        at, held = np.arange(len(wanted)) / POINTS_PER_LEG, np.clip(wanted, *reach)
+        reached, reach = (np.degrees(angles) for angles in (flight.reached, flight.reach))
+        low, high = (float(end) for end in (min(low, *reached, *reach), max(high, *reached, *reach)))
+        at = np.arange(len(reached)) / POINTS_PER_LEG
         series += [
             Band("", at, np.full(len(at), reach[0]), np.full(len(at), reach[1]), "var(--rx-dim)"),
-            Band("", at, held, wanted, "var(--rxa-fill-loss)"),
-            Line("reached", at, reached, "var(--rx-accent)", width=4.0),
-            Line("wanted", at, wanted, "var(--rx-ink)"),
+            Line("by schedule", at, reached, "var(--rx-accent)", "" if state == "schedule" else "2 5", width=3.0),
         ]
-    if frozen is not None:
-        low, high = min(low, frozen), max(high, frozen)
-        series.append(Line("stopped", (0.0, last), (frozen, frozen), "var(--rxa-loss)", "6 4", width=2.4))
+    if state != "schedule":
+        low, high = min(low, tip), max(high, tip)
+        colour = "var(--rxa-loss)" if state == "stopped" else "var(--rx-accent)"
+        series.append(
+            Line(STATES[state], (0.0, last), (tip, tip), colour, "6 4" if state == "stopped" else "", width=3.0)
+        )
     margin = 0.06 * (high - low)
     return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
 
@@ -185,29 +185,33 @@ def choose(now: PageState, which: str) -> tuple[Effect, ...]:
 
 
 def fly_to(now: PageState, x: float) -> tuple[Effect, ...]:
-    """The bar was moved: fly there, the voltages with it, unless the actuator has stopped.
-
-    One that stopped with voltages set by hand has them still when it works again.
-    """
+    """The bar was moved: fly there, by schedule with the voltages of that place."""
     if (one := actuated_blade(now)) is None:
         return ()
     flown = min(max(float(x), 0.0), (len(one.legs) - 1) / POINTS_PER_LEG)
     mu, climb = condition_at(one.legs, flown)
-    there, hand = MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb)), now.hand
-    if hand.stopped:
-        return (SetHand({"flown": None if hand.flown is None else flown}), there)
-    begun = {"by_hand": hand.actuator} if hand.flown is None else {}
-    return SetHand({"flown": flown, **begun}, _driven(now, flown)), there
+    there = MoveSliders(replace(now.inputs, advance_ratio=mu, climb_m_s=climb))
+    if now.hand.state != "schedule":
+        return (there,)
+    return SetHand({"flown": flown}, _driven(now, flown)), there
 
 
-def stop_here(now: PageState, switch: str) -> tuple[Effect, ...]:
-    """The actuator stops, its voltages as they are; or it works again, with those of the flight where that is now."""
-    stopped = switch == "on"
-    return (SetHand({"stopped": stopped}, {} if stopped else _driven(now, now.hand.flown)),)
+def choose_state(now: PageState, state: ActuatorState) -> tuple[Effect, ...]:
+    """The voltage follows the flight, or is as a hand set it, or stays where the actuator stopped."""
+    one, hand = actuated_blade(now), now.hand
+    if one is None or state not in STATES or state == hand.state:
+        return ()
+    if state == "stopped":
+        return (SetHand({"stopped": True}),)
+    if state == "schedule":
+        flown = position_of(one.legs, now.inputs.advance_ratio)
+        own = hand.actuator if hand.flown is None else hand.by_hand
+        return (SetHand({"stopped": False, "flown": flown, "by_hand": own}, _driven(now, flown)),)
+    return (after_flight(hand),)
 
 
 def after_flight(hand: HandSettings) -> SetHand:
-    """Actuate is left: no flight and no stop any more, and the voltages are those that a hand set."""
+    """As set: no schedule and no stop any more, and the voltages are those that a hand set."""
     before = {"drives": hand.by_hand.drives, "crossed": hand.by_hand.crossed}
     return SetHand(BY_HAND, {} if hand.flown is None else before)
 
@@ -246,5 +250,5 @@ FLIGHT = Panel(
     asks=asks,
     remember=remember,
     reacts=follow_flight,
-    presses={"fly": fly_to, "fails": stop_here, "balance": choose},
+    presses={"fly": fly_to, "state": choose_state, "balance": choose},
 )

@@ -22,7 +22,7 @@ def blade_inset(now: PageState) -> dict[str, Any]:
     changed = reference.twist != design.twist
     same_size = design.rotor.radius == reference.rotor.radius
     overlay = overlay_twist(solution, reference.twist, psi) if same_size or not changed else None
-    compared = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
+    compared = against(design, reference, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
     if solution.elastic is None:
         names = "this blade", "The blade is rigid in torsion here.", compared, ""
     else:

@@ -89,7 +89,7 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         unit=unit.symbol,
         change=change,
         kind="" if percent is None else _kind(percent, 100.0),
-        against=against(solution.design, state.pinned is not None),
+        against=against(solution.design, state.reference.design, state.pinned is not None),
         parts=parts,
         ideal=None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
         ideal_title="" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",

@@ -61,7 +61,7 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         value = "" if failed else now.flown.value(state.solution)
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
-        name = against(design, pinned).removeprefix(f"{design.aircraft.name} ")
+        name = against(design, reference.design, pinned).removeprefix(f"{design.aircraft.name} ")
         chart = power_change_chart(curve, mu, change, name, units, held)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None

@@ -68,11 +68,19 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
+    // Where there is little room the limits have no values: those are in the rail.
+    const listed = (name, list) => list.length ? `<b>${name}:</b>
+      ${list.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ')}` : '';
+    const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
+      <span data-over>${listed('Over its limits', one.over)}</span>
+      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
+        feasible: ${text(one.feasible)}</button>`}
+      <span class="rxf-dim">${listed('The best twist would take', one.asked)}</span></p>` : '';
     write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
         <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
-      <div class="rxf-columns">
+      ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
-          `<span>reach ${text(one.reach)}</span>${one.wanted && `<span>${text(one.wanted)} wanted here</span>`}`,
+          `<span>reach ${text(one.reach)}</span>`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
@@ -80,7 +88,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± is one standard deviation; of vibration half of what inflow models differ by. Blades bend here.')}
+          'With its mass. ± from uncertain inputs; vibration: mean and range over inflow models, with blades that bend.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${
         text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);

@@ -15,7 +15,7 @@
       return sum + a * (slopes[k][i] + .5 * bent);
     }, 0));
   }
-  // Power and index of vibration against the other blade [%].
+  // Power and index of vibration against the same without n/rev [%].
   /** @returns {[number, number]} */
   function foresee(matrix, x) {
     const all = values(matrix, x), sums = [0, 0];  // Forces, moments.
@@ -39,8 +39,8 @@
       Math.abs(waves.reduce((sum, [n, size, phase]) => sum + size * Math.cos((n * psi - phase) * DEGREE), 0))));
   }
 
-  // What flies against the other blade, with every inflow model, the design's own first: foreseen in the hand, else
-  // trimmed.
+  // What twist at n/rev alone changes, with every inflow model, the design's own first: foreseen in the hand, else
+  // trimmed. Of power the design's own counts, of vibration the mean.
   function change() {
     const {dial, dial_matrix: matrix} = RX.state;
     if (dial && !held && !left && dial.settled) return dial.settled;
@@ -49,17 +49,18 @@
     const watts = all.map(([power], k) => power / 100 * models[k].power * dial.per_watt);
     return {power: watts, index: all.map(([, index]) => index)};
   }
-  // About that of the design's own inflow model, which is the first: half of the largest difference of another.
-  const spread = ([own, ...others]) => Math.max(0, ...others.map(other => Math.abs(other - own))) / 2;
+  const ends = list => [Math.min(...list), Math.max(...list)];
+  const mean = list => list.reduce((sum, value) => sum + value, 0) / list.length;
   function needs(power) {
     const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.shown('dial').unit}`;
     return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
   }
   function shakes(index) {
     if (!index.length) return 'vibration is shown from µ 0.2';
-    const [own] = index, within = spread(index), size = Math.abs(own);
-    const sure = size >= 2 * within ? 'sure' : size >= within ? 'likely' : 'unclear';
-    return `${own < 0 ? 'cuts' : 'raises'} vibration by ${fixed(size)} ± ${fixed(within)} % (${sure})`;
+    const [low, high] = ends(index), range = (from, to) => `${fixed(from)}…${fixed(to)} %`;
+    if (high < 0) return `cuts vibration by ${fixed(-mean(index))} % (${range(-high, -low)})`;
+    if (low > 0) return `raises vibration by ${fixed(mean(index))} % (${range(low, high)})`;
+    return `vibration unclear (${signed(low, 0)}…${signed(high, 0)} %)`;
   }
   // Power and vibration in one sentence.
   function verdict() {
@@ -72,7 +73,7 @@
   let known = null;
   function fieldOf() {
     const {harmonics, reach} = RX.shown('dial'), matrix = RX.shown('dial_matrix');
-    const at = 2 * harmonics.indexOf(chosen), x = vector();
+    const at = 2 * harmonics.indexOf(chosen), x = vector(), models = [matrix, ...matrix.inflows];
     const seen = (model, point) => { [x[at], x[at + 1]] = point; return foresee(model, x); };
     x[at] = x[at + 1] = 0;
     const key = JSON.stringify([chosen, reach, x]);
@@ -80,15 +81,16 @@
     const power = [], index = [], least = [];
     for (let row = 0; row < GRID; row++) for (let column = 0; column < GRID; column++) {
       const point = [reach * (2 * column / (GRID - 1) - 1), reach * (1 - 2 * row / (GRID - 1))];
-      const both = seen(matrix, point);
-      power.push(both[0]);
-      index.push(both[1]);
-      if (Math.hypot(...point) <= reach)
-        both.forEach((value, k) => { if (!(value >= least[k]?.value)) least[k] = {value, point}; });
+      const all = models.map(model => seen(model, point));
+      power.push(all[0][0]);
+      index.push(mean(all.map(([, value]) => value)));
+      if (Math.hypot(...point) <= reach) [mean(all.map(([value]) => value)), index.at(-1)].forEach((value, k) => {
+        if (!(value >= least[k]?.value)) least[k] = {value, point};
+      });
     }
     // What the least of each would change with every inflow model, against this harmonic at rest.
     least.forEach((one, k) => {
-      one.over = [matrix, ...matrix.inflows].map(model => seen(model, one.point)[k] - seen(model, [0, 0])[k]);
+      one.over = models.map(model => seen(model, one.point)[k] - seen(model, [0, 0])[k]);
       one.agreed = Math.max(...one.over) < 0;
     });
     return known = {key, matrix, power, index, least};
@@ -233,7 +235,8 @@
     /** @type {any[]} */
     const series = [...chart.series];
     if (matrix) {
-      const [power, index] = foresee(matrix, vector()), colour = 'var(--rx-blade)';
+      const all = [matrix, ...matrix.inflows].map(model => foresee(model, vector())), colour = 'var(--rx-blade)';
+      const [power, index] = [all[0][0], mean(all.map(([, value]) => value))];
       series.push({kind: 'points', label: 'this twist', x: [power], y: [index], colour, size: 6.5});
     }
     Charts.fill(element, {...chart, series}, {width, height});
@@ -256,9 +259,9 @@
     }));
   }
 
-  // Two meters: the bar is the band, the mark the design's own, the line the other blade.
-  function meter(name, models, most, least, words) {
-    const at = value => 50 + 50 * clamp(value / most, -1, 1), [own] = models, [low, high] = [own - spread(models), own + spread(models)].map(at);
+  // Two meters: the bar is the band over inflow models, the mark the value, the line the same without n/rev.
+  function meter(name, models, own, most, least, words) {
+    const at = value => 50 + 50 * clamp(value / most, -1, 1), [low, high] = ends(models).map(at);
     const kind = Math.abs(own) < least ? '' : own > 0 ? 'loss' : 'gain';
     return `<div class="rxd-meter" role="img" aria-label="${name}: ${words}"><span>${name}</span>
       <div><i style="left:${low}%;width:${high - low}%"></i><s style="left:50%"></s>
@@ -274,12 +277,15 @@
     const wait = dial.computing || !now
       ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;
-    const [power] = now.power, [index] = now.index;
+    const [power] = now.power, index = mean(now.index), range = (list, digits) =>
+      list.length > 1 ? ` (${ends(list).map(value => signed(value, digits)).join('…')})` : '';
     const whole = matrix ? .06 * matrix.power * dial.per_watt : Math.max(20, 1.4 * Math.abs(power));
     const against = `vs. ${dial.against}, ${dial.where}${held || !dial.settled ? ', predicted' : ''}`;
-    const needed = `${signed(power, Math.abs(power) < 10 ? 1 : 0)} ${dial.unit}`;
-    return `${head}${meter('Power', now.power, whole, .05, needed)}
-      ${now.index.length ? meter('Vibration', now.index, 100, .5, `${signed(index, 0)} %`) : ''}
+    const digits = Math.abs(power) < 10 ? 1 : 0;
+    const needed = `${signed(power, digits)}${range(now.power, digits)} ${dial.unit}`;
+    const shaken = `${signed(index, 0)}${range(now.index, 0)} %`;
+    return `${head}${meter('Power', now.power, power, whole, .05, needed)}
+      ${now.index.length ? meter('Vibration', now.index, index, 100, .5, shaken) : ''}
       ${dim(assessed ? against : `${verdict()}, ${against}`)}${wait}
       ${held && matrix && !calm.matches ? dim(`Cabin shaking drawn × ${dial.exaggerated}, slowed`) : ''}`;
   }
@@ -323,8 +329,12 @@
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});
   }
+  const sized = new ResizeObserver(() => draw());  // Its folder is opened.
   const draw = soon(() => {
-    for (const place of document.querySelectorAll('[data-dial]')) fill(place);
+    for (const place of document.querySelectorAll('[data-dial]')) {
+      sized.observe(place);
+      fill(place);
+    }
   });
   // What the hand has left holds until the sliders have it; from then on they tell, or an undo would not be seen.
   function arrived([n, [size, phase]]) {

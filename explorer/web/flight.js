@@ -63,6 +63,10 @@
     return {end() { scrubbed = false; letGo(); }};
   });
 
+  const STATES = {
+    set: 'The voltage is that on the sliders', schedule: 'The voltage follows the flight, for least power',
+    stopped: 'The actuator fails: its twist freezes as the flight goes on',
+  };
   let scale = null;
   RX.paint('flight', flight => {
     if (document.documentElement.toggleAttribute('data-flight', Boolean(flight)) === card.hidden)
@@ -70,10 +74,11 @@
     card.hidden = !flight;
     if (!flight) { stop(); write(card, ''); return; }
     if (!scrubbed && !playing && performance.now() - moved > 900) at = clamp(flight.at, 0, last());
+    const states = flight.states.map(([name, words]) => `<button data-do="state" data-value="${name}"
+      aria-label="Actuator ${text(words)}" aria-pressed="${name === flight.state}"
+      title="${STATES[name]}">${text(words)}</button>`);
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
-        <button class="rxf-push" data-do="fails" data-value="${flight.frozen === null ? 'on' : 'off'}"
-          aria-pressed="${flight.frozen !== null}" title="The actuator fails: its twist freezes as the flight goes on">
-          Actuator stops here</button></div>
+        <span role="group" class="rxf-push" aria-label="Actuator">${states.join('')}</span></div>
       <div class="rxf-num" data-words></div>
       <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
         <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
@@ -105,19 +110,18 @@
     card.querySelectorAll('.rxf-fly-bar > div > button')
       .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
     const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
-    let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, keys = [['', flight.words]], tip = '';
-    if (series.length) {
-      const [wanted, reached] = ['wanted', 'reached']
-        .map(name => between(/** @type {any} */ (series.find(({label}) => label === name)).y, at));
-      marker += `<circle cx="${x}" cy="${Y(wanted)}" r="5" class="rxf-fly-dot" data-wanted/>
-        <circle cx="${x}" cy="${Y(flight.frozen ?? reached)}" r="6.5" class="rxf-fly-dot"/>`;
-      // Foreseen until the server is where the marker is: from then on what the voltages make.
-      tip = flight.flown && Math.abs(flight.at - at) > .02 ? degrees(reached) : flight.tip;
-      keys = flight.frozen !== null ? [['stopped', flight.words]]
-        : [['reached', flight.flown ? 'reached' : `${degrees(reached)} reached`]];
-      keys.push(['wanted', `${degrees(wanted)} wanted`], ...(flight.frozen === null ? [['reach', 'reach']] : []));
-      if (flight.kind !== 'ready') keys.push(['', 'computing…']);
+    let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {tip} = flight;
+    const keys = [[flight.state, flight.words]];
+    // By schedule foreseen until the server is where the marker is: from then on what the voltages make.
+    const line = series.find(({label}) => flight.states.some(([name, words]) => name === flight.state && words === label));
+    if (line) {
+      const there = between(/** @type {any} */ (line).y, at);
+      marker += `<circle cx="${x}" cy="${Y(there)}" r="6.5" class="rxf-fly-dot"/>`;
+      if (flight.state === 'schedule' && Math.abs(flight.at - at) > .02) tip = degrees(there);
     }
+    if (series.length) keys.push(['reach', 'reach']);
+    if (flight.state !== 'schedule' && series.length > 1) keys.push(['reached', 'by schedule']);
+    if (flight.kind === 'computing') keys.push(['', 'schedule: computing…']);
     slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys.map(([, words]) => words)].join(' ');
     const group = card.querySelector('[data-marker]');
     if (group) group.innerHTML = marker;

@@ -52,6 +52,7 @@ interface RxPresses {
   beat: null;
   rival_take: null;
   rival_end: null;
+  feasible: null;
   along: boolean;
   hold: boolean;
   field: string;
@@ -72,12 +73,12 @@ interface RxPresses {
   speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
-  fails: 'on' | 'off';
   ride: 'off' | RxSectionPress | null;
   section: RxSectionPress;
   azimuth: number;
   fly: number;
   against: 'same-blade' | 'best-fixed';
+  state: 'set' | 'schedule' | 'stopped';
   suppose: 'on' | 'off' | RxSupposePress;
   balance: 'here' | 'flight';
   map_at: RxMapPress;
@@ -96,7 +97,6 @@ interface RxAssessedPart {
   title: string;
   tip: string;
   reach: string;
-  wanted: string;
   mass: string;
   masses: [string, string][];
   here: string;
@@ -104,6 +104,9 @@ interface RxAssessedPart {
   flight: string;
   vibration: string;
   problem: string;
+  over: string[];
+  asked: string[];
+  feasible: string;
   against: string;
   baselines: [string, string][];
   sentence: string;
@@ -279,8 +282,8 @@ interface RxFlightPart {
   at: number;
   kind: 'ready' | 'computing' | 'problem';
   words: string;
-  flown: boolean;
-  frozen: number | null;
+  state: string;
+  states: [string, string][];
   tip: string;
   chart: RxDrawnChart;
 }

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import viser
 
 from explorer.hosting import browser
+from explorer.model.actuator_inputs import ActuatorInputs, inputs_from_spec
 from explorer.model.inputs import OWN, inputs_of, with_rotor
 from explorer.model.session_state import SessionState
 from explorer.sharing import share
@@ -117,13 +118,18 @@ class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
     def __init__(
-        self, context: TabContext, address: Address, kept: Mapping[str, str], folder: viser.GuiFolderHandle
+        self,
+        context: TabContext,
+        address: Address,
+        kept: Mapping[str, str],
+        folder: viser.GuiFolderHandle,
+        carry: Callable[[ActuatorInputs], None],
     ) -> None:
         """`kept`: design files that the page kept for what its address cannot hold, by name in the address.
 
-        `folder`: where the upload button goes.
+        `folder`: where the upload button goes. `carry`: takes an actuator on board.
         """
-        self._context, self._address, self._kept = context, address, dict(kept)
+        self._context, self._address, self._kept, self._carry = context, address, dict(kept), carry
         self._records: dict[str, dict[str, Any]] = {}
         """Designs that the address cannot hold now, by name in it."""
         gui = context.gui
@@ -151,6 +157,8 @@ class FilePanel:
                 self._address[name] = None if inputs is None else self._code_of(name, inputs.design())
             except ValueError:
                 continue  # It cannot be written; the last one stays.
+        carried = state.solution.design.rotor.blade.carried
+        self._address[share.CARRIED] = None if carried is None else carried.spec
         self._address[VIEW] = view_code(state.view)
         fits = share.DESIGN not in self._records
         if self._link.disabled == fits:
@@ -196,9 +204,12 @@ class FilePanel:
                 )
             with refusing(f"design file {name!r}", "check its values"):
                 design = parse_design(file.content, name)
-                inputs = share.within(inputs_of(design))
+                inputs, carried = share.within(inputs_of(design)), design.rotor.blade.carried
+                actuator = None if carried is None else inputs_from_spec(carried.spec)
         except ValueError as error:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
+        if actuator is not None:
+            self._carry(actuator)
         self._context.notify("Loaded", f"{name} is on the sliders.")

@@ -19,7 +19,7 @@ from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
 from explorer.text.glossary import hint
-from explorer.views.actuated import ActuatedBlade, actuated_blade, effect_asked
+from explorer.views.actuated import ActuatedBlade, actuated_blade, doubt_here
 from explorer.views.page_state import PageState
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import TabContext
@@ -64,12 +64,12 @@ class ExportPanel:
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
 
     def _driven(self) -> ActuatedBlade | None:
-        """The actuator, where it twists the blade, and what it does here, worked out where that is not known."""
+        """The actuator on board, and how sure its change of power is, worked out where that is not known."""
         now = self._now()
-        if not now.hand.actuator.driven:
+        task = doubt_here(now) if now.hand.on_board else None
+        if task is None:
             return None
-        call = effect_asked(now)
-        known = {} if call is None or call in now.answers else {call: call.run()}
+        known = {} if task.key in now.answers else {task.key: task.run(lambda: False, lambda: None)}
         return actuated_blade(replace(now, answers={**now.answers, **known}))
 
     def _tables(self, state: SessionState) -> bytes:
@@ -99,7 +99,7 @@ class ExportPanel:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
         solution, pinned, view = state.solution, state.pinned, replace(state.view, difference=False)
         if state.pin is None:
-            reference = ReportEntry(baseline_title(solution.design), state.baseline)
+            reference = ReportEntry(baseline_title(solution.design, state.baseline.design), state.baseline)
         else:
             # A may not converge in the present flight condition; then its own solution is used.
             flies = pinned is not None and pinned.converged

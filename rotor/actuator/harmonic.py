@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 from rotor.actuator.kind import InstalledActuator
 from rotor.design.design import Design
-from rotor.optimisation.doubt import difference_doubt
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
@@ -49,14 +48,6 @@ class EffectInFlight:
     """[W]"""
     index: tuple[float, ...]
     """Change of the vibration index [%]; empty where there are no hub loads, as of blades that do not bend."""
-    band: float | None = None
-    """Of the first power, to both sides [W]."""
-
-    @property
-    def index_band(self) -> float | None:
-        """Of the first index, to both sides [%]: half of the largest difference of another model; None without one."""
-        first, *others = self.index or (0.0,)
-        return 0.5 * max(abs(other - first) for other in others) if others else None
 
 
 def effect(design: Design, reference: Design) -> EffectInFlight:
@@ -65,7 +56,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     `design`: with the actuator's mass and stiffness on board (`with_actuator_mass`). RuntimeError where it does not
     trim with its own inflow model.
     """
-    power, index, doubt = list[float](), list[float](), None
+    power, index = list[float](), list[float]()
     shaken = design.models.bending and why_no_hub_loads(design) is None
     for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
         flown = replace(design, models=replace(design.models, inflow=inflow))
@@ -74,22 +65,17 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
         if inflow == design.models.inflow:
             one.require()
             other.require()
-            doubt = difference_doubt((1.0,), (one,), (other,))
         if one.converged and other.converged:
             power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
             if shaken:
                 here, there = (hub_index(trim.adjoint) for trim in trims)
                 index.append(100.0 * (here / there - 1.0))
-    return EffectInFlight(tuple(power), tuple(index), None if doubt is None else doubt.change_band)
+    return EffectInFlight(tuple(power), tuple(index))
 
 
 def powers(designs: Sequence[Design]) -> tuple[float, ...]:
-    """Power of each design by the rules of `effect` [W]. Raises RuntimeError where one does not trim."""
-    known = dict[Design, float]()
-    for design in designs:
-        if design not in known:
-            solution = solve(design).require()
-            known[design] = solution.power.total + _pitching(solution)
+    """Power of each design [W]. Raises RuntimeError where one does not trim."""
+    known = {design: solve(design).require().power.total for design in dict.fromkeys(designs)}
     return tuple(known[design] for design in designs)
 
 

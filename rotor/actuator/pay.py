@@ -16,11 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.installation import heavier
 from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actuated
 from rotor.actuator.section import default_placement
 from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
+from rotor.dynamics.structure import heavier
 from rotor.optimisation.concepts import find_concept
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
@@ -180,8 +180,9 @@ def with_mass(design: Design, mass: float) -> Design:
     if not mass:
         return design
     low, high = (end * design.rotor.radius for end in default_placement().span)
-    loaded = heavier(design, mass / design.rotor.blades, (low, high), mass)
-    stand = design.condition.stand
+    condition = replace(design.condition, mass=design.condition.mass + mass)
+    rotor = heavier(design.rotor, mass / design.rotor.blades, (low, high))
+    loaded, stand = replace(design, rotor=rotor, condition=condition), design.condition.stand
     if stand is None:
         return loaded
     weight = GRAVITY * mass

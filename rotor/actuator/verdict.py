@@ -143,8 +143,11 @@ class Verdict:
 
     @property
     def savings(self) -> tuple[tuple[str, float], ...]:
-        """Name and saving [W] of each part, costs negative; their sum is `net_saving`."""
-        parts = [("gross", self.gross_saving)]
+        """Name and saving [W] of each part, costs negative; their sum is `net_saving`. First, where they differ, the
+        blade without the actuator against the best fixed one."""
+        blades = self.reference_power - self.bare_power
+        parts = [("blade", blades)] if self.against == "best-fixed" and blades else list[tuple[str, float]]()
+        parts.append(("gross", self.gross_saving - sum(part for _, part in parts)))
         if self.stiffness_cost:
             parts.append(("stiffness", -self.stiffness_cost))
         return (*parts, ("mass", -self.mass_cost), ("drive", 0.0 - self.drive_cost))
@@ -278,7 +281,8 @@ MIN_SHOWN_IN_KW = 50.0
 
 def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
-    gains, costs = (sum(max(sign * part, 0.0) for _, part in verdict.savings) for sign in (1.0, -1.0))
+    parts = verdict.gross_saving, *(part for name, part in verdict.savings if name not in ("blade", "gross"))
+    gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
     if verdict.net_saving < MIN_SHOWN_W:
         return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{_sure(verdict)}."
@@ -331,7 +335,8 @@ def _savings(verdict: Verdict) -> str:
     """Each part of the net saving, and what unlimited variable twist would save."""
     installed, concept = verdict.installed, verdict.baseline.concept.name
     start = verdict.reference_power - verdict.bare_power
-    parts = [f"Against {reference(verdict)}, its twist {_change(verdict.gross_saving)}"]
+    gross = dict(verdict.savings)["gross"]
+    parts = [f"Against {reference(verdict)}, its twist {_change(gross)}"]
     if abs(start) >= MIN_SHOWN_IN_KW:
         parts[0] += f", and its built-in twist alone {_change(start)}"
     if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:

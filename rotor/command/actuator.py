@@ -147,7 +147,7 @@ def report(verdict: Verdict) -> str:
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
     twists = [common.short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
-    saved = verdict.fuel_saving
+    saved, gross = verdict.fuel_saving, dict(verdict.savings)["gross"]
     fuel = (
         "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
     )
@@ -159,8 +159,8 @@ def report(verdict: Verdict) -> str:
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
         "",
         f"savings against {reference(verdict)}",
-        f"  gross, by its twist         {_kw(verdict.gross_saving)}  (of unlimited twist: {_kw(verdict.ideal_saving)})",
-        *(f"  {name:<28}{_kw(saving)}" for name, saving in verdict.savings[1:]),
+        f"  gross, by its twist         {_kw(gross)}  (of unlimited twist: {_kw(verdict.ideal_saving)})",
+        *(f"  {name:<28}{_kw(saving)}" for name, saving in verdict.savings if name != "gross"),
         f"  net                         {_kw(verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",

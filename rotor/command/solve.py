@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from rotor.actuator.installation import with_actuator
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.aircraft import in_words
 from rotor.design.design import Design
@@ -32,6 +33,9 @@ def add_parser(commands: Any) -> None:
         metavar="DIR:N",
         help="start from point N of a study's folder or of one of its files; other flags change it",
     )
+    parser.add_argument(
+        "--carry", metavar="ACTUATOR", help="fly with an actuator on the blades, such as MFC_P1,drive=77 (drive in %%)"
+    )
     output = add_output_arguments(parser)
     output.add_argument("--save", type=Path, metavar="FILE", help="write a design file, which the page opens")
     output.add_argument(
@@ -47,6 +51,7 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0 converged, 1 not converged."""
     design = design_from(args)
+    design = with_actuator(design, args.carry) if args.carry else design
     if args.save is not None:
         check_writable(args.save)
         design.save(args.save)
@@ -126,8 +131,9 @@ def report(solution: Solution) -> str:
     """What `solve` prints: flight, power, controls, coefficients, and caveats."""
     design = solution.design
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
+    carried = "" if design.rotor.blade.carried is None else f", with {design.rotor.blade.carried.name}"
     lines = [
-        f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, inflow {inflow}",
+        f"{design.rotor.name}, preset {design.preset}, twist {design.jig.spec()}{carried}, inflow {inflow}",
         f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {_load(design)}",
         wrapped(f"{solution.status.value}: {solution.message}"),
     ]

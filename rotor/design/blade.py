@@ -97,6 +97,26 @@ class Span:
 
 
 @dataclass(frozen=True)
+class Carried:
+    """An actuator on the blades, by what it adds to them and to the aircraft: enough to fly it without its own data."""
+
+    name: str
+    """With its drive, in words: `MFC P1 at 1 155 V`."""
+    spec: str
+    """As `rotor.actuator.with_actuator` reads it."""
+    aircraft_kg: float
+    """On board, within the mass of the flight condition."""
+    blade_kg: float
+    span_m: tuple[float, float]
+    """Ends of the active span."""
+    inertia_kg_m: float
+    """Torsional inertia per length."""
+    added_gj_nm2: float
+    gj_factor: float
+    """GJ of the blade before it is added, over that of the blade as built."""
+
+
+@dataclass(frozen=True)
 class Blade:
     """One blade."""
 
@@ -133,6 +153,8 @@ class Blade:
     """Section data supplied by the user, which spans may name as well as the bundled ones."""
     structure: BladeStructure | None = None
     """Torsional stiffness, inertia and mass; None where unknown: the blade is then rigid in torsion."""
+    carried: Carried | None = None
+    """The actuator on it, whose mass and stiffness are in the numbers above."""
 
     def __post_init__(self) -> None:
         if len(self.chord_stations) != len(self.chords) or not self.chords:

@@ -9,7 +9,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack, cast
@@ -28,7 +28,7 @@ from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.gust import Gust
 from rotor.design.quantity import check_names
-from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
+from rotor.design.twist import SumTwist, TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
 from rotor.support.user_input import check_suffix, write_whole
 
 
@@ -216,8 +216,9 @@ class Design:
             height = f", {condition.altitude:.0f} m" if condition.altitude else ""
             load = f"{self.models.trim}: {condition.stand}{height}"
         load = ", ".join((load, *in_words(self.unusual)))
+        carried = "" if self.rotor.blade.carried is None else f"with {self.rotor.blade.carried.name}, "
         return (
-            f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
+            f"Design({self.aircraft.name}, twist {self.jig.spec()}, {carried}{speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
         )
 
@@ -254,7 +255,8 @@ class Design:
         """The record of a design file: texts, numbers and lists only. ValueError for a gust, which files have not."""
         if self.gust is not None:
             raise ValueError(f"design files have no {self.gust!r:.80}: write replace(design, gust=None)")
-        changed = self.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
+        carried = self.rotor.blade.carried
+        changed = self.bare.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
         preset, stand = preset_models(self.preset), self.condition.stand
@@ -279,6 +281,7 @@ class Design:
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
+            **({} if carried is None else {"actuator": asdict(carried)}),
         }
 
     def _per_rev_record(self) -> dict[str, Any]:
@@ -294,6 +297,23 @@ class Design:
         """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
         check_suffix(path, ".json")
         write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
+
+    @property
+    def jig(self) -> TwistLaw:
+        """The twist without what an actuator on the blades adds."""
+        law, carried = self.twist, self.rotor.blade.carried
+        return law.base if isinstance(law, SumTwist) and carried and law.name == carried.name else law
+
+    @property
+    def bare(self) -> "Design":
+        """This design without an actuator on its blades: its mass, stiffness and twist."""
+        if (carried := self.rotor.blade.carried) is None:
+            return self
+        usual = self.aircraft.rotor_for(self.preset).blade
+        own = ("mass", "flap_static_moment", "flap_inertia", "structure", "carried")
+        blade = replace(self.rotor.blade, **{name: getattr(usual, name) for name in own})
+        condition = replace(self.condition, mass=round(self.condition.mass - carried.aircraft_kg, 9))
+        return replace(self, twist=self.jig, condition=condition, rotor=replace(self.rotor, blade=blade))
 
     @property
     def numbers(self) -> dict[str, float]:

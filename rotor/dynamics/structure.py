@@ -1,13 +1,14 @@
 """The structure and the materials of the UH-60A blade along its span (`assets/uh60a_structure.toml`)."""
 
 import tomllib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any
 
 from rotor.design.aircraft import Aircraft
-from rotor.design.blade import BladeStructure
+from rotor.design.blade import BladeStructure, Carried, Rotor
 from rotor.dynamics.thin_wall import Material
+from rotor.dynamics.torsion import AddedStructure, stiffer_blade
 from rotor.support.assets import asset_path
 
 
@@ -71,6 +72,31 @@ def uh60a_torsion(radius: float) -> BladeStructure:
     """What of `uh60a_structure` a rotor file may state; radius R [m]."""
     known = uh60a_structure(radius)
     return BladeStructure(**{field.name: getattr(known, field.name) for field in fields(BladeStructure)})
+
+
+def heavier(rotor: Rotor, mass: float, span: tuple[float, float]) -> Rotor:
+    """The rotor with a mass [kg] spread evenly over a span [m] of each blade."""
+    blade = rotor.blade
+    inner, outer = (end - blade.flap_hinge * rotor.radius for end in span)
+    line = mass / (outer - inner)
+    loaded = replace(
+        blade,
+        mass=blade.mass + mass,
+        flap_static_moment=blade.flap_static_moment + line * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + line * (outer**3 - inner**3) / 3.0,
+    )
+    return replace(rotor, blade=loaded)
+
+
+def carrying(rotor: Rotor, carried: Carried, *, elastic: bool) -> Rotor:
+    """The rotor with an actuator on its blades; `elastic`: its stiffness and inertia count too."""
+    loaded = heavier(rotor, carried.blade_kg, carried.span_m)
+    structure = loaded.blade.structure
+    if elastic:
+        line = carried.blade_kg / (carried.span_m[1] - carried.span_m[0])
+        added = AddedStructure(carried.span_m, line, carried.inertia_kg_m, carried.added_gj_nm2)
+        structure = stiffer_blade(uh60a_torsion(rotor.radius), carried.gj_factor, added)
+    return replace(loaded, blade=replace(loaded.blade, structure=structure, carried=carried))
 
 
 def titanium() -> Material:

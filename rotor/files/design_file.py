@@ -4,9 +4,9 @@
 """
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 import msgspec
 
@@ -14,9 +14,12 @@ from rotor.aero.inflow import inflow_model
 from rotor.aero.problem import check_azimuths
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
+from rotor.design.blade import Carried
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
 from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SWITCHES
 from rotor.design.quantity import Quantity
+from rotor.design.twist import SumTwist
+from rotor.dynamics.structure import carrying, check_blade
 from rotor.files.declared import BY_KIND, FileTable, convert
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
@@ -28,7 +31,7 @@ _MODELS = tuple(BY_KEY[key] for key in ("inflow", "hover_inflow", *SWITCHES, *OP
 """Keys that are fields of `Models`."""
 _ARGUMENTS = tuple(row for row in BY_KEY.values() if row.name in ARGUMENTS and row not in _MODELS)
 """Keys that are arguments of `make_design`."""
-_BESIDE = ("format", "version", "solution")
+_BESIDE = ("format", "version", "solution", "actuator")
 """Keys that are no quantities; `solution` holds the results that `save_solution` adds, which are not read back."""
 _READ_LATER = ("twist_per_rev", "pitch_per_rev", "rotor", "stand", "active_twist", *_BESIDE)
 """Keys whose values are checked where they are read."""
@@ -44,6 +47,19 @@ _Record = msgspec.defstruct(
     [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)],
     bases=(FileTable,),
 )
+
+
+class _Carried(FileTable, frozen=True, kw_only=True):
+    """An actuator in a file, as `Carried`."""
+
+    name: Annotated[str, msgspec.Meta(max_length=80)]
+    spec: Annotated[str, msgspec.Meta(max_length=400)]
+    aircraft_kg: Annotated[float, msgspec.Meta(ge=0.0, le=2000.0)]
+    blade_kg: Annotated[float, msgspec.Meta(ge=0.0, le=500.0)]
+    span_m: tuple[float, float]
+    inertia_kg_m: Annotated[float, msgspec.Meta(ge=0.0, le=10.0)]
+    added_gj_nm2: Annotated[float, msgspec.Meta(ge=-1e7, le=1e7)]
+    gj_factor: float
 
 
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
@@ -95,8 +111,26 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
             raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which mean the same: keep one")
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
     design = replace(design, models=models)
+    if (carried := record.get("actuator")) is not None:
+        design = _with_carried(design, carried)
     check_azimuths(design)
     return design
+
+
+def _with_carried(design: Design, record: Any) -> Design:
+    """The design with the actuator of a record, whose mass on board is in the design's own."""
+    carried = convert(record, _Carried, "actuator")
+    inner, outer = carried.span_m
+    if not 0.0 < inner < outer <= 1.001 * design.rotor.radius or not 0.1 <= carried.gj_factor <= 2.0:
+        raise ValueError(
+            f"design file key 'actuator' has span_m {inner:g}…{outer:g} and gj_factor {carried.gj_factor:g}: give a "
+            "span on the blade and a factor of 0.1 to 2"
+        )
+    check_blade(design.aircraft)
+    values = Carried(**{field.name: getattr(carried, field.name) for field in fields(Carried)})
+    if isinstance(design.twist, SumTwist) and "drive=" in carried.spec:  # A SPEC has no name.
+        design = replace(design, twist=replace(design.twist, name=carried.name))
+    return replace(design, rotor=carrying(design.rotor, values, elastic=design.elastic))
 
 
 def load_design(path: str | Path) -> Design:

@@ -104,6 +104,10 @@ def make_design(
     aircraft = _aircraft(rotor, case)
     same = case if case and name == case.preset else None
     blade = same if rotor is None else None  # Another rotor, or another preset, has its own blade.
+    if case and blade is None and case.rotor.blade.carried is not None:
+        raise ValueError(
+            f"the blades of the case carry {case.rotor.blade.carried.name}: leave rotor and preset as they are"
+        )
     own = case.twist if case and rotor is None and case.twist != aircraft.twist_for(case.preset) else None
     if models is None:
         models = same.models if same else preset_models(name)

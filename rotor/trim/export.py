@@ -45,7 +45,7 @@ _ANGLES = ("collective", "cyclic_1c", "cyclic_1s", "coning", "flap_1c", "flap_1s
 def solution_record(solution: Solution) -> dict[str, Any]:
     """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
     design, controls, power = require_solution(solution).design, solution.controls, solution.last_power
-    stand = design.condition.stand
+    stand, carried = design.condition.stand, design.rotor.blade.carried
     values: dict[str, Any] = {
         "power_w": {name: getattr(power, name) for name in _POWERS if name != "damping" or solution.freedoms},
         **({"freedoms": solution.freedom_states} if solution.freedoms else {}),
@@ -85,6 +85,7 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
         **({} if stand is None else {"trim": design.models.trim, "stand": stand.record()}),
+        **({} if carried is None else {"actuator": carried.spec}),
         **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
         **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
         **_switches(solution),

@@ -129,6 +129,7 @@ def actuate(watched: Watched) -> States:
     page.wait_for_function("() => RX.state.suppose?.chart", timeout=4 * WAIT)
     yield "what would pay", "actuator"
     send(watched, "suppose", "off")
+    page.get_by_text("Twist at n/rev", exact=True).dispatch_event("click")
     enlarge = page.locator("[data-dial-large]").first
     enlarge.evaluate("button => button.click()")
     page.wait_for_function("() => document.documentElement.dataset.enlarged")

@@ -29,6 +29,7 @@ def centre(watched: Watched) -> tuple[float, float, float]:
 def test_a_drag_on_the_dial_is_foreseen_and_one_undo(watched: Watched):
     page = watched.page
     watched.mode("actuate")
+    page.get_by_text("Twist at n/rev", exact=True).click()
     page.wait_for_function("() => RX.state.dial?.front.length > 2", timeout=240_000)
     x, y, radius = centre(watched)
     watched.hold(x, y)

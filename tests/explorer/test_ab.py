@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer.colours import PINNED_OVERLAY, VOID
+from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import Analyses, Pinboard, Pinned, apply_order
 from explorer.picture.fields import FIELDS, difference, fitted_range
@@ -20,7 +21,6 @@ from explorer.text import readout
 from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
 from rotor import Caveat, Design, Solution, Status, make_design, solve
-from rotor.design import LinearTwist, SumTwist
 
 QUICK = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Where the physics does not matter."""
@@ -80,9 +80,12 @@ class TestButtons:
             assert (after.pinned, after.inputs, after.sentence) == (None, None, "")
 
     def test_a_driven_blade_is_named_and_said_to_stay_driven(self, a: Solution, b: Solution):
-        driven = replace(a, design=replace(a.design, twist=SumTwist(a.design.twist, LinearTwist(0.02))))
+        driven = replace(a, design=ActuatorInputs(drives=(50.0,) * 5).apply(a.design))
         pinned = Pinned(A_INPUTS, driven)
-        assert title_words(driven.design) == "UH-60A · linear −8\u00a0°/R + linear 1.1\u00a0°/R"
+        assert title_words(driven.design) == "UH-60A · linear −8\u00a0°/R + MFC P1 at 750 V"
+        flown = pinned.design(b.design)  # With its own actuator, and without the other's.
+        assert flown.condition.mass == pytest.approx(b.design.condition.mass + 132.1, abs=0.1)
+        assert Pinned(A_INPUTS, a).design(driven.design).condition.mass == pytest.approx(a.design.condition.mass)
         assert "actuator" in apply_order("back", pinned, B_INPUTS, b, True).sentence
 
     def test_the_overlay_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):

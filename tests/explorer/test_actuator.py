@@ -1,5 +1,6 @@
 """The Actuator tab without a browser: settings, shapes, pictures and words."""
 
+import json
 import math
 import pickle
 import re
@@ -15,17 +16,19 @@ from numpy.testing import assert_allclose
 from explorer.model.actuator_inputs import (
     MOST_SEGMENTS,
     ActuatorInputs,
+    inputs_from_spec,
     lean_verdict,
     verdict_inputs_of,
     verdict_on,
     verdict_tasks,
 )
-from explorer.model.inputs import Inputs, ViewState, with_rotor
+from explorer.model.inputs import Inputs, ViewState, inputs_of, with_rotor
 from explorer.model.units import SI
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
+from explorer.sharing.share import within
 from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
@@ -33,9 +36,11 @@ from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
+from rotor.actuator import with_actuator
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.design.active_twist import linear_active_twist, read_harmonics
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.support.processes import JobEnded, JobEvent, JobFailed, JobStarted
 from rotor.trim.solve import solve
@@ -50,9 +55,12 @@ ALL = tuple(actuators())
 def test_full_voltage_makes_the_twist_that_the_range_gives():
     """+1500 V of a 2000 V range: three quarters of what the blade at rest gains, on its own blade.
 
-    Without voltage the design is the very same.
+    The design is the one that `rotor` makes, with its mass also at rest; a blade that carries none is as it was.
     """
-    assert ActuatorInputs().apply(DESIGN) is DESIGN
+    assert ActuatorInputs().apply(DESIGN) == with_actuator(DESIGN, "MFC_P1")
+    assert ActuatorInputs(drives=FULL).apply(DESIGN) == with_actuator(DESIGN, "MFC_P1,drive=100")
+    other = make_design(rotor="s61")
+    assert ActuatorInputs(drives=FULL).apply(other) is other
     inputs = ActuatorInputs(drives=FULL)
     applied, installed = inputs.apply(DESIGN), inputs.installed(DESIGN.rotor)
     made = applied.twist
@@ -61,6 +69,23 @@ def test_full_voltage_makes_the_twist_that_the_range_gives():
     assert_allclose(gained, 0.75 * np.abs(installed.rest_shapes[:, -1]).sum(), rtol=5e-3)
     assert applied.rotor.blade.structure == installed.blade
     assert 1.0 < gained / (0.75 * installed.attainable) < 1.15  # Rotation takes some of it.
+
+
+SOFT = ActuatorInputs(
+    concept="three-segment", drives=(10.0, 20.0, 30.0, 0.0, 0.0), blade="new", stiffness=0.7, crossed=True
+)
+
+
+@pytest.mark.parametrize("inputs", [Inputs(law="builtin", built_inner=2.0), Inputs(law="two")])
+@pytest.mark.parametrize("actuator", [ActuatorInputs(drives=(77.0,) * 5), SOFT, ActuatorInputs("SMA_tube", 3)])
+def test_a_design_file_and_a_link_give_back_sliders_and_actuator(inputs: Inputs, actuator: ActuatorInputs):
+    design = actuator.apply(inputs.design())
+    read = design_from_record(json.loads(json.dumps(design.to_dict())))
+    assert within(inputs_of(read)) == inputs
+    assert read.rotor.blade.carried is not None
+    assert inputs_from_spec(read.rotor.blade.carried.spec) == actuator
+    with pytest.raises(ValueError, match="divisions that no concept"):
+        inputs_from_spec("MFC_P1,divisions=0.33")
 
 
 def test_crossed_fibres_turn_the_other_way():

@@ -2,21 +2,30 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.inputs import Inputs, with_rotor
 from explorer.parts.actuate import DialMatrix, DialNumbers, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.views.dial import DIAL, move_dot, take_dot
 from explorer.views.dial_answer import DialAnswer
 from explorer.views.page_state import MoveSliders, OpenPanels, PageState, SetGrabbed
-from rotor import Design
-from rotor.actuator import EffectInFlight
+from rotor.actuator import (
+    EffectInFlight,
+    HostBlade,
+    default_placement,
+    find_actuator,
+    install,
+    tip_amplitude,
+    with_actuator,
+)
 from rotor.design.active_twist import Harmonic, read_harmonics
-from tests.actuate import actuate, asked, told
+from rotor.files.make_design import make_design
+from tests.actuate import actuate, asked
 
 BENDING = Inputs(law="builtin", advance_ratio=0.3, bending=True)
 SAME = ActuatorInputs(against="same-blade")
@@ -36,14 +45,24 @@ OWN, OTHER = numbers(-0.5), numbers(0.25)
 MOVED = EffectInFlight((1500.0, 900.0), (-20.004, 3.0))
 
 
+def fitted_losses(now: PageState) -> float:
+    """Heat of the plies at the twist of the page [W], by `rotor` alone."""
+    installed = install(find_actuator("MFC_P1"), default_placement(), HostBlade(), BENDING.design().rotor)
+    share = WAVES[0].amplitude / tip_amplitude(installed)
+    return 4.0 * installed.actuator.harmonic_loss(installed, 3, 1.0) * share**2
+
+
 def dial(now: PageState) -> DialPart:
     return DIAL.view(now)["dial"]
 
 
+WAVES = read_harmonics("3:0.75:60", "test")
+
+
 @pytest.fixture(scope="module")
 def asking() -> PageState:
-    """Against the same blade, which needs no verdict."""
-    return actuate(BENDING, actuator=SAME)
+    """With 3/rev, against the same blade, which needs no verdict."""
+    return actuate(replace(BENDING, twist_per_rev=WAVES), actuator=SAME)
 
 
 @pytest.fixture(scope="module")
@@ -51,23 +70,23 @@ def answered(asking: PageState) -> PageState:
     """By the own inflow model, by two of the others, and by one that does not trim."""
     own, *others = [call for one in DIAL.asks(asking)[1:] for call in one.calls]
     given = {own: DialAnswer(OWN, ((0.0,) * 8, STEP)), **dict.fromkeys(others, DialAnswer(OTHER, ()))}
-    return told(DIAL, replace(asking, answers={**given, others[-1]: "No trim."}), effect=MOVED)
+    calls = DIAL.asks(asking)[0].calls
+    return replace(asking, answers={**given, others[-1]: "No trim.", calls[-1]: MOVED})
 
 
-def test_nothing_is_asked_until_the_blade_compared_with_is_known(asking: PageState):
-    """The best fixed blade is found by the verdict."""
-    unknown = replace(asking, hand=replace(asking.hand, actuator=ActuatorInputs(against="best-fixed")))
-    assert asked(DIAL, unknown) == {}
-    assert (dial(unknown).computing, dial(unknown).against) == (True, "the best fixed blade")
-    assert (dial(asking).computing, dial(asking).settled, dial(asking).against) == (
-        True,
-        None,
-        "the same blade without it",
-    )
-    assert [(one.urgency, len(one.calls)) for one in DIAL.asks(asking)] == [(3, 1), (5, 2), (6, 2)]
-    designs = [one.twist for one in asked(DIAL, asking)["effect"].arguments if isinstance(one, Design)]
-    assert designs == [BENDING.design().twist] * 2
-    assert list(asked(DIAL, asking)) == ["dial_answer", "effect"]  # The trim is asked first.
+def test_it_says_what_twist_at_n_per_rev_alone_changes(asking: PageState):
+    """Zero at zero, at any voltage and against any blade, with nothing to trim; else as set with it and without."""
+    for against in AGAINST:
+        still = actuate(BENDING, actuator=ActuatorInputs(against=against, drives=(77.0,) * 5))
+        assert (dial(still).settled, dial(still).computing) == (ModelChanges((0.0,), (0.0,)), True)
+        assert [name for name in asked(DIAL, still) if name == "effect"] == ["effect"] * (against == "same-blade")
+    assert dial(asking).settled is None
+    assert dial(asking).against == "the same without n/rev"
+    assert [(one.urgency, len(one.calls)) for one in DIAL.asks(asking)] == [(3, 2), (5, 2), (6, 2)]
+    designs: Any = DIAL.asks(asking)[0].calls[1].arguments
+    flown, still = designs
+    assert (flown.active_twist.harmonics, still) == (WAVES, replace(flown, active_twist=None))
+    assert still == with_actuator(make_design(mu=0.3, bending=True), "MFC_P1")
 
 
 def test_what_is_answered_is_shown(answered: PageState):
@@ -75,12 +94,15 @@ def test_what_is_answered_is_shown(answered: PageState):
     assert shown == DIAL.view(replace(answered))
     assert shown["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER, OTHER))
     one = dial(answered)
-    assert one.settled == ModelChanges((1.5, 0.9), (-20.0, 3.0))
+    heat = 1e-3 * fitted_losses(answered)
+    assert one.settled is not None
+    assert one.settled.power == pytest.approx((1.5 + heat, 0.9 + heat))
+    assert one.settled.index == (-20.0, 3.0)
     assert (one.computing, one.words, one.problem, one.held) == (False, "", "", False)
-    assert [[round(value, 6) for value in dot[:2]] for dot in one.front] == [[0.0, 0.0], [0.5, -40.2]]
+    assert [[round(value, 6) for value in dot[:2]] for dot in one.front] == [[0.0, 0.0], [0.5, 0.0]]
     assert [dot[2] for dot in one.front] == [(0.0,) * 8, STEP]
     words = [word for one in shown["dial_front"].series for word in getattr(one, "words", ()) if "over inflow" in word]
-    assert "power +0.5 %, vibration −40 % (−40 to +20 over inflow models, which disagree in sign)" in words[1]
+    assert "power +0.5 %, vibration 0 % (−40 to +20 over inflow models, which disagree in sign)" in words[1]
     waits = replace(answered, answers=dict([*answered.answers.items()][:2]))  # Its own model and one more.
     assert (dial(waits).computing, dial(waits).front) == (True, ())
     assert DIAL.view(waits)["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER,))
@@ -99,7 +121,8 @@ def test_voltage_takes_of_the_room_and_twist_beyond_the_dial_widens_it(answered:
 
 def test_what_fails_is_a_sentence(answered: PageState):
     calls = asked(DIAL, answered)
-    failed = replace(answered, answers={calls["effect"]: "No trim.", calls["dial_answer"]: "No response."})
+    moved = DIAL.asks(answered)[0].calls[1]
+    failed = replace(answered, answers={moved: "No trim.", calls["dial_answer"]: "No response."})
     assert (dial(failed).problem, dial(failed).words, dial(failed).computing) == ("No trim.", "No response.", False)
     slow = actuate(replace(BENDING, advance_ratio=0.02), actuator=SAME)
     assert "Hub loads are not shown below" in dial(slow).words
@@ -109,9 +132,9 @@ def test_what_fails_is_a_sentence(answered: PageState):
     assert asked(DIAL, untrimmed) == {}
 
 
-def test_a_blade_that_carries_no_actuator_is_compared_with_itself():
-    other = actuate(with_rotor(BENDING, "s61"))
-    assert (dial(other).against, dial(other).whole, dial(other).room) == ("the same blade at rest", 0.0, 0.0)
+def test_a_blade_that_carries_no_actuator_has_a_dial_too():
+    other = actuate(replace(with_rotor(BENDING, "s61"), twist_per_rev=WAVES))
+    assert (dial(other).whole, dial(other).room) == (0.0, 0.0)
     assert "effect" in asked(DIAL, other)
 
 
@@ -127,11 +150,11 @@ def test_it_says_what_is_set_that_it_does_not_show(asking: PageState):
 
 def test_the_dot_is_taken_dragged_and_let_go(asking: PageState):
     assert move_dot(asking, "start") == (SetGrabbed(True),)
-    (drag,) = move_dot(asking, [WavePress(3, 0.75, 60.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
+    (drag,) = move_dot(asking, [WavePress(3, 0.5, 40.0), WavePress(7, 1.0, 0.0)])  # The dial has no 7/rev.
     assert isinstance(drag, MoveSliders)
     assert drag.by_hand
-    assert drag.inputs == replace(BENDING, twist_per_rev=(Harmonic(3, math.radians(0.75), math.radians(60.0)),))
-    assert move_dot(replace(asking, inputs=drag.inputs), [WavePress(3, 0.75, 60.0)]) == ()
+    assert drag.inputs == replace(asking.inputs, twist_per_rev=(Harmonic(3, math.radians(0.5), math.radians(40.0)),))
+    assert move_dot(replace(asking, inputs=drag.inputs), [WavePress(3, 0.5, 40.0)]) == ()
     assert move_dot(asking, "end") == (SetGrabbed(False),)
 
 

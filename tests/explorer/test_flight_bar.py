@@ -25,13 +25,13 @@ from explorer.views.flight import (
     FLIGHT,
     POINTS_PER_LEG,
     after_flight,
+    choose_state,
     condition_at,
     earns_state,
     fly_to,
     position_of,
-    stop_here,
 )
-from explorer.views.page_state import PageState, SetHand
+from explorer.views.page_state import PageState
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
 from rotor.support.chart import DrawnBand, DrawnLine
@@ -96,16 +96,17 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: 
     state = shown(ready)
     assert state.kind == "ready"
     lines: dict[str, Any] = {one.label: one.y for one in state.chart.series if isinstance(one, DrawnLine)}
-    assert_allclose(lines["wanted"], np.degrees(flight.wanted), atol=6e-4)
-    assert_allclose(lines["reached"], np.degrees(flight.reached), atol=6e-4)
+    assert list(lines) == ["by schedule", "as set"]
+    assert_allclose(lines["by schedule"], np.degrees(flight.reached), atol=6e-4)
+    assert_allclose(lines["as set"], 0.0)
     low, high = state.chart.y.range
-    for angles in (flight.wanted, flight.reached, flight.reach):
+    for angles in (flight.reached, flight.reach):
         assert low < math.degrees(min(angles)) <= math.degrees(max(angles)) < high
     reach: Any = next(one for one in state.chart.series if isinstance(one, DrawnBand))
     assert_allclose([reach.low, reach.high], np.degrees([[end] * len(LEGS) for end in flight.reach]), atol=6e-4)
     assert [name for name, _ in state.legs] == ["hover", "climb", "cruise", "fast"]
     assert condition_at(LEGS, state.at)[0] == pytest.approx(0.2, abs=2e-3)
-    assert (state.tip, state.flown) == ("0.00°", False)
+    assert (state.tip, state.state) == ("0.00°", "set")
     assert ready.state is not None
     aviation = replace(ready, state=replace(ready.state, view=ViewState(units="Aviation")))
     assert "kt" in shown(aviation).legs[1][1]
@@ -113,7 +114,7 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: 
 
 def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, ready: PageState, verdict: Verdict):
     """Nothing jumps: the curves and the balance of the question before stay, marked."""
-    assert (shown(waiting).kind, shown(waiting).words, shown(waiting).chart.series) == ("computing", "computing…", [])
+    assert (shown(waiting).kind, [one.label for one in shown(waiting).chart.series]) == ("computing", ["as set"])
     assert asked(FLIGHT, waiting) == {}
     assert "flight_of" not in asked(ACTUATOR, waiting)
     moved = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(plies=3)))
@@ -122,10 +123,10 @@ def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, 
     assert before == replace(earns_state(verdict, True, SI), kind="computing")
     judged = told(ACTUATOR, waiting, lean_verdict=verdict)
     wrong = told(ACTUATOR, judged, flight_of="hover: does not trim")
-    assert (shown(wrong).kind, shown(wrong).words) == ("problem", "hover: does not trim")
+    assert (shown(wrong).kind, shown(wrong).words.endswith("; hover: does not trim")) == ("problem", True)
     refused = FLIGHT.view(told(ACTUATOR, moved, lean_verdict="no blade"))
     assert refused["earns"] == earns_state(None, False, SI, "no blade")
-    assert shown(told(ACTUATOR, moved, lean_verdict="no blade")).words == "no blade"
+    assert shown(told(ACTUATOR, moved, lean_verdict="no blade")).words.endswith("; no blade")
 
 
 def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
@@ -145,14 +146,20 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert state.fuel_kind == ("loss" if burnt > 0.0 else "gain")
 
 
-def test_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight: ActuatorFlight):
-    """By the inputs of the sliders; the blade has the twist that the chart says is reached there."""
+def scheduled(now: PageState) -> PageState:
+    return done(now, choose_state(now, "schedule"))
+
+
+def test_by_schedule_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight: ActuatorFlight):
+    """By the inputs of the sliders; the blade has the twist that the chart says is reached there. As set it flies
+    alone."""
     for x, leg in enumerate(standard_flight(RIGID)):
-        there = done(ready, fly_to(ready, x))
+        there = done(ready, fly_to(scheduled(ready), x))
         assert (there.inputs.advance_ratio, there.inputs.climb_m_s) == (leg.advance_ratio, leg.climb_speed)
         assert_allclose(tip(there), flight.reached[POINTS_PER_LEG * x], atol=math.radians(0.02))  # In whole per cent.
-        assert shown(there).flown
-    between = done(ready, fly_to(ready, 0.25))
+        alone = done(ready, fly_to(ready, x))
+        assert (alone.inputs, alone.hand) == (there.inputs, ready.hand)
+    between = done(ready, fly_to(scheduled(ready), 0.25))
     assert_allclose(tip(between), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02))
     assert done(ready, fly_to(ready, 99)).inputs.advance_ratio == LEGS[-1].advance_ratio
     untrimmed = replace(ready, problem="No trim there.")  # It can be flown out of.
@@ -161,7 +168,8 @@ def test_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight
 
 
 def test_the_voltages_follow_once_the_flight_is_known(waiting: PageState, ready: PageState, flight: ActuatorFlight):
-    flown = done(waiting, fly_to(waiting, 3))
+    begun = scheduled(waiting)
+    flown = done(begun, fly_to(begun, 3))
     assert flown.inputs.advance_ratio == LEGS[-1].advance_ratio  # The condition needs no answer.
     assert tip(flown) == 0.0
     assert FLIGHT.reacts(flown) == ()
@@ -171,43 +179,27 @@ def test_the_voltages_follow_once_the_flight_is_known(waiting: PageState, ready:
     assert FLIGHT.reacts(replace(known, hand=replace(known.hand, flown=None))) == ()
 
 
-def test_an_actuator_that_stops_flies_on_with_its_twist_frozen(ready: PageState, flight: ActuatorFlight):
-    hover = done(ready, fly_to(ready, 0))
-    stopped = done(hover, stop_here(hover, "on"))
-    frozen = shown(stopped)
-    assert (frozen.flown, frozen.frozen) == (False, math.degrees(tip(hover)))
-    (line,) = [one for one in frozen.chart.series if isinstance(one, DrawnLine) and one.label == "stopped"]
-    assert_allclose(np.array(line.y, dtype=float), math.degrees(tip(hover)), atol=6e-4)
-    fast = done(stopped, fly_to(stopped, 3))
-    assert fast.inputs.advance_ratio == LEGS[-1].advance_ratio
-    assert tip(fast) == tip(hover) != 0.0
-    assert shown(fast).tip == frozen.tip
-    again = done(fast, stop_here(fast, "off"))
-    assert_allclose(tip(again), flight.reached[-1], atol=math.radians(0.02))
-    assert (shown(again).flown, shown(again).frozen) == (True, None)
-
-
-def test_a_stop_keeps_what_the_hand_has_set(ready: PageState):
-    """Voltage and tip twist are the hand's while it flies elsewhere stopped, and when the stop is released."""
-    by_hand = replace(ready, hand=replace(ready.hand, actuator=BY_HAND))
-    assert stop_here(by_hand, "on") == (SetHand({"stopped": True}),)
-    stopped = done(by_hand, stop_here(by_hand, "on"))
-    elsewhere = done(stopped, fly_to(stopped, 3))
-    again = done(elsewhere, stop_here(elsewhere, "off"))
-    for now in (stopped, elsewhere, again):
-        assert now.hand.actuator == BY_HAND
-        assert shown(now).tip == shown(by_hand).tip
-    assert [shown(now).frozen for now in (elsewhere, again)] == [math.degrees(tip(by_hand)), None]
-    assert elsewhere.inputs.advance_ratio == LEGS[-1].advance_ratio
-
-
 @pytest.mark.parametrize("actuator", [ActuatorInputs(), BY_HAND])
-def test_leaving_gives_back_what_the_hand_had_set(ready: PageState, actuator: ActuatorInputs):
+def test_the_three_states_and_the_way_back_to_what_the_hand_had_set(
+    ready: PageState, flight: ActuatorFlight, actuator: ActuatorInputs
+):
+    """A stop freezes what there is; a voltage set by hand comes back whatever lay between, and on leaving."""
     by_hand = replace(ready, hand=replace(ready.hand, actuator=actuator))
-    flown = done(by_hand, fly_to(by_hand, 3))
-    further = done(flown, fly_to(flown, 1))
-    assert tip(further) != tip(by_hand)
-    for one in (by_hand, further, done(further, stop_here(further, "on"))):
-        back = done(one, (after_flight(one.hand),))
-        assert back.hand.actuator == actuator
-        assert (back.hand.stopped, back.hand.flown) == (False, None)
+    assert choose_state(by_hand, "set") == ()
+    flown = scheduled(by_hand)
+    there = done(flown, fly_to(flown, 3))
+    stopped = done(there, choose_state(there, "stopped"))
+    back = done(stopped, fly_to(stopped, 0))
+    assert back.inputs.advance_ratio == 0.0
+    assert_allclose([tip(there), tip(back)], flight.reached[-1], atol=math.radians(0.02))
+    (line,) = [one for one in shown(back).chart.series if isinstance(one, DrawnLine) and one.label == "stopped"]
+    assert_allclose(np.array(line.y, dtype=float), math.degrees(tip(back)), atol=6e-4)
+    assert [shown(now).state for now in (by_hand, there, back)] == ["set", "schedule", "stopped"]
+    assert shown(back).tip == shown(there).tip
+    again = scheduled(back)
+    assert_allclose(tip(again), flight.reached[0], atol=math.radians(0.02))
+    alone = done(by_hand, choose_state(by_hand, "stopped"))
+    for one in (by_hand, there, back, again, alone):
+        for effects in (choose_state(one, "set"), (after_flight(one.hand),)):
+            after = done(one, effects)
+            assert (after.hand.actuator, after.hand.state) == (actuator, "set")

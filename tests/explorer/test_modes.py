@@ -126,16 +126,16 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await told(visitor, lambda frame: frame.get("flight") is not None)
         await visitor.move("Voltage [%]", 77.0)
         await visitor.until(lambda: page.actuator.inputs().drives == DRIVEN)
-        await visitor.press("fails", "on")
+        await visitor.press("state", "stopped")
         await visitor.press("fly", 3.0)
         await told(visitor, lambda frame: frame["flight"]["at"] == 3.0)
         for view in ("disk", "actuator"):
             await visitor.press("view", view)
             await told(visitor, lambda frame, out=view == "actuator": (frame["flight"] is not None) == out)
-        assert visitor.frame["flight"]["frozen"] is not None
+        assert visitor.frame["flight"]["state"] == "stopped"
         tip = visitor.frame["flight"]["tip"]
-        await visitor.press("fails", "off")
-        await told(visitor, lambda frame: frame["flight"]["frozen"] is None)
+        await visitor.press("state", "set")
+        await told(visitor, lambda frame: frame["flight"]["state"] == "set")
         assert (page.actuator.inputs().drives, visitor.frame["flight"]["tip"]) == (DRIVEN, tip)
         await visitor.press("view", "disk")
         await told(visitor, lambda frame: frame["views"]["now"] == "disk")

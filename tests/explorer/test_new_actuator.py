@@ -95,7 +95,7 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
     assert "5 °" in shown["actuator.bar"]
     assert "tip twist at +2 °" in shown["actuator.now"]
     verdict = asked(ACTUATOR, now)["lean_verdict"].run()
-    assert ACTUATOR_CARD.view(now)["assessed"].title == "servo flap, 2 flaps, at 40 % of its deflection"
+    assert ACTUATOR_CARD.view(now)["assessed"].title == "servo flap, 2 flaps, as set at 40 % of its deflection"
 
     picture = lifted_picture(FLAPS, verdict.installed, INPUTS.design())
     assert picture.solids["drive_0"].surface.colour == (1, 2, 3)

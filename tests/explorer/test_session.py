@@ -43,6 +43,9 @@ class RecordingPage:
         self.calls.append("read")
         return replace(self.latest, inputs=self.inputs, view=self.view, sliders=None, preview=None, problem="")
 
+    def counted_from(self, now: PageState) -> None:
+        """It is never in Actuate."""
+
     def pin_or_swap(self, *_: Any) -> bool:
         self.calls.append("pin_or_swap")
         return self.moves_sliders

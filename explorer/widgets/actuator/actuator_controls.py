@@ -38,7 +38,7 @@ class ActuatorControls:
             form.slider(name, Slider("Voltage [%]", -100.0, 100.0, 1.0), 0.0, entry="voltage")
         text("bar")
         text("now")
-        with gui.add_folder("Twist at n/rev"):
+        with gui.add_folder("Twist at n/rev", expand_by_default=False):
             gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
             text("per_rev")
             gui.add_html(tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured"))

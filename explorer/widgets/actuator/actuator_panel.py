@@ -45,7 +45,7 @@ class ActuatorPanel:
 
     def hand(self) -> HandSettings:
         """What the hand has set by now."""
-        return replace(self._hand, actuator=self.inputs())
+        return replace(self._hand, actuator=self.inputs(), on_board=self._context.layout.mode == "actuate")
 
     def perform(self, effect: SetHand | SetAddress) -> None:
         """Do what a press said."""

@@ -1,6 +1,8 @@
 """The rotating blade: torsion and flap bending against closed forms, mass, drive, placement."""
 
+import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,12 +10,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import find_actuator, of_kind
-from rotor.actuator.installation import InstalledActuator, addition, install
+from rotor.actuator.installation import InstalledActuator, addition, install, with_actuator
 from rotor.actuator.limits import ELEMENTS, bending_moments, fibre_strain, limits
 from rotor.actuator.ply import PiezoPly, balance_mass
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.dynamics.structure import BendingStructure, uh60a_structure
 from rotor.dynamics.torsion import torsion_beam, torsion_frequency, twist_under_moment
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 
@@ -222,3 +225,56 @@ def test_limits(installed: InstalledActuator, swing: float, broken: set[str], ke
     for strain in (limit for limit in found if limit.name == "fibre-strain"):
         assert_allclose(strain.value, 1e6 * fibre_strain(installed, 0.31).total.max())
         assert strain.ok == (strain.value <= strain.bound)
+
+
+# A design that carries it
+
+
+@pytest.mark.parametrize("off", ["", "elastic-twist"])
+@pytest.mark.parametrize("spec", ["MFC_P1", "MFC_P1,plies=3,span=0.3:0.9,gj=0.5,divisions=0.5,drive=77:-50,crossed=1"])
+def test_a_design_with_an_actuator_is_kept_in_a_file(spec: str, off: str):
+    """The file holds the numbers of the actuator: it is the same design without its data."""
+    bare = make_design(mu=0.2, inflow="drees", off=off or None)
+    design = with_actuator(bare, spec)
+    read = design_from_record(json.loads(json.dumps(design.to_dict())))
+    assert read.rotor == design.rotor
+    assert read.condition == design.condition
+    r = np.linspace(0.15, 1.0, 30)
+    assert_allclose(read.twist(r), design.twist(r), atol=1e-7)
+    assert (design.bare, read.bare) == (bare, bare)
+    assert design.rotor.blade.carried is not None
+    assert design.rotor.blade.carried.spec == spec
+    assert_allclose(solve(read).power.total, solve(design).power.total, rtol=1e-6)
+    assert design.condition.mass - bare.condition.mass == pytest.approx(design.rotor.blade.carried.aircraft_kg)
+
+
+@pytest.mark.parametrize(
+    ("spec", "words"),
+    [
+        ("MFC", "not known"),
+        ("MFC_P1,drve=77", "has 'drve=77'"),
+        ("MFC_P1,drive=", "has 'drive='"),
+        ("MFC_P1,drive=nan", "has 'drive=nan'"),
+        ("MFC_P1,drive=120", "from −100 to 100 %"),
+        ("MFC_P1,span=0.3", "two ends"),
+        ("MFC_P1,drive=1:2:3", "3 drives do not fit 1 segments"),
+        ("MFC_P1,plies=40", "40 plies"),
+    ],
+)
+def test_what_no_actuator_is_made_of_is_a_sentence(spec: str, words: str):
+    with pytest.raises(ValueError, match=re.escape(words)):
+        with_actuator(make_design(), spec)
+
+
+def test_a_blade_that_cannot_carry_it_is_a_sentence():
+    with pytest.raises(ValueError, match="structure of the Sikorsky S-61"):
+        with_actuator(make_design(rotor="s61"), "MFC_P1")
+    with pytest.raises(ValueError, match="carry MFC P1 at 0 V already"):
+        with_actuator(with_actuator(make_design(), "MFC_P1"), "MFC_P1")
+    with pytest.raises(ValueError, match="leave rotor and preset"):
+        make_design(case=with_actuator(make_design(), "MFC_P1"), preset="thesis")
+    assert make_design(case=with_actuator(make_design(), "MFC_P1"), mu=0.2) == with_actuator(make_design(), "MFC_P1")
+    record = with_actuator(make_design(), "MFC_P1").to_dict()
+    for key, value in (("span_m", [5.0, 4.0]), ("aircraft_kg", -1.0), ("gj_factor", 0.0), ("weight", 3.0)):
+        with pytest.raises(ValueError, match=key.partition("_")[0]):
+            design_from_record({**record, "actuator": {**record["actuator"], key: value}})
