@@ -88,7 +88,7 @@
           ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
           [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
             .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± from uncertain inputs; vibration: mean and range over inflow models, with blades that bend.')}
+          'With its mass. ± is one standard deviation; vibration: mean and range over inflow models, blades bend.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${
         text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);

@@ -113,7 +113,8 @@
     let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {tip} = flight;
     const keys = [[flight.state, flight.words]];
     // By schedule foreseen until the server is where the marker is: from then on what the voltages make.
-    const line = series.find(({label}) => flight.states.some(([name, words]) => name === flight.state && words === label));
+    const named = flight.states.find(([name]) => name === flight.state)?.[1];
+    const line = series.find(({label}) => label === named);
     if (line) {
       const there = between(/** @type {any} */ (line).y, at);
       marker += `<circle cx="${x}" cy="${Y(there)}" r="6.5" class="rxf-fly-dot"/>`;
