@@ -30,8 +30,9 @@
         <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
         <small data-explorer="within">${text(power.within)}</small></div>
       <div class="rxf-sub">total power</div>
-      <div class="rxf-sub" data-explorer="holds" title="How often measured powers lie in this band, for rotors that had no
-        part in its size">${text(power.holds)}</div></div>
+      <div class="rxf-sub" data-explorer="holds"
+        title="How often measured powers lie in this band, for rotors that had no part in its size">${
+          text(power.holds)}</div></div>
       <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
