@@ -11,8 +11,8 @@ OUT``.
 **How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −12.2° at µ 0.2 and −11.6°
 at 0.35 (−9.6 to −12.3° over the inflow models, −6.9° without fuselage drag). Twist that follows speed saves 0.2 % over
 the best fixed twist, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly up to µ 0.1 (``schedule``, eight speeds
-from hover to µ 0.35; from µ 0.1 up 1.8 kW). It surely saves something: the sign held for every input and model that was
-varied. The size did not.
+from hover to µ 0.35; from µ 0.1 up 1.8 kW). It is likely, not sure, to save something (2.8 ± 1.8 kW): the
+sign held for every input and model that was varied alone. The size did not.
 
 **Which twist law is best?** No clear winner: two or three segments, or a quadratic twist, save 0.2 to 0.3 % more than
 one linear twist that follows speed. One good fixed twist saves 0.3 to 0.4 % against −16°.
