@@ -8,17 +8,18 @@ angle of attack and Mach number, hinge offset, blades elastic in torsion, propul
 line. ``thesis`` uses the models of the thesis, so that its figures can be checked with ``python -m rotor reproduce
 OUT``.
 
-**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −11.3° at µ 0.2 and −11.7°
-at 0.35 (−9.8 to −12.5° over the inflow models, −6.8° without fuselage drag). Twist that follows speed saves 0.1 % over
-the best fixed twist, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly in hover (``schedule``, eight speeds from
-hover to µ 0.35; from µ 0.1 up 0.6 kW). It surely saves something: the sign held for every input and model that was
-varied. The size did not.
+**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −12.2° at µ 0.2 and −11.6°
+at 0.35 (−9.6 to −12.3° over the inflow models, −6.9° without fuselage drag). Twist that follows speed saves 0.2 % over
+the best fixed twist, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly up to µ 0.1 (``schedule``, eight speeds
+from hover to µ 0.35; from µ 0.1 up 1.8 kW). It is likely, not sure, to save something (2.8 ± 1.8 kW): the
+sign held for every input and model that was varied alone. The size did not.
 
 **Which twist law is best?** No clear winner: two or three segments, or a quadratic twist, save 0.2 to 0.3 % more than
-one linear twist that follows speed. One good fixed twist saves 0.6 % against −16°.
+one linear twist that follows speed. One good fixed twist saves 0.3 to 0.4 % against −16°.
 
 **Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs 23 kW
-more than the best fixed twist, because of its mass. Unlimited twist would gain 3 kW, an eighth of that.
+more than the best fixed twist: 14 kW for the twist of the blade as built, 9 kW for its mass. Unlimited twist would gain
+3 kW.
 
 How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known better
 than power itself, although inflow models disagree about it.
@@ -36,8 +37,8 @@ from rotor.validation.thesis import ladder, readings
 #
 # The assumptions of the thesis, in the reading with which most of its statements hold, give −16.6, −8.5 and −3.8° in
 # hover, at µ 0.2 and at 0.35. From there one assumption after another changes to that of the preset ``flight``. Trim
-# by cyclic with µ sin α has the largest effect: −7.0 to −8.1° at µ 0.35, −2.1 to −2.9° at 0.2, where drag rise,
-# torsion and section data have as much.
+# by cyclic with µ sin α has the largest effect: −7.0 to −7.6° at µ 0.35, −2.1 to −3.2° at 0.2, where drag rise and
+# torsion have as much.
 
 names = tuple(ladder.RUNGS)
 speeds = (0.0, 0.2, 0.35)
@@ -87,7 +88,7 @@ print(f"best fixed {moving.fixed_deg:.1f}°; moving saves {100 * moving.gain:.2f
 
 # %%
 # Measured on another rotor: −17.3° needs 5 % more power than −11.5° at 330 km/h and 2.4 % less in hover. Computed:
-# −0.2 % with the drag of the UH-60A, +3.2 % (3.1 to 5.6 over models) at the usual propulsive force of a tunnel test,
+# −0.1 % with the drag of the UH-60A, +3.3 % (3.3 to 5.9 over models) at the usual propulsive force of a tunnel test,
 # and −0.5 % in hover.
 
 for kmh in (0.0, ladder.FAST_KMH):
