@@ -344,7 +344,7 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         | _of("angle", required=math.degrees(verdict.required), attainable=reach)
         | _of("power", gross=verdict.gross_saving, net_cost=-verdict.net_saving)
         | _of("change", net=-verdict.net_saving)
-        | _said(sure=net_band_words(verdict))
+        | _said(sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mass", mass=verdict.installed.masses.aircraft)
     )
     none, level = (0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)

@@ -155,10 +155,10 @@ def test_figure_3_12(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_13(report: Make):
-    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor, and to 0.1 % with linear inflow."""
+    """−8° is the best of five to 0.1 % beyond µ 0.18 on the thesis' rotor, with the wake and with linear inflow."""
     one = report("3.13")
     assert one.verdict is Agreement.AGREES
-    assert one.numbers["thesis-wake_always_8"] == 1.0
+    assert 0.0 <= one.numbers["thesis-wake_cost_of_8"] < 1e-3
     assert 0.0 <= one.numbers["thesis_cost_of_8"] < 1e-3
     assert [round(met, 2) for met in crossings("thesis", -8, -12, (0.17, 0.18, 0.19))] == [0.18]
 
