@@ -85,7 +85,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         rows.append(tag("tr", cells))
     title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
     if best.cost is not None:
-        title += f"; if inputs or inflow are otherwise, it costs about {units.watts(best.cost, 1)}"
+        title += f"; with other inputs or inflow the best then would need about {units.watts(best.cost, 1)} less"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

@@ -14,6 +14,7 @@ from explorer.text.readout import part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
+from rotor.design import Harmonic
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.support.arrays import Array, Booleans
 
@@ -71,12 +72,12 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.preset != b.preset:
         return f"Preset {b.preset} instead of {a.preset}"
     causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
-    if a.pitch_per_rev != b.pitch_per_rev:
-        orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in b.pitch_per_rev)
-        causes.append(
-            f"{'different ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
-        )
-    if (a.twist, a.active_twist) != (b.twist, b.active_twist):
+    pitched, twisted = (a.pitch_per_rev, b.pitch_per_rev), (_active_waves(a), _active_waves(b))
+    for kind, (old, new) in (("root pitch", pitched), ("active twist", twisted)):
+        if old != new:
+            orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in new)
+            causes.append(f"{'different ' if old else ''}{kind} at {orders}" if orders else f"no n/rev {kind}")
+    if a.twist != b.twist or (a.active_twist != b.active_twist and twisted[0] == twisted[1]):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
     if not causes:
@@ -85,6 +86,10 @@ def _cause(before: Solution, after: Solution) -> str:
         return "Several changes at once"
     text = " and ".join(causes)
     return text[:1].upper() + text[1:]
+
+
+def _active_waves(design: Design) -> tuple[Harmonic, ...]:
+    return () if design.active_twist is None else design.active_twist.harmonics
 
 
 def _rotor_causes(a: Design, b: Design) -> list[str]:

@@ -144,7 +144,7 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         computing=not words and (answer is None or now.of(_waits)),
         settled=settled if isinstance(settled, ModelChanges) else None,
         problem=settled if isinstance(settled, str) else "",
-        against="the same without n/rev",
+        against="the same without n/rev, blades bending",
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),

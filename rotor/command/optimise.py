@@ -282,7 +282,9 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         lines.append(f"starting design {power_text(optimum.baseline_power, 1)}; the best {optimum.saving_words}")
         if optimum.doubt_cost is not None:
             cost = power_text(optimum.doubt_cost, 1)
-            lines.append(f"if inputs or inflow are otherwise, this twist is expected to cost {cost} above the least")
+            lines.append(
+                f"with other inputs or inflow, the best twist then is expected to need {cost} less than this one"
+            )
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
         before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"

@@ -54,6 +54,9 @@ def test_another_test_or_flight_is_named():
     assert why(flown(), climbing).startswith("Climb 4.0 m/s: climb +")
     assert why(climbing, flown()).startswith("Level flight: climb −")
     assert why(flown(), slower).startswith("Rotor speed 95.0 %: profile −")
+    moved = solved(make_design(mu=0.2, twist_per_rev="3:0.75:60"))
+    assert why(flown(), moved).startswith("Active twist at 3/rev: ")
+    assert why(moved, flown()).startswith("No n/rev active twist: ")
 
 
 UNTWISTED, TWISTED = {"mu": 0.0, "twist": "linear:0"}, {"mu": 0.0, "twist": "linear:-8"}
