@@ -2,10 +2,12 @@
 
 import math
 from dataclasses import dataclass, field, fields
+from typing import Any, Generic, TypeVar
 
 from explorer.model.inputs import Inputs
 from rotor import Solution
 
+Step = TypeVar("Step")
 STEPS = 100
 """Most steps that can be undone."""
 PAUSE = 1.2
@@ -39,19 +41,19 @@ class LongestPause:
 
 
 @dataclass
-class History:
-    """Steps before and after the present."""
+class History(Generic[Step]):
+    """Steps before and after the present: `Inputs`, or with what else the hand sets in a tuple."""
 
-    present: Inputs
-    past: list[Inputs] = field(default_factory=list)
+    present: Step
+    past: list[Step] = field(default_factory=list)
     """Oldest first."""
-    future: list[Inputs] = field(default_factory=list)
+    future: list[Step] = field(default_factory=list)
     """The next step to redo last."""
     _moving: frozenset[str] = frozenset()
     """What the present step has moved."""
     _held: bool = False
     """Whether something is held: all that moves until it is let go is one step."""
-    _undone: list[Inputs] = field(default_factory=list)
+    _undone: list[Step] = field(default_factory=list)
     """What could be redone before the present step."""
 
     def hold(self) -> None:
@@ -62,7 +64,7 @@ class History:
         """The control was let go: what moves next is another step, except the last movements of the drag."""
         self._held = False
 
-    def note(self, inputs: Inputs, pause: float) -> bool:
+    def note(self, inputs: Step, pause: float) -> bool:
         """Take the inputs of an update and the longest pause [s] in moving them; whether they begin a new step."""
         moved = differing(self.present, inputs)
         if not moved:
@@ -77,15 +79,15 @@ class History:
         self.present, self.future = inputs, []
         return not dragging
 
-    def undo(self) -> Inputs | None:
+    def undo(self) -> Step | None:
         """Make the step before the present one; None where there is none."""
         return self._step(self.past, self.future)
 
-    def redo(self) -> Inputs | None:
+    def redo(self) -> Step | None:
         """Make the step that was undone the present one; None where there is none."""
         return self._step(self.future, self.past)
 
-    def _step(self, source: list[Inputs], target: list[Inputs]) -> Inputs | None:
+    def _step(self, source: list[Step], target: list[Step]) -> Step | None:
         if not source:
             return None
         target.append(self.present)
@@ -94,9 +96,13 @@ class History:
         return self.present
 
 
-def differing(before: Inputs, after: Inputs) -> frozenset[str]:
-    """Names of the inputs that two sets of them do not share."""
-    names = (item.name for item in fields(Inputs))
+def differing(before: Any, after: Any) -> frozenset[str]:
+    """Names of the fields that two of a kind do not share, of tuples of all their parts; none where one is None."""
+    if before is None or after is None:
+        return frozenset()
+    if isinstance(before, tuple):
+        return frozenset[str]().union(*map(differing, before, after))
+    names = (item.name for item in fields(before))
     return frozenset(name for name in names if getattr(before, name) != getattr(after, name))
 
 

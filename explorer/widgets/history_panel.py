@@ -8,6 +8,7 @@ import numpy as np
 
 from explorer.colours import THIS
 from explorer.hosting import browser
+from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.undo import History, KeptDesign
@@ -16,6 +17,9 @@ from explorer.sharing import share
 from explorer.sharing.share import StoredHistory
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
+from explorer.views.flight import BY_HAND
+from explorer.views.page_state import SetHand
+from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from rotor import Solution, solve
@@ -25,6 +29,8 @@ FIELD = "Take design"
 """Label of the text field that clicks are written to: `take 1`, `drop 1`."""
 MOST_KEPT = 8
 _SPARK = 46.0, 18.0
+Step = tuple[Inputs, ActuatorInputs | None]
+"""What sliders and Actuate have; None, of a page that opens or was loaded again: the actuator stays as it is."""
 
 
 def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:
@@ -68,12 +74,13 @@ def _spark(solution: Solution) -> Markup:
 class HistoryPanel:
     """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
-    def __init__(self, context: TabContext, start: Inputs, stored: str | None) -> None:
+    def __init__(self, context: TabContext, actuator: ActuatorPanel, start: Inputs, stored: str | None) -> None:
         """`stored`: the history as the page kept it over a reload; None where it has none."""
-        self._context, gui = context, context.gui
+        self._context, self._actuator, gui = context, actuator, context.gui
         self._lock = threading.RLock()
         before = share.read_history(stored, start)
-        self._history = History(start, list(before.past), list(reversed(before.future)))
+        past, future = ([Step((one, None)) for one in steps] for steps in (before.past, reversed(before.future)))
+        self._history = History[Step]((start, None), past, future)
         self._stored = stored
         self._kept: list[KeptDesign] = []
         self._waiting = list(before.bookmarks)
@@ -94,9 +101,8 @@ class HistoryPanel:
     def read(self, pause: float) -> Inputs:
         """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
         with self._lock:  # Until an undo has moved the widgets, their values are no new step.
-            inputs = self._context.inputs()
-            self._history.note(inputs, pause)
-        return inputs
+            self._note(pause)
+            return self._history.present[0]
 
     def grab(self, held: bool) -> None:
         """A blade, a curve or a slider is taken by the hand, or let go: what moves in between is one step."""
@@ -117,9 +123,13 @@ class HistoryPanel:
             self._note()
             self._move(self._history.redo())
 
-    def _note(self) -> None:
+    def _note(self, pause: float = 0.0) -> None:
         """What was moved since the last update is a step too."""
-        self._history.note(self._context.inputs(), 0.0)
+        hand, (present, actuator) = self._actuator.hand(), self._history.present
+        now = hand.actuator if hand.flown is None else hand.by_hand
+        if actuator is None:
+            self._history.present = present, now
+        self._history.note((self._context.inputs(), now), pause)
 
     def keep(self) -> None:
         """Set the present design aside; the oldest goes when there are too many."""
@@ -136,7 +146,8 @@ class HistoryPanel:
         with self._lock:
             history, bookmarks = self._history, (*self._waiting, *(item.inputs for item in self._kept))
             future = tuple(reversed(history.future))
-            kept = StoredHistory(tuple(history.past), history.present, future, bookmarks)
+            past, future = (tuple(inputs for inputs, _ in steps) for steps in (history.past, future))
+            kept = StoredHistory(past, history.present[0], future, bookmarks)
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
@@ -175,9 +186,13 @@ class HistoryPanel:
         with self._lock:
             return bool(self._history.past), bool(self._history.future)
 
-    def _move(self, inputs: Inputs | None) -> None:
-        """Move the widgets, under the lock."""
-        if inputs is None:
+    def _move(self, step: Step | None) -> None:
+        """Move the widgets, under the lock; a step of the actuator is shown in Actuate."""
+        inputs, actuator = step or (None, None)
+        if actuator is not None and actuator != self._actuator.inputs():
+            self._actuator.perform(SetHand(BY_HAND, vars(actuator)))
+            self._context.layout.show_mode("actuate")
+        if inputs is None or inputs == self._context.inputs():
             self._context.wake()
         else:
             self._context.set_inputs(inputs)
@@ -192,4 +207,4 @@ class HistoryPanel:
             kept = self._kept[which].inputs if which < len(self._kept) else None
             if kept is not None and verb == "drop":
                 del self._kept[which]
-            self._move(kept if verb == "take" else None)
+            self._move((kept, None) if kept is not None and verb == "take" else None)

@@ -193,3 +193,28 @@ def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
         await again.close()
 
     visited(app, load)
+
+
+def test_a_voltage_is_a_step_of_its_own(app: App):
+    """Undo moved the advance ratio in its place, which had been set before."""
+
+    async def volts(visitor: Visitor, page: Page) -> None:
+        await visitor.move("Adv. ratio µ", 0.25)
+        await visitor.idle()
+        await visitor.press("mode", "actuate")
+        await visitor.move("Voltage [%]", 50.0)
+        await visitor.idle()
+        await visitor.press("mode", "explore")
+        await visitor.idle()
+        await visitor.press("undo")
+        await visitor.until(lambda: not any(page.actuator.inputs().drives))
+        assert page.context.layout.mode == "actuate"
+        await visitor.idle()
+        assert page.context.inputs().advance_ratio == 0.25
+        await visitor.press("redo")
+        await visitor.until(lambda: page.actuator.inputs().drives[0] == 50.0)
+        await visitor.press("undo")
+        await visitor.press("undo")
+        await visitor.until(lambda: page.context.inputs().advance_ratio == OPENING.advance_ratio)
+
+    visited(app, volts)
