@@ -89,9 +89,20 @@
         <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>`).join(''));
     card.toggleAttribute('data-faded', flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
+    write(card.querySelector('[data-words]'),
+      keys(flight).map(([key, words]) => `<span data-key="${key}">${text(words)}</span>`).join(''));
+    card.querySelector('[data-explorer=tip-twist]').textContent = flight.tip;
     draw(flight.chart);
     mark();
   });
+  // Names of the lines and areas. All words are written before the drawing, which has the height that they leave.
+  function keys({state, words, chart, kind}) {
+    const {length} = chart.series, named = [[state, words]];
+    if (length) named.push(['reach', 'reach']);
+    if (state !== 'schedule' && length > 1) named.push(['reached', 'by schedule']);
+    if (kind === 'computing') named.push(['', 'schedule: computing…']);
+    return named;
+  }
 
   // Everything but the marker.
   function draw(chart) {
@@ -111,7 +122,6 @@
       .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
     const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
     let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {tip} = flight;
-    const keys = [[flight.state, flight.words]];
     // By schedule foreseen until the server is where the marker is: from then on what the voltages make.
     const named = flight.states.find(([name]) => name === flight.state)?.[1];
     const line = series.find(({label}) => label === named);
@@ -120,14 +130,9 @@
       marker += `<circle cx="${x}" cy="${Y(there)}" r="6.5" class="rxf-fly-dot"/>`;
       if (flight.state === 'schedule' && Math.abs(flight.at - at) > .02) tip = degrees(there);
     }
-    if (series.length) keys.push(['reach', 'reach']);
-    if (flight.state !== 'schedule' && series.length > 1) keys.push(['reached', 'by schedule']);
-    if (flight.kind === 'computing') keys.push(['', 'schedule: computing…']);
-    slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys.map(([, words]) => words)].join(' ');
+    slider.ariaValueText = [flight.legs[Math.round(at)][0], tip, ...keys(flight).map(([, words]) => words)].join(' ');
     const group = card.querySelector('[data-marker]');
     if (group) group.innerHTML = marker;
-    write(card.querySelector('[data-words]'),
-      keys.map(([key, words]) => `<span data-key="${key}">${text(words)}</span>`).join(''));
     card.querySelector('[data-explorer=tip-twist]').textContent = tip;
   }
 
