@@ -141,7 +141,9 @@ class Page:
             with opened["Files"]:
                 add_rotor_upload(context)
             with opened["History"]:
-                self.history = HistoryPanel(context, self.actuator, start, facts.kept.get(share.STEPS_KEPT))
+                self.history = HistoryPanel(
+                    context, self.actuator.hand, self._carry, start, facts.kept.get(share.STEPS_KEPT)
+                )
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)

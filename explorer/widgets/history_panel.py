@@ -8,7 +8,7 @@ import numpy as np
 
 from explorer.colours import THIS
 from explorer.hosting import browser
-from explorer.model.actuator_inputs import ActuatorInputs
+from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
 from explorer.model.undo import History, KeptDesign
@@ -17,9 +17,6 @@ from explorer.sharing import share
 from explorer.sharing.share import StoredHistory
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.glossary import hint
-from explorer.views.flight import BY_HAND
-from explorer.views.page_state import SetHand
-from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from rotor import Solution, solve
@@ -74,9 +71,17 @@ def _spark(solution: Solution) -> Markup:
 class HistoryPanel:
     """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
-    def __init__(self, context: TabContext, actuator: ActuatorPanel, start: Inputs, stored: str | None) -> None:
-        """`stored`: the history as the page kept it over a reload; None where it has none."""
-        self._context, self._actuator, gui = context, actuator, context.gui
+    def __init__(
+        self,
+        context: TabContext,
+        hand: Callable[[], HandSettings],
+        carry: Callable[[ActuatorInputs], None],
+        start: Inputs,
+        stored: str | None,
+    ) -> None:
+        """`hand`: what is set in Actuate; `carry` sets an actuator there and shows it. `stored`: the history as the
+        page kept it over a reload; None where it has none."""
+        self._context, self._hand, self._carry, gui = context, hand, carry, context.gui
         self._lock = threading.RLock()
         before = share.read_history(stored, start)
         past, future = ([Step((one, None)) for one in steps] for steps in (before.past, reversed(before.future)))
@@ -125,7 +130,7 @@ class HistoryPanel:
 
     def _note(self, pause: float = 0.0) -> None:
         """What was moved since the last update is a step too."""
-        hand, (present, actuator) = self._actuator.hand(), self._history.present
+        hand, (present, actuator) = self._hand(), self._history.present
         now = hand.actuator if hand.flown is None else hand.by_hand
         if actuator is None:
             self._history.present = present, now
@@ -189,9 +194,8 @@ class HistoryPanel:
     def _move(self, step: Step | None) -> None:
         """Move the widgets, under the lock; a step of the actuator is shown in Actuate."""
         inputs, actuator = step or (None, None)
-        if actuator is not None and actuator != self._actuator.inputs():
-            self._actuator.perform(SetHand(BY_HAND, vars(actuator)))
-            self._context.layout.show_mode("actuate")
+        if actuator is not None and actuator != self._hand().actuator:
+            self._carry(actuator)
         if inputs is None or inputs == self._context.inputs():
             self._context.wake()
         else:
