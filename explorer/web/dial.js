@@ -85,7 +85,8 @@
       power.push(all[0][0]);
       index.push(mean(all.map(([, value]) => value)));
       if (Math.hypot(...point) <= reach) [mean(all.map(([value]) => value)), index.at(-1)].forEach((value, k) => {
-        if (!(value >= least[k]?.value)) least[k] = {value, point};
+        const held = least[k];
+        if (!held || value < held.value) least[k] = {value, point};
       });
     }
     // What the least of each would change with every inflow model, against this harmonic at rest.

@@ -115,7 +115,8 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        alone = self._undriven.solve(design) if inputs.driven and design.elastic else solution
+        still = replace(solution.design, twist=solution.design.jig)  # The same mass and stiffness, at rest.
+        alone = self._undriven.solve(still) if inputs.driven and design.elastic else solution
         picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi), pays=self._pays)
         with self._context.client.atomic():
             self.blade.hold(self._radius)
