@@ -81,11 +81,11 @@ class WakeCourse(DiskFlow):
 
     @property
     def descent(self) -> tuple[float, float, float]:
-        """a, b, c of the velocity down over λ0: a + b x − c |y|³ inside the disk, 2 (a − c |y|³) behind it."""
+        """a, b, c of the velocity down over λ0: `a + b x − c |y|³` inside the disk, `2 (a − c |y|³)` behind it."""
         chi = math.atan2(self.mu_x, -self.axial if self.lambda0 < 0.0 else self.axial)
         skew, old, share = math.tan(0.5 * chi), 0.5 * chi, self.beddoes
-        ours = 1.0 + MEAN_OUTWARD * skew, STEEPNESS * skew, skew
-        first, aft, outward = (a + share * (b - a) for a, b in zip(ours, (1.0, old, old), strict=True))
+        fitted = 1.0 + MEAN_OUTWARD * skew, STEEPNESS * skew, skew
+        first, aft, outward = (a + share * (b - a) for a, b in zip(fitted, (1.0, old, old), strict=True))
         return first, aft, outward
 
     def flapping(self, psi: Array) -> Array:
