@@ -45,7 +45,7 @@ CARRIED = "actuator"
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 LONGEST_OWN = 8000
-"""Most characters of a design with a rotor of one's own: web servers take lines of 8 kB, and so do mail programs."""
+"""Most characters of a design with a rotor of one's own. Our choice: web servers commonly take lines of 8 kB."""
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
 _FILE = "file="

@@ -130,11 +130,15 @@ class HistoryPanel:
 
     def _note(self, pause: float = 0.0) -> None:
         """What was moved since the last update is a step too."""
-        hand, (present, actuator) = self._hand(), self._history.present
-        now = hand.actuator if hand.flown is None else hand.by_hand
+        present, actuator = self._history.present
         if actuator is None:
-            self._history.present = present, now
-        self._history.note((self._context.inputs(), now), pause)
+            self._history.present = present, self._actuator()
+        self._history.note((self._context.inputs(), self._actuator()), pause)
+
+    def _actuator(self) -> ActuatorInputs:
+        """As a hand set it: drives that follow the flight are no steps."""
+        hand = self._hand()
+        return hand.actuator if hand.flown is None else hand.by_hand
 
     def keep(self) -> None:
         """Set the present design aside; the oldest goes when there are too many."""
@@ -194,7 +198,7 @@ class HistoryPanel:
     def _move(self, step: Step | None) -> None:
         """Move the widgets, under the lock; a step of the actuator is shown in Actuate."""
         inputs, actuator = step or (None, None)
-        if actuator is not None and actuator != self._hand().actuator:
+        if actuator is not None and actuator != self._actuator():
             self._carry(actuator)
         if inputs is None or inputs == self._context.inputs():
             self._context.wake()

@@ -75,7 +75,7 @@ _ALIKE = (0.02, 0.002)
 _LEAST_REYNOLDS = 1000.0
 """A smaller number is one that was not given in full."""
 _LARGEST_STEP = (1.0, 0.25)
-"""Of c_l and c_d between angles no more than `_STEP_DEG` apart, within `_STEPS_TO_DEG`; stall takes 0.7 and 0.15."""
+"""Of c_l, c_d between angles at most `_STEP_DEG` apart, to `_STEPS_TO_DEG`. Our choice; shipped data stay below."""
 _STEP_DEG, _STEPS_TO_DEG = 2.0, 30.0
 Row = tuple[int, float, float, float, float]
 """Line of the file; angle [deg], c_l, c_d, c_m."""
