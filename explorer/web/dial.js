@@ -83,10 +83,11 @@
       const point = [reach * (2 * column / (GRID - 1) - 1), reach * (1 - 2 * row / (GRID - 1))];
       const all = models.map(model => seen(model, point));
       power.push(all[0][0]);
-      index.push(mean(all.map(([, value]) => value)));
-      if (Math.hypot(...point) <= reach) [mean(all.map(([value]) => value)), index.at(-1)].forEach((value, k) => {
-        const held = least[k];
-        if (!held || value < held.value) least[k] = {value, point};
+      const candidates = [mean(all.map(([value]) => value)), mean(all.map(([, value]) => value))];
+      index.push(candidates[1]);
+      if (Math.hypot(...point) <= reach) candidates.forEach((value, k) => {
+        const best = least[k];
+        if (!best || value < best.value) least[k] = {value, point};
       });
     }
     // What the least of each would change with every inflow model, against this harmonic at rest.
