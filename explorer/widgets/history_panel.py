@@ -147,7 +147,7 @@ class HistoryPanel:
             return
         with self._lock:
             others = [item for item in self._kept if item.inputs != state.inputs]
-            self._kept = [*others, KeptDesign(state.inputs, state.solution.without_factors())][-MOST_KEPT:]
+            self._kept = [*others, KeptDesign(state.inputs, state.solution.light())][-MOST_KEPT:]
         self._context.wake()
 
     def store(self) -> None:
@@ -170,7 +170,7 @@ class HistoryPanel:
             with self._lock:
                 self._waiting.pop()
                 if solution.converged and all(item.inputs != inputs for item in self._kept):
-                    self._kept = [KeptDesign(inputs, solution.without_factors()), *self._kept][-MOST_KEPT:]
+                    self._kept = [KeptDesign(inputs, solution.light()), *self._kept][-MOST_KEPT:]
             self.show(self._context.state())
 
     @property

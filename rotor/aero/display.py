@@ -142,8 +142,12 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
     """Stalled fractions of πR² and of the lift's moment about the hub on the azimuths that are shown."""
-    problem, e = as_asked(problem, elements)
-    disk = problem.disk
+    return own_stalled_parts(*as_asked(problem, elements))
+
+
+def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
+    """`stalled_parts` on the azimuths of the trim."""
+    disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
     _, area, _, moment = areas(disk, e, margin)
     return area, moment

@@ -98,7 +98,7 @@ def best_twist_doubt(
     def gradients(found: Sequence[ObjectiveValue]) -> Array | None:
         """∇P at every place, (places, parameters); None unless P has a minimum nearby."""
         rows = [
-            concept.slopes(place, each.solutions[0].disk.r) @ each.by_pitch
+            concept.slopes(place, each.trims[0].linear.problem.disk.r) @ each.by_pitch
             for place, each in zip(places, found, strict=True)
             if each.by_pitch is not None
         ]

@@ -195,7 +195,7 @@ def sweep(
             solution = first.pop(0) if k == 0 and last is None else solve(point, last)
             if solution.converged:
                 last = solution
-            solutions.append(solution.without_factors())
+            solutions.append(solution.light())
     return SweepTable(tuple(solutions), name)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 
+from rotor.aero.problem import Problem
 from rotor.columns.flight import flight_system
 from rotor.engine.linearise import evaluate
 from rotor.support.blas_threads import one_blas_thread
@@ -32,10 +33,9 @@ class Analysis:
         if self._linear is not None:
             return self._linear
         with one_blas_thread():
-            problem = trim_problem(solution.design, solution.freedoms)
+            problem = problem_of(solution)
             if solution.design.hovering:
                 return hover(problem, solution.start).linear
-            problem = problem if solution.wake_course is None else replace(problem, course=solution.wake_course)
             system = flight_system(problem)
             x = first_point(problem, system, solution.start)
             return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
@@ -54,6 +54,12 @@ class Analysis:
     def power_changes(self) -> Mapping[str, float]:
         """What every uncertain input does to total power [W], where it is larger by its size."""
         return power_changes(self.adjoint)
+
+
+def problem_of(solution: Solution) -> Problem:
+    """The problem that it solves, with its wake along the course that it was found with."""
+    problem = trim_problem(solution.design, solution.freedoms)
+    return problem if solution.wake_course is None else replace(problem, course=solution.wake_course)
 
 
 def analysed(given: Solution | Analysis) -> Analysis:

@@ -1,4 +1,4 @@
-"""From where Newton's method ended to a `Solution`: power by parts, areas, fields over the disk, caveats, message."""
+"""From where Newton's method ended to a `Solution`: power by parts and message; areas, fields, caveats when read."""
 
 import math
 import time
@@ -16,13 +16,14 @@ from rotor.columns.bending import coordinates_of
 from rotor.columns.flight import disk_sums
 from rotor.design.design import Design
 from rotor.engine.waves import wave_grid
+from rotor.support.blas_threads import one_blas_thread
 from rotor.support.units import power_text
-from rotor.trim.analysis import Analysis
+from rotor.trim.analysis import Analysis, problem_of
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import axial_ring, vortex_ring
 from rotor.trim.newton import TrimResult
 from rotor.trim.power import PowerBudget, control_loads, hub_moment, power_budget, wind_forces
-from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Solution, Status
+from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Shown, Solution, Status
 from rotor.trim.validity import CaveatInputs, caveats, failure_sentence, implausible
 
 _ENERGY_TOLERANCE = 1e-6
@@ -37,8 +38,6 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     problem, design, elements = result.problem, result.problem.design, result.linear.elements
     x, states = result.point.x, result.point.system.structure.states
     total = disk_sums(result.linear.point)
-    shown = as_asked(problem, elements)
-    fields = _fields(*shown)
     power = power_budget(problem, elements, total)
     work, freed = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
     if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY_TOLERANCE * abs(power.main_rotor):
@@ -48,46 +47,54 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         )
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    reverse, stalled, stalled_thrust, stalled_moment = areas(shown[0].disk, shown[1], fields.stall_margin)
-    refused = _refused(result, stalled) or implausible(problem, elements, total) or _impossible(design, power)
+    refused = _refused(result) or implausible(problem, elements, total) or _impossible(design, power)
     solution = Solution(
         design=design,
         status=Status.NOT_CONVERGED if refused else Status.CONVERGED,
         message=refused or "Trimmed.",
-        caveats=(),
         controls=elements.state,
-        disk=fields,
         last_power=power,
         hub_moment=hub_moment(problem, elements),
         ct=total.thrust,
         lift_and_drag=(lift * newtons, drag * newtons),
         cp=power.main_rotor / (newtons * design.rotor.tip_speed),
-        reverse_flow_area=reverse,
-        stalled_area=stalled,
-        stalled_thrust=stalled_thrust,
-        stalled_moment=stalled_moment,
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=_elastic(problem, elements, shown),
+        find_shown=shown_of,
+        elements=elements,
         start=result.guess,
         wake_course=course_of(problem),
         freedoms=problem.freedoms,
         deflections=_deflections(result),
         freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
     )
-    exceeded = () if refused else tuple(caveats(CaveatInputs(problem, solution)))
-    return Analysis(replace(solution, caveats=exceeded), result.linear)
+    return Analysis(solution, result.linear)
 
 
-def _refused(result: TrimResult, stalled: float) -> str:
-    """Why there is no trim, as a sentence; `stalled`: part of the disk at the last attempt."""
+@one_blas_thread()
+def shown_of(solution: Solution) -> Shown:
+    """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
+    problem, elements = problem_of(solution), solution.elements
+    if elements is None:
+        elements = Analysis(solution).linear.elements
+    asked = as_asked(problem, elements)
+    fields = _fields(*asked)
+    seen = areas(asked[0].disk, asked[1], fields.stall_margin)
+    shown = Shown(fields, seen, _elastic(problem, elements, asked))
+    if not solution.converged:
+        return shown
+    return replace(shown, caveats=tuple(caveats(CaveatInputs(problem, solution, shown))))
+
+
+def _refused(result: TrimResult) -> str:
+    """Why there is no trim, as a sentence."""
     if not result.steady:
         return axial_ring(result.problem.design)
     if result.converged:
         return ""
-    near, design = result.nearest, result.problem.design  # Without one, the sentence is about the last attempt.
-    there = stalled if near is None else stalled_parts(near.problem, near.linear.elements)[0]
+    near, design = result.nearest or result, result.problem.design  # The last attempt, where nothing trimmed before.
+    there = stalled_parts(near.problem, near.linear.elements)[0]
     return vortex_ring(design) or failure_sentence(design, result.reached, there)
 
 

@@ -31,6 +31,7 @@ def solve_many(designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIO
 
     Returns:
         Their solutions in the same order. Each equals that of `solve` to rounding, whatever the other designs are.
+        They are light: fields over the disk and caveats are worked out when they are read.
 
     Raises:
         TypeError: an item is not a design.
@@ -40,7 +41,7 @@ def solve_many(designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIO
         >>> [solution.converged for solution in rotor.solve_many(designs)]
         [True, True, True]
     """
-    return [trim.solution for trim in analyse_many(list(designs), options=options)]
+    return [trim.solution.light() for trim in analyse_many(list(designs), options=options)]
 
 
 def analyse_many(

@@ -6,6 +6,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from rotor.aero.display import own_stalled_parts
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
 from rotor.aero.section import FZ
@@ -86,6 +87,11 @@ class LinearisedTrim:
     def elements(self) -> BladeElements:
         """The blade elements there."""
         return (hover_elements if self.problem.design.hovering else elements_of)(self.problem, self.point)
+
+    @cached_property
+    def stalled_moment(self) -> float:
+        """Part of the lift's moment that stalled sections carry, by the azimuths of the trim alone."""
+        return own_stalled_parts(self.problem, self.elements)[1]
 
 
 @dataclass(frozen=True, eq=False)

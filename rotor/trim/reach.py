@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from rotor.aero.display import stalled_parts
 from rotor.aero.problem import Problem
 from rotor.design.quantities import CONDITION
+from rotor.trim.analysis import Analysis
 from rotor.trim.forward import FOLLOWING_PASSES, easier_condition, trim_on_course
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import SolverOptions, TrimResult, newton
@@ -18,6 +19,9 @@ _TOLERANCE = 0.02
 """How near the largest mass and speed are found, as a part of the way to them."""
 _UNTRIMMED_SHARE = 2.0 * MOST_STALLED
 """Stalled part of the lift's moment that stands for no trim there."""
+SHARE_ERROR = 0.1
+"""Difference of the stalled share of the lift's moment between the azimuths of a trim and those that are shown: less
+than half of this (tested)."""
 _LEAST_POWER_SPEED = 0.15
 """Advance ratio from which the largest speed is looked for: the least power is near it."""
 
@@ -26,6 +30,16 @@ def stall_limit(problem: Problem) -> float:
     """Stalled share of the lift's moment, Σ r dT, beyond which trims do not count."""
     by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
     return math.inf if by_document else MOST_STALLED
+
+
+def too_stalled(found: Analysis, limit: float) -> bool:
+    """Whether stalled sections carry more than `limit` of the lift's moment.
+
+    Fields over the whole disk are made for it only where the share on the azimuths of the trim is within
+    `SHARE_ERROR` of the limit.
+    """
+    near = limit - SHARE_ERROR
+    return limit < math.inf and found.linear.stalled_moment > near and found.solution.stalled_moment > limit
 
 
 def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:

@@ -14,7 +14,7 @@ import numpy as np
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
 from rotor.aero.display import STALLED, pitch_of_alpha
-from rotor.aero.elements import TrimState, Unsteady
+from rotor.aero.elements import BladeElements, TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.columns.blade import Freedom
@@ -154,6 +154,17 @@ class Deflections:
         return up, forward
 
 
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What is shown of a solution beside its numbers, on at least the azimuths that the models ask for."""
+
+    disk: DiskFields
+    areas: tuple[float, float, float, float]
+    """`reverse_flow_area` to `stalled_moment` of a `Solution`."""
+    elastic: ElasticTwist | None
+    caveats: tuple[Caveat, ...] = ()
+
+
 _NO_THRUST = 1e-12
 """Ideal power over ρA(ΩR)³ below which there is none but rounding."""
 
@@ -165,9 +176,7 @@ class Solution:
     design: Design
     status: Status
     message: str
-    caveats: tuple[Caveat, ...]
     controls: TrimState
-    disk: DiskFields
     last_power: PowerBudget
     """Power by parts of the last iterate, converged or not; `power` is the same for a converged solution only."""
     hub_moment: HubMoment
@@ -177,23 +186,16 @@ class Solution:
     """Force of the rotor up and aft [N]: in level flight and on a stand normal to the wind and along it."""
     cp: float
     """Main-rotor power over ρA(ΩR)³, eq. (2.12)."""
-    reverse_flow_area: float
-    """Part of the disk πR² with U_T < 0 on the blade (0…1)."""
-    stalled_area: float
-    """Part of the disk πR² beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the
-    chord; reverse flow not counted (0…1)."""
-    stalled_thrust: float
-    """Part of the thrust that stalled sections carry [-]; negative where they press down."""
-    stalled_moment: float
-    """Part of the lift's moment about the hub, Σ r dT, that they carry."""
     residual: float
     """Largest trim residual, as a fraction of the weight (moments: of weight × radius)."""
     passes: int
     """Blade-element passes used."""
     elapsed: float
     """[s]"""
-    elastic: ElasticTwist | None = None
-    """None for a blade that is rigid in torsion."""
+    find_shown: Callable[["Solution"], Shown]
+    """What `shown` is worked out by."""
+    elements: BladeElements | None = None
+    """The blade elements on the azimuths of the trim; None: they are evaluated once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None
@@ -206,11 +208,53 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "start": replace(self.start, factors=None, structure=None)}
+        return {**self.__dict__, "start": replace(self.start, factors=None, structure=None), "elements": None}
 
-    def without_factors(self) -> "Solution":
-        """This solution without what only speeds up trims that start from it: for many that are kept."""
-        return replace(self, start=replace(self.start, factors=None))
+    def light(self) -> "Solution":
+        """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
+        when it is read; trims that start from it take more steps."""
+        return replace(self, start=replace(self.start, factors=None), elements=None)
+
+    @cached_property
+    def shown(self) -> Shown:
+        """Fields, areas and caveats, worked out when first read: that takes a fifth of the time of a trim."""
+        return self.find_shown(self)
+
+    @property
+    def disk(self) -> DiskFields:
+        """The flow and the loads over the disk."""
+        return self.shown.disk
+
+    @property
+    def reverse_flow_area(self) -> float:
+        """Part of the disk πR² with U_T < 0 on the blade (0…1)."""
+        return self.shown.areas[0]
+
+    @property
+    def stalled_area(self) -> float:
+        """Part of the disk πR² beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of
+        the chord; reverse flow not counted (0…1)."""
+        return self.shown.areas[1]
+
+    @property
+    def stalled_thrust(self) -> float:
+        """Part of the thrust that stalled sections carry [-]; negative where they press down."""
+        return self.shown.areas[2]
+
+    @property
+    def stalled_moment(self) -> float:
+        """Part of the lift's moment about the hub, Σ r dT, that they carry."""
+        return self.shown.areas[3]
+
+    @property
+    def elastic(self) -> ElasticTwist | None:
+        """None for a blade that is rigid in torsion."""
+        return self.shown.elastic
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """Limits of validity that the solution exceeds; none where it is not in trim."""
+        return self.shown.caveats if self.converged else ()
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"

@@ -14,7 +14,7 @@ from rotor.trim.forward import first_guess, trim_along, trim_on_course
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
-from rotor.trim.reach import largest, stall_limit
+from rotor.trim.reach import largest, stall_limit, too_stalled
 from rotor.trim.solution import Solution, Status
 from rotor.trim.validity import MOST_STALLED, stalled_sentence
 
@@ -59,12 +59,12 @@ def analyse(
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     found = _trim_branch(require_design(design), start, options, freedoms)
     solution = found.solution
-    if not solution.converged or design.hovering or solution.stalled_moment <= stall_limit(found.linear.problem):
+    if not solution.converged or design.hovering or not too_stalled(found, stall_limit(found.linear.problem)):
         return found
     # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
     ends = largest(solution, options) if options.remedy else (None, None)
     sentence = stalled_sentence(design, solution.stalled_moment, *ends)
-    refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence, caveats=())
+    refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence)
     return Analysis(refused, found.linear)
 
 
@@ -102,7 +102,7 @@ def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOpti
 
 def is_suspect_branch(found: Analysis) -> bool:
     """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
-    return found.solution.stalled_moment > MOST_STALLED or not found.solution.converged
+    return not found.solution.converged or too_stalled(found, MOST_STALLED)
 
 
 def guess_of(design: Design, start: Start) -> Guess | None:

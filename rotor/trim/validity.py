@@ -22,7 +22,7 @@ from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import HubMoment
-from rotor.trim.solution import Caveat, Solution
+from rotor.trim.solution import Caveat, Shown, Solution
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -57,6 +57,8 @@ class CaveatInputs:
 
     problem: Problem
     solution: Solution
+    shown: Shown
+    """Without the caveats."""
 
     @property
     def design(self) -> Design:
@@ -154,7 +156,7 @@ def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
             f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}, but section data are steady: only "
             "the shed wake of a lifting line and pitch-rate damping respond to it."
         )
-    control_power = 0.0 if trim.solution.elastic is None else trim.solution.elastic.control_power
+    control_power = 0.0 if trim.shown.elastic is None else trim.shown.elastic.control_power
     if design.pitch_waves and abs(control_power) > CONTROL_SHARE * abs(power.main_rotor):
         found["control-power"] = (
             f"Pitch links and actuators feed {power_text(control_power, 1)} into the pitching blades; the power here "
@@ -218,19 +220,19 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     if design.hovering and loading > HOVER_CAUTION:
         found["blade-loading"] = (
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift limits the rotor, and computed "
-            f"power is too low. {_nearest_to_stall(trim.solution.disk.stall_margin, trim.problem.disk.r)}"
+            f"power is too low. {_nearest_to_stall(trim.shown.disk.stall_margin, trim.problem.disk.r)}"
         )
     return found
 
 
 def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
-    design, fields, disk = trim.design, trim.solution.disk, trim.problem.disk
-    found = dict[str, str]()
-    if trim.solution.stalled_area > STALL_SHARE:
+    design, fields, disk = trim.design, trim.shown.disk, trim.problem.disk
+    found, stalled = dict[str, str](), trim.shown.areas[1]
+    if stalled > STALL_SHARE:
         what = "section data are steady, without dynamic stall"
         if fields.unsteady is not None:
             what = "the lags of dynamic stall are those of a NACA 0012"
-        found["stall"] = f"{100.0 * trim.solution.stalled_area:.1f} % of the disk is stalled; {what}."
+        found["stall"] = f"{100.0 * stalled:.1f} % of the disk is stalled; {what}."
     if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
         found["no-dynamic-stall"] = (
             f"The inflow {design.models.inflow} balances the load at each point separately, which excludes dynamic "

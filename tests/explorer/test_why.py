@@ -28,7 +28,8 @@ def flown(
 
 
 def lifting(solution: Solution, dct: np.ndarray) -> Solution:
-    return replace(solution, disk=replace(solution.disk, dct=np.broadcast_to(dct, solution.disk.dct.shape)))
+    disk = replace(solution.disk, dct=np.broadcast_to(dct, solution.disk.dct.shape))
+    return replace(solution, find_shown=lambda _: replace(solution.shown, disk=disk))
 
 
 class TestWhereTheLiftIs:
