@@ -230,7 +230,7 @@ class PowerCurves:
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
                 # Drop the derivatives, which take much memory.
-                points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
+                points[k], values[:, k] = replace(point.start, box=None), _powers(point)
                 continue
             lost += 1
             if lost == 2 or (points and k in few):

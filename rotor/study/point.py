@@ -93,7 +93,7 @@ class WarmStarts:
         self._trims = [*self._trims, left][-_KEPT_TRIMS:]
         if len(self._trims) > _KEPT_FACTORS:
             late = self._trims[-_KEPT_FACTORS - 1]
-            self._trims[-_KEPT_FACTORS - 1] = replace(late, factors=None)
+            self._trims[-_KEPT_FACTORS - 1] = replace(late, box=None)
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:
         """What trims must share to learn from one another."""

@@ -26,7 +26,7 @@ from rotor.support.arrays import Array, ShortRepr
 from rotor.support.blas_threads import one_blas_thread
 from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.low_speed import HoverDifference, joined_hover
-from rotor.trim.newton import LinearisedTrim
+from rotor.trim.newton import FactorBox, LinearisedTrim
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
@@ -85,13 +85,21 @@ class ElementSlopes:
         return [np.broadcast_to(weight, shape) for weight in vars(self).values()]
 
 
+_FEW = 12
+"""Equations up to which what forces remember is formed for a gradient: products take longer. Our choice."""
+_MANY_PASSES = 8
+"""Passes of a trim beyond which its factors are too far: made at the trim they spare more passes later than they take.
+Our choice: with those of the blade as built a trim takes 10 passes, with its neighbour's own 6."""
+
+
 class _Linear:
     """A linearised trim with its factors: what every adjoint of one solution shares."""
 
-    def __init__(self, trim: LinearisedTrim, near: Factors | None = None) -> None:
-        """near: factors of a Jacobian nearby, of the same equations."""
+    def __init__(self, trim: LinearisedTrim, box: FactorBox | None = None, passes: int = 0) -> None:
+        """box: factors of a Jacobian nearby, of the same equations; passes: that the trim took with them."""
         self.trim, self.problem, self.point = trim, trim.problem, trim.point
-        self._near = near
+        self._box = FactorBox() if box is None else box
+        self._far = passes > _MANY_PASSES
 
     @property
     def elements(self) -> BladeElements:
@@ -113,10 +121,10 @@ class _Linear:
         """a of Jᵀ a = ∂(measure)/∂x, (equations,)."""
         point = self.point
         none = np.zeros(len(point.system.free))
-        if point.system.nodes is not None:
-            return self._by_iteration(transposed(point, none, measure)[0])
         if not len(none):
             return none
+        if point.system.nodes is not None or (point.memory is not None and len(none) > _FEW):
+            return self._by_iteration(transposed(point, none, measure)[0])
         factors, power = self._linearised
         slopes = power if measure.terms is self.power_terms else transposed(point, none, measure)[0]
         return factors.solve(slopes, transposed=True)
@@ -143,13 +151,18 @@ class _Linear:
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
         return by_pitch - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
+    @one_blas_thread()
     def _by_iteration(self, slopes: Array) -> Array:
-        """J⁻ᵀ times slopes, from factors nearby; where there are none, or too far ones, solved directly."""
-        near = self._near
-        solution = solve_transposed(self.point, slopes, near) if near is not None and near.usable else None
-        if solution is None:
-            solution = np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
-        return solution
+        """J⁻ᵀ times slopes, from factors nearby; from those made here where these are too far; else directly."""
+        kept = self._box
+        if kept.factors is not None and kept.factors.usable and (kept.at_trim or not self._far):
+            found = solve_transposed(self.point, slopes, kept.factors)
+            if found is not None:
+                return found
+        if not kept.at_trim:
+            kept.factors, kept.at_trim = Factors.of(self.point.forgetful), True
+            return self._by_iteration(slopes)
+        return np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
 
     def measure(self, weights: ElementSlopes) -> MeasureSlopes:
         """Weights as the engine takes them; in annuli U_T and U_P follow the inflow that they balance by themselves."""
@@ -176,7 +189,7 @@ class Adjoint(_Linear):
         """Of `rotor.trim.Analysis`."""
         self.solution, start = solution, solution.start
         same = start.structure == linear.point.system.structure.name
-        super().__init__(linear, start.factors if same else None)
+        super().__init__(linear, start.box if same else None, solution.passes)
 
     def by_pitch(self, weights: ElementSlopes | Terms) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,).

@@ -285,7 +285,7 @@ def _continue(
         if before is not None:  # Along the secant through the last two trims.
             guess, last = state.array(), before[1].state.array()
             state = TrimState.from_array(guess + (guess - last) * (ahead - t) / (t - before[0]))
-        result = newton(near, replace(latest[1].guess, state=state, factors=None), following)
+        result = newton(near, replace(latest[1].guess, state=state, box=None), following)
         passes += result.passes
         follows = result.converged and not _hangs_under_its_wake(near, result)
         if follows and (ahead == 1.0 or stalled_parts(near, result.linear.elements)[1] <= most_stalled):

@@ -86,7 +86,7 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool 
         return None
     if not design.models.bending:
         design = replace(design, models=replace(design.models, bending=True))
-        trim = solve(design, replace(trim.solution.start, factors=None))
+        trim = solve(design, replace(trim.solution.start, box=None))
         if not trim.solution.converged:
             return None
     _, values = terms_and_loads(trim.adjoint)

@@ -81,7 +81,7 @@ def analyse_in_step(
     problems = [trim_problem(design) for design in designs]
     guesses = [guess_of(design, start) or built for design, start in zip(designs, starts, strict=True)]
     if guesses[0].factors is None:
-        guesses[0] = replace(guesses[0], factors=built.factors, structure=built.structure)
+        guesses[0] = replace(guesses[0], box=built.box, structure=built.structure)
     results = newton_together(problems, guesses, options)
     each = (time.perf_counter() - begin) / len(designs)
     trims = [None if result is None else assemble(result, time.perf_counter() - each) for result in results]

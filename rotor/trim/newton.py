@@ -56,6 +56,16 @@ class SolverOptions(SystemTolerances):
 DEFAULT_OPTIONS = SolverOptions()
 
 
+@dataclass(eq=False)
+class FactorBox:
+    """Factors for the first steps from a guess."""
+
+    factors: Factors | None = None
+    """Those of the steps that led to it, until slopes of its trim have them made there."""
+    at_trim: bool = False
+    """Whether they were made at its trim."""
+
+
 @dataclass(frozen=True, eq=False)
 class Guess:
     """The start of a trim, which a solution leaves for the next one."""
@@ -69,10 +79,14 @@ class Guess:
     """Nodes of an inflow that answers the load."""
     inflow_kind: Hashable = None
     """The inflow that they belong to."""
-    factors: Factors | None = None
-    """Factors of the last derivatives, for the first steps."""
+    box: FactorBox | None = None
     structure: Hashable = None
-    """The equations that they belong to."""
+    """The equations that its factors belong to."""
+
+    @property
+    def factors(self) -> Factors | None:
+        """Factors for the first steps."""
+        return None if self.box is None else self.box.factors
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,9 +158,8 @@ class TrimResult:
         state, twist, bending, inflow = parts_of(structure, self.point.x)
         modes = len(self.problem.given_torsion)
         elastic = twist.reshape(modes, -1).copy() if modes else None
-        return Guess(
-            state, elastic, bending.copy(), inflow.copy(), self.problem.inflow_terms.key, self.factors, structure.name
-        )
+        kind, box = self.problem.inflow_terms.key, FactorBox(self.factors)
+        return Guess(state, elastic, bending.copy(), inflow.copy(), kind, box, structure.name)
 
 
 def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:

@@ -80,7 +80,7 @@ def _reach(solution: Solution, name: str, easy: float, wanted: float, options: S
             return _stalled(near) - MOST_STALLED
         if value == wanted or options.asked_to_stop:
             return _UNTRIMMED_SHARE - MOST_STALLED
-        ahead = newton(problem_at(value), replace(near.guess, factors=None), few)
+        ahead = newton(problem_at(value), replace(near.guess, box=None), few)
         share = _stalled(ahead)
         if share <= MOST_STALLED:
             trims[value] = ahead

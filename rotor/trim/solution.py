@@ -208,12 +208,12 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "start": replace(self.start, factors=None, structure=None), "elements": None}
+        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "elements": None}
 
     def light(self) -> "Solution":
         """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
         when it is read; trims that start from it take more steps."""
-        return replace(self, start=replace(self.start, factors=None), elements=None)
+        return replace(self, start=replace(self.start, box=None), elements=None)
 
     @cached_property
     def shown(self) -> Shown:

@@ -79,7 +79,7 @@ def test_gradients_in_threads_are_those_alone() -> None:
     solutions = [rotor.solve(design).require() for design in designs]
 
     def gradient(solution: rotor.Solution) -> Array:
-        return power_gradient(replace(solution, start=replace(solution.start, factors=None))).by_element
+        return power_gradient(replace(solution, start=replace(solution.start, box=None))).by_element
 
     alone = [gradient(solution) for solution in solutions]
     begin = threading.Barrier(4)

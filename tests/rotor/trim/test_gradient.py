@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 from rotor import Design, FlightCondition, Solution, make_design, solve
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import TableTwist
+from rotor.engine.linearise import jacobian
 from rotor.optimisation import CONCEPTS
 from rotor.optimisation.objective import (
     POWERS,
@@ -22,6 +23,8 @@ from rotor.optimisation.objective import (
 )
 from rotor.trim import Analysis, SolverOptions, analyse, power_gradient
 from rotor.trim.adjoint import Adjoint, ElementSlopes
+from rotor.trim.newton import FactorBox
+from tests.solved import assert_same_trim
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
 RELATIVE = 1e-6
@@ -137,3 +140,20 @@ def test_any_measure_of_the_blade_elements(made: Design):
         slope = float((weights * (change[:, None] if name == "swirl" else change)).sum())
         found = adjoint.by_pitch(replace(ElementSlopes(), **{name: weights}))
         assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-10)
+
+
+@pytest.mark.parametrize("models", [{}, {"bending": True}, {"inflow": "pitt-peters"}], ids=str)
+def test_factors_made_at_a_trim_spare_passes_and_change_no_answer(models: dict[str, Any]) -> None:
+    """Beside the whole Jacobian with what forces remember, solved directly."""
+    trim = analyse(make_design(mu=0.2, twist="linear:-16", **models))
+    nearby, start = make_design(mu=0.2, twist="linear:-15.5", **models), trim.solution.start
+    without = solve(nearby, replace(start, box=FactorBox(start.factors)))
+    adjoint, point = trim.adjoint, trim.linear.point
+    matrix, power = jacobian(point, adjoint.total_terms)
+    exact = np.linalg.solve(matrix.T, power[0])
+    np.testing.assert_allclose(adjoint.of_total, exact, rtol=0.0, atol=1e-8 * np.abs(exact).max())
+    assert start.box is not None
+    assert start.box.at_trim
+    after = solve(nearby, trim.solution)
+    assert after.passes < without.passes
+    assert_same_trim(after, without)
