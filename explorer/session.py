@@ -30,13 +30,18 @@ from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
-from rotor.trim import DEFAULT_OPTIONS
+from rotor.trim import DEFAULT_OPTIONS, SolverOptions
 
 _log = logging.getLogger(__name__)
 _STILL = 0.25
 """[s] without a change after which nothing is dragged; less would delay the frames of keys pressed one by one."""
 _DRAGGED = 0.5
 """[s] between two updates within a drag, at most."""
+MOVING = SolverOptions(
+    residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
+    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
+)  # fmt: skip
+"""While a slider moves: the same equations, solved to the digits that are shown."""
 
 
 class Session:
@@ -54,6 +59,8 @@ class Session:
         self._curves = PowerCurves()
         self._begun = -math.inf
         """When the last update began."""
+        self._rough = self._settling = False
+        """Whether the latest solution is one of a moving slider; whether the next update solves it to the end."""
         # A link with A wakes it before the page is whole.
         self._worker = NewestWins(self._update, self._failed, held=True)
         self._client = client
@@ -77,8 +84,10 @@ class Session:
         """One slider step up to its frame; returns the steps that follow, None where only the blade was turned."""
         before, self._begun = self._begun, time.monotonic()
         everything, self._all_changed = self._all_changed, False
+        dragged = self._begun - before < _DRAGGED
+        to_the_end, self._settling = not dragged or self._settling, False
         now, design = self._read()
-        solution = self._solve(now, design)
+        solution = self._solve(now, design, to_the_end)
         if solution is None:
             return iter(())
         page, pinboard, view = self.page, self.page.context.pinboard, now.view
@@ -99,7 +108,7 @@ class Session:
         page.show(now, "address")
         if UPDATES.busy:  # The number goes with the frame: charts wait for those of other pages, and for their sweeps.
             page.show(now, "number")
-        return self._in_turn(self._follow(state, self._begun - before < _DRAGGED))
+        return self._in_turn(self._follow(state, dragged))
 
     @staticmethod
     def _in_turn(steps: Iterator[float]) -> Iterator[float]:
@@ -123,16 +132,21 @@ class Session:
         preview = self.page.optimise.preview(sliders) if design == sliders else None
         return replace(now, sliders=sliders, preview=preview), preview or design
 
-    def _solve(self, now: PageState, design: Design | None) -> Solution | None:
-        """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""
+    def _solve(self, now: PageState, design: Design | None, to_the_end: bool) -> Solution | None:
+        """Design → converged solution; None if there is none, or if the sliders were moved meanwhile.
+
+        A design is refused only by a trim that was solved to the end.
+        """
         if design is None:
             self._latest = None
-        elif self._latest is None or self._latest.design != design:
-            options = replace(DEFAULT_OPTIONS, stop=self._overtaken)
-            answer = self.page.context.analyses.solve(design, self._good, options)
-            if not answer.converged and self._overtaken():
-                return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-            self._latest = answer
+        elif self._latest is None or self._latest.design != design or (self._rough and to_the_end):
+            for options in (DEFAULT_OPTIONS,) if to_the_end else (MOVING, DEFAULT_OPTIONS):
+                answer = self.page.context.analyses.solve(design, self._good, replace(options, stop=self._overtaken))
+                if not answer.converged and self._overtaken():
+                    return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
+                self._latest, self._rough = answer, options is MOVING
+                if answer.converged:
+                    break
         solution = self._latest
         inputs = now.inputs if now.preview is None else with_optimum(now.inputs, now.preview)
         if self.page.pin_or_swap(inputs, solution):
@@ -170,6 +184,10 @@ class Session:
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
+        if self._rough:
+            self._settling = True
+            self._wake()
+            return
         show("rest")
         yield 0.0
         show("kept")  # Before the power curve, since an early reload must find it.

@@ -1,11 +1,11 @@
 """How alike two trims are whose equations are the same."""
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 from numpy.testing import assert_allclose
 
 from rotor.trim.newton import DEFAULT_OPTIONS
-from rotor.trim.solution import Solution
+from rotor.trim.solution import Caveat, Solution
 
 SAME = 10.0 * DEFAULT_OPTIONS.residual_tolerance
 """Part of power by which two trims may differ that are solved apart, even with equal equations: processors sum in
@@ -18,3 +18,8 @@ def assert_same_trim(one: Solution, other: Solution) -> None:
     total = abs(other.require().power.total)
     assert_allclose(astuple(one.require().power), astuple(other.power), rtol=0.0, atol=SAME * total)
     assert_allclose(astuple(one.controls), astuple(other.controls), rtol=0.0, atol=SAME)
+
+
+def with_caveats(solution: Solution, *caveats: Caveat) -> Solution:
+    """The solution with other caveats."""
+    return replace(solution, find_shown=lambda _: replace(solution.shown, caveats=caveats))

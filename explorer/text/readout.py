@@ -148,7 +148,7 @@ def patch(colour: str) -> Markup:
 
 
 _TrimRow = tuple[str, str, int, str, Callable[[Solution], float | None]]
-_TRIM: dict[str, _TrimRow] = {
+TRIM_ROWS: dict[str, _TrimRow] = {
     "collective": ("Collective θ0", "θ0 [°]", 2, "°", lambda s: math.degrees(s.controls.collective)),
     "shaft_tilt": ("Shaft tilt α", "α [°]", 2, "°", lambda s: math.degrees(s.controls.shaft_tilt)),
     "cyclic_1c": ("Cyclic θ1c", "θ1c [°]", 2, "°", lambda s: math.degrees(s.controls.cyclic_1c)),
@@ -190,7 +190,7 @@ def _elastic(solution: Solution, read: Callable[[ElasticTwist], float]) -> float
 def _trim_rows(solution: Solution) -> list[tuple[str, _TrimRow]]:
     """With the measure of efficiency that the flight has."""
     other = "lift_to_drag" if solution.design.hovering else "figure_of_merit"
-    return [(key, row) for key, row in _TRIM.items() if key != other]
+    return [(key, row) for key, row in TRIM_ROWS.items() if key != other]
 
 
 def trim_panel(solution: Solution) -> Markup:

@@ -75,9 +75,8 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
 @one_blas_thread()
 def shown_of(solution: Solution) -> Shown:
     """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
-    problem, elements = problem_of(solution), solution.elements
-    if elements is None:
-        elements = Analysis(solution).linear.elements
+    problem = problem_of(solution)
+    elements: BladeElements = solution.elements or Analysis(solution).linear.elements
     asked = as_asked(problem, elements)
     fields = _fields(*asked)
     seen = areas(asked[0].disk, asked[1], fields.stall_margin)

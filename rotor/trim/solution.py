@@ -14,7 +14,7 @@ import numpy as np
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
 from rotor.aero.display import STALLED, pitch_of_alpha
-from rotor.aero.elements import BladeElements, TrimState, Unsteady
+from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.columns.blade import Freedom
@@ -194,8 +194,8 @@ class Solution:
     """[s]"""
     find_shown: Callable[["Solution"], Shown]
     """What `shown` is worked out by."""
-    elements: BladeElements | None = None
-    """The blade elements on the azimuths of the trim; None: they are evaluated once more for `shown`."""
+    elements: Any = None
+    """`BladeElements` on the azimuths of the trim; None: they are evaluated once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None

@@ -21,6 +21,7 @@ from explorer.text import readout
 from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
 from rotor import Caveat, Design, Solution, Status, make_design, solve
+from tests.solved import with_caveats
 
 QUICK = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
 """Where the physics does not matter."""
@@ -172,12 +173,12 @@ class TestReadOut:
 
     def test_cautions_say_whose_they_are_and_what_else_differs(self, a: Solution, along: Solution, b: Solution):
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
-        noted = cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
+        noted = cautions(with_caveats(b, stall, mach), with_caveats(along, stall))
         assert noted == ["Stalled.", "B: Fast."]
         assert "fly in different conditions" in cautions(b, a)[0]
         other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
         assert "different models" in cautions(b, other)[0]
-        assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]
+        assert cautions(with_caveats(b, stall), None) == ["Stalled."]
 
 
 class TestDisk:

@@ -1,5 +1,6 @@
 """The path of a slider step: what the session calls on its page, and in which order."""
 
+import math
 import threading
 import time
 from dataclasses import replace
@@ -13,12 +14,17 @@ from explorer.charts import plots
 from explorer.hosting.messages import PageFacts
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Analyses
+from explorer.model.sliders import SLIDERS
 from explorer.page import Urgency
-from explorer.session import Session
+from explorer.session import MOVING, Session
+from explorer.text.readout import TRIM_ROWS
 from explorer.views.page_state import PageState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
 from rotor import Design, Solution, solve
+from rotor.trim import DEFAULT_OPTIONS, SolverOptions, analyse
+from rotor.trim.solution import Status
 from tests.fake_bridge import Bridge
+from tests.solved import assert_same_trim
 
 
 class RecordingPage:
@@ -82,10 +88,10 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Session:
 
 
 def update(session: Session) -> Any:
-    """One update with all its steps, in which nothing supersedes it; the page with the calls of this update only."""
+    """One update after a rest, with all its steps, in which nothing supersedes it; the page with its calls only."""
     page: Any = session.page
     page.calls.clear()
-    session._all_changed = True
+    session._all_changed, session._begun = True, -math.inf
     steps = session._update()
     assert steps is not None
     for _ in steps:
@@ -149,6 +155,73 @@ def test_trim_that_does_not_converge_shows_its_own_sentence(session: Session):
     assert page.latest.problem == refused.message
     assert page.latest.state is None
     assert "draw" not in page.calls
+
+
+def moved_quickly(session: Session, **values: Any) -> Solution:
+    """A step of a drag, and what its frame shows; the steps that follow are done too."""
+    page: Any = session.page
+    page.inputs, session._begun, session._all_changed = replace(page.inputs, **values), time.monotonic(), True
+    steps = session._update()
+    assert steps is not None
+    for _ in steps:
+        pass
+    return session._latest or pytest.fail("no solution")
+
+
+def test_a_moving_slider_is_solved_to_the_digits_shown_and_at_rest_to_the_end(session: Session):
+    """The frame of the rest is one more update, which nobody asked for."""
+    page = update(session)
+    page.calls.clear()
+    moving = moved_quickly(session, mass_t=8.5)
+    assert page.calls[-1] == "tabs"
+    whole = solve(moving.design)
+    assert moving.residual > 1e-10 >= whole.residual
+    session._begun = time.monotonic()
+    assert session._all_changed  # It has woken itself.
+    steps = session._update()
+    assert steps is not None
+    at_rest = page.frames[-1].solution
+    assert at_rest.design == moving.design
+    assert at_rest.residual <= 1e-10
+    assert_same_trim(at_rest, whole)
+    assert "rest" in [page.calls[-1] for _ in steps]
+    assert page.frames[-1].solution is page.latest.state.solution
+    assert not session._all_changed
+
+
+def test_a_moving_slider_refuses_only_what_is_solved_to_the_end(session: Session, monkeypatch: pytest.MonkeyPatch):
+    page, tried = update(session), list[float]()
+
+    def hardly(self: Analyses, design: Design, start: Solution | None, options: SolverOptions) -> Solution:
+        tried.append(options.residual_tolerance)
+        answer = analyse(design, start, options).solution
+        return replace(answer, status=Status.NOT_CONVERGED) if len(tried) == 1 else answer
+
+    monkeypatch.setattr(Analyses, "solve", hardly)
+    assert moved_quickly(session, mass_t=8.6).converged
+    assert tried == [MOVING.residual_tolerance, DEFAULT_OPTIONS.residual_tolerance]
+    assert "show_failure" not in page.calls
+
+
+def test_no_digit_changes_when_a_slider_comes_to_rest():
+    """Every slider: what a moving trim misses is less than a hundredth of the last digit shown."""
+    begun, tried = Inputs(), 0
+    start = solve(begun.design())
+    for name, slider in SLIDERS.items():
+        if not isinstance(value := getattr(begun, name, None), float):
+            continue
+        for law in ("two", "three") if "_" in name else ("linear",):
+            changed = replace(begun, law=law, **{name: value + 0.2 * slider.natural})
+            moving = analyse(changed.design(), start, MOVING).solution.require()
+            rest = solve(changed.design(), moving)
+            assert moving.power.total == pytest.approx(rest.power.total, rel=1e-6)
+            for key, (_, _, digits, _, read) in TRIM_ROWS.items():
+                one, other = read(moving), read(rest)
+                assert (one is None) == (other is None), (name, key)
+                if one is not None and other is not None:
+                    assert abs(one - other) < 0.01 * 10.0**-digits, (name, key)
+            tried += 1
+    assert tried > 12
 
 
 def test_azimuth_alone_updates_little(session: Session):

@@ -22,6 +22,7 @@ from rotor import Caveat, Design, Solution, Status, make_design, solve
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.design.twist import LinearTwist
 from rotor.validation.trust import KINDS, trust_rows
+from tests.solved import with_caveats
 
 LINEAR = Inputs(law="linear", linear=-8.0).design()
 
@@ -80,7 +81,7 @@ class TestReadout:
         assert 'data-kind="problem"' in html
         assert "Not trimmed: too heavy. Greyed: last converged solution" in html
         assert "choose less. Greyed" in status_panel(None, "too much: choose less")
-        noted = status_panel(replace(cruise, caveats=(Caveat("a", "Read <this> with care."),)))
+        noted = status_panel(with_caveats(cruise, Caveat("a", "Read <this> with care.")))
         assert "Read &lt;this&gt; with care." in noted
         assert 'data-kind="converged"' in noted
 
