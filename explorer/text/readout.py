@@ -64,12 +64,6 @@ def _panel(solution: Solution, reference: PowerBudget | None, words: Content, ta
     )
 
 
-def open_drag_area(design: Design) -> tuple[float, float] | None:
-    """Lowest and highest drag area [m²] that the sources allow; None where they give one, in hover and on a stand."""
-    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
-    return design.fuselage.drag_area_band if flies else None
-
-
 def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
     """The total in both units of power, and its change."""
     total = units.power[0].text(power.total, fineness(power, units))

@@ -1,4 +1,4 @@
-"""Series of trims of one design: over speed, between drag areas, and with physical effects switched on one by one.
+"""Series of trims of one design: over speed, and with physical effects switched on one by one.
 
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
@@ -457,16 +457,3 @@ def waterfall(design: Design) -> Waterfall:
     """All switches on one after another, then each one off alone; a trim for each."""
     steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
     return Waterfall(steps[:on], steps[on:])
-
-
-def between_drag_areas(solution: Solution) -> tuple[Solution, Solution] | None:
-    """A flight with the lowest and the highest drag area that the sources of the airframe allow.
-
-    None in hover, on a test stand, where the rotor file states one value only, and where one of the two does not trim.
-    """
-    design, band = solution.design, solution.design.fuselage.drag_area_band
-    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
-    if band is None or not flies or not solution.converged:
-        return None
-    low, high = (solve(replace(design, fuselage=replace(design.fuselage, drag_area=area)), solution) for area in band)
-    return (low, high) if low.converged and high.converged else None
