@@ -69,7 +69,6 @@ def power_change_chart(
         Axis("µ", (0.0, SWEEP[-1])),
         Axis(f"{unit.symbol} vs. {reference}", held_range(previous, min(-2.0, *seen), max(2.0, *seen))),
         (line, *hover, now_dot(mu, now)),
-        value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
         note=autorotation_words(curve),
     )
 

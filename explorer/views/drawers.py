@@ -21,10 +21,15 @@ def details(now: PageState) -> dict[str, Any]:
     if state is None:
         return {}
     solution, pinned = state.solution, state.pinned
+    band, current = now.latest(asked[0]) if (asked := shown_doubt(now)) else (None, False)
+    band = band if current else None
     if pinned is None:
-        tables = readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
+        tables = readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
     else:
-        tables = readout.compared_power_panel(solution, pinned, units), readout.compared_trim_panel(solution, pinned)
+        tables = (
+            readout.compared_power_panel(solution, pinned, units, band),
+            readout.compared_trim_panel(solution, pinned),
+        )
     power, trim = map(readout.faded, tables) if now.problem else tables
     return {"details.power": power, "details.trim": trim}
 

@@ -25,6 +25,8 @@ from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
+from rotor.trim.analysis import Analysis
+from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.no_hub_loads import why_no_hub_loads
@@ -40,6 +42,7 @@ their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 POWERS = ("total", "main_rotor", *PARTS)
+_CHANGES = ("change_percent", "change_band_percent", "sureness")
 SHARED_COLUMNS = ("rotor", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
 """Columns of a sweep that are the same in all rows of one rotor at one weight and altitude."""
 
@@ -78,11 +81,11 @@ class SweepTable:
         if not self.reference:
             return columns
         place = columns.index("message")
-        return (*columns[:place], "change_percent", *columns[place:])
+        return (*columns[:place], *_CHANGES, *columns[place:])
 
     def relative_to(self, name: str) -> "SweepTable":
-        """This table with a column `change_percent`: total power relative to the rows of one design, which `plot_power`
-        then draws.
+        """This table with the columns `change_percent`, total power relative to the rows of one design, which
+        `plot_power` then draws, and `change_band_percent` and `sureness` as `rotor.doubt` has them.
 
         name: one of `labels`, or the SPEC of a twist that one of them alone has; ValueError for any other.
         """
@@ -105,6 +108,21 @@ class SweepTable:
         return tuple(100.0 * (power / own - 1.0) if power is not None and own else None for power, own in pairs)
 
     @property
+    def doubts(self) -> tuple[Doubt | None, ...]:
+        """How sure `changes` are; None where there is none, and for the rows of `reference` themselves."""
+        at, labels = _values(self.solutions, self.axis), self.labels
+        rows = list(zip(labels, at, map(Analysis, self.solutions), strict=True))
+        base = {place: one for label, place, one in rows if label == self.reference}
+
+        def known(one: Analysis | None) -> bool:
+            return one is not None and one.solution.converged and one.solution.design.models.trim != "free-rotor"
+
+        return tuple(
+            doubt(one, base[place]) if label != self.reference and known(one) and known(base.get(place)) else None
+            for label, place, one in rows
+        )
+
+    @property
     def axis(self) -> Quantity:
         """What was swept; where that is not known, what varies."""
         return SWEPT[self.over] if self.over in SWEPT else _swept(self.solutions)
@@ -118,10 +136,12 @@ class SweepTable:
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
         """One row per solution; None where a solution that did not converge has no power."""
         columns = self.columns
-        changes = self.changes if self.reference else [None] * len(self)
+        none = [None] * len(self)
+        changes, doubts = (self.changes, self.doubts) if self.reference else (none, none)
+        sure = [(None, None) if one is None else (one.change_band_percent, one.sureness) for one in doubts]
         return tuple(
-            tuple(map((_cells(solution, set(columns)) | {"change_percent": change}).get, columns))
-            for solution, change in zip(self.solutions, changes, strict=True)
+            tuple(map((_cells(solution, set(columns)) | dict(zip(_CHANGES, (change, *two), strict=True))).get, columns))
+            for solution, change, two in zip(self.solutions, changes, sure, strict=True)
         )
 
     def to_dict(self) -> dict[str, list[float | str | None]]:

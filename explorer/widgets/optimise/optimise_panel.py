@@ -199,7 +199,7 @@ class OptimisePanel:
         self._show_ranges(design)
         if run is None:
             return
-        self._result.content = text.result(run, units)
+        self._result.content = text.result(run)
         self._details.content = text.details(run)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
