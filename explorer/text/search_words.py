@@ -5,6 +5,8 @@ from explorer.model.units import SI, Units, number
 from explorer.text.readout import banded
 from rotor import Optimum
 from rotor.optimisation import Concept
+from rotor.optimisation.concept import Parameter
+from rotor.optimisation.results import ParameterBand
 from rotor.support.markup import Content, Markup, tag
 
 _EQUAL = 50.0
@@ -76,19 +78,25 @@ def result(run: SearchRun) -> Markup:
     return _block(parts)
 
 
-def details(run: SearchRun) -> Markup:
+def details(run: SearchRun, units: Units = SI) -> Markup:
     """What the optimum is made of, and how flat it is."""
     optimum = run.optimum
     if optimum is None or optimum.best is None:
         return Markup()
-    return _block(_optimum(optimum, run.concept), "details")
+    return _block(_optimum(optimum, run.concept, units), "details")
 
 
 def _block(parts: list[Markup], name: str = "found") -> Markup:
     return tag("div.rx.rx-found", parts, data_explorer=name) if parts else Markup()
 
 
-def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
+def _range(parameter: Parameter, band: ParameterBand) -> str:
+    digits = 1 if parameter.angular else 2
+    low, high = (number(parameter.shown(end), digits) for end in (band.low, band.high))
+    return f"{parameter.title.lower()} {low} … {high} {parameter.shown_unit}".rstrip()
+
+
+def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     best = optimum.best
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
@@ -109,6 +117,11 @@ def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
                 tag("td.rx-num.rx-dim", reach),
             )
         )
+    ranges = {band.parameter: band for band in optimum.doubt_band}
+    if ranges and optimum.doubt_cost is not None:
+        moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
+        notes.append(f"With other inputs or inflow: {moved}.")
+        notes.append(f"The best twist then would need about {units.watts(optimum.doubt_cost, 1)} less than this one.")
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:
