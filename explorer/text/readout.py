@@ -56,24 +56,20 @@ def _panel(
     solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units, band: Doubt | None
 ) -> Markup:
     """`words`: below the total, what it is and what it is compared with."""
+    power = solution.power
+    total = units.power[0].text(power.total, fineness(power, units))
     return tag(
         "div.rx",
-        total_line(solution.power, reference, units, band),
+        tag(
+            "div.rx-line.rx-base",
+            tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
+            tag("span.rx-dim", units.other_watts(power.total)),
+            tag("span.rx-push", change(power, reference, band), title=tip("change")),
+        ),
         tag("div.rx-line.rx-dim", words, title=tip("change")),
         table,
         ideal_line(solution, ideal_induced(solution), units),
         data_explorer="power",
-    )
-
-
-def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units, band: Doubt | None) -> Markup:
-    """The total in both units of power, and its change."""
-    total = units.power[0].text(power.total, fineness(power, units))
-    return tag(
-        "div.rx-line.rx-base",
-        tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
-        tag("span.rx-dim", units.other_watts(power.total)),
-        tag("span.rx-push", change(power, reference, band), title=tip("change")),
     )
 
 
@@ -279,14 +275,10 @@ def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | Non
     return tag("tr", tag("td", title), [tag("td.rx-num", value) for value in values], class_=kind, title=tooltip)
 
 
-def digits_of(power: float, units: Units) -> int:
-    """Decimals of a power [W] in the main unit: models do not agree to a tenth."""
-    return 0 if round(abs(units.power[0].of(power)), 1) >= 10.0 else 1
-
-
-def _digits_with(power: float, band: float | None, units: Units) -> int:
-    """Decimals of a change of power [W] beside its band [W]."""
-    unit, digits = units.power[0], digits_of(power, units)
+def digits_of(power: float, units: Units, band: float | None = None) -> int:
+    """Decimals of a power [W] in the main unit, of a change also beside its band: models do not agree to a tenth."""
+    unit = units.power[0]
+    digits = 0 if round(abs(unit.of(power)), 1) >= 10.0 else 1
     return digits if band is None else change_decimals(unit.of(power), unit.of(band), digits)
 
 
@@ -297,7 +289,7 @@ def balance(
 
     savings: as `Verdict.savings`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    digits = _digits_with(sum(power for _, power in savings), band, units)
+    digits = digits_of(sum(power for _, power in savings), units, band)
     exact = [-units.power[0].of(power) for _, power in savings]
     names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
     written = adding(exact, digits)
@@ -314,7 +306,7 @@ def needs(verdict: Verdict, units: Units) -> str:
 
 def needs_words(net: float, band: float | None, units: Units) -> str:
     """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more`."""
-    unit, digits = units.power[0], _digits_with(net, band, units)
+    unit, digits = units.power[0], digits_of(net, units, band)
     size = number(abs(unit.of(net)), digits)
     if band is not None:
         size += f" ± {number(unit.of(band), digits)}"

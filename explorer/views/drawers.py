@@ -21,8 +21,7 @@ def details(now: PageState) -> dict[str, Any]:
     if state is None:
         return {}
     solution, pinned = state.solution, state.pinned
-    band, current = now.latest(asked[0]) if (asked := shown_doubt(now)) else (None, False)
-    band = band if current else None
+    band = now.answers.get(shown_doubt(now)[0].key)
     if pinned is None:
         tables = readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
     else:

@@ -1,9 +1,5 @@
-"""What a step of each slider changes, and how sure that is. Of the twist exactly, from one adjoint; of the flight by
-differences of trims.
-
-The band of a step of twist is that of two designs a step apart. A step of the flight changes all parts of the power, so
-its band is the part of it that the power's own is of the power.
-"""
+"""What a step of each slider changes: of the twist exactly, from one adjoint, with the band of two designs a step
+apart; of the flight by differences of trims, with the band of power in proportion, because all its parts change."""
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -44,9 +40,9 @@ def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
     def of_steps(superseded: Callable[[], bool], tell: Tell) -> Mapping[str, float] | None:
         return step_bands(state.inputs, analyses.of(solution), superseded)
 
-    known = state.inputs.design() == solution.design
-    steps = (PanelWork("twist-steps", (solution.design,), of_steps),) if known else ()
-    return of_twist, PanelWork("flight-slopes", (solution.design,), of_flight), *steps
+    works = of_twist, PanelWork("flight-slopes", (solution.design,), of_flight)
+    alike = state.inputs.design() == solution.design
+    return (*works, PanelWork("twist-steps", (solution.design,), of_steps)) if alike else works
 
 
 def step_bands(inputs: Inputs, here: Analysis, superseded: Callable[[], bool]) -> Mapping[str, float] | None:
@@ -86,31 +82,27 @@ def worth(now: PageState) -> dict[str, Any]:
         for name, one in twist_sensitivities(state.inputs, gradient).items():
             rows[name] = worth_row(one, now.units, bands.get(name), stale=not of_now)
     for name, one in (flight or {}).items():
-        rows[name] = worth_row(one, now.units, part and part * abs(one.watts()), stale=not flight_of_now)
+        rows[name] = worth_row(one, now.units, part and part * abs(one.watts(now.units)), stale=not flight_of_now)
     return {"worth": rows}
 
 
-def worth_row(
-    sensitivity: SliderSensitivity, units: Units, band: float | None = None, *, stale: bool = False
-) -> SliderSaving:
+def worth_row(one: SliderSensitivity, units: Units, band: float | None = None, *, stale: bool = False) -> SliderSaving:
     """The change of power by a step up, with its sign and band [W], and which way saves unless that is unclear."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
-    way = ways[sensitivity.saving_direction(units)]
-    value = sensitivity.value_text(units) if way else "no effect"
-    title = SLIDERS[sensitivity.name].label.partition(" [")[0]
-    step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
+    way = ways[one.saving_direction(units)]
+    value = one.value_text(units) if way else "no effect"
+    title = SLIDERS[one.name].label.partition(" [")[0]
+    step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
-    change = sensitivity.watts(units)
+    change = one.watts(units)
     said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=1, sign=True)
     sentence = f"{title}: {step} more changes power by {said if way else f'less than 0.05 {units.power[0].symbol}'}."
     if way and band is not None and sureness(change, band) == "unclear":
-        way, value = "", f"{value} {sensitivity.unit_text(units)}"
+        way, value = "", f"{value} {one.unit_text(units)}"
     elif way:
         sentence += f" A {'higher' if way == 'up' else 'lower'} value saves power."
-    size = abs(units.power[0].of(sensitivity.watts()))
-    return SliderSaving(
-        way, value, sensitivity.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale
-    )
+    size = abs(units.power[0].of(one.watts()))
+    return SliderSaving(way, value, one.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale)
 
 
 WORTH = Panel(worth, works=slopes_asked)

@@ -254,12 +254,8 @@ def judge(
     known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
     flown, still, own, other, loaded = ([known[id(trim)] for trim in trims] for trims in blades)
     alike = own == other or against == "best-fixed"
-    steps = {
-        "blade": (own, other),
-        "gross": (flown, still if alike else other),
-        "stiffness": (still, own),
-        "mass": (loaded, flown),
-    }
+    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    steps |= {"stiffness": (still, own), "mass": (loaded, flown)}
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -298,23 +294,18 @@ def verdict_sentence(verdict: Verdict) -> str:
     parts = verdict.gross_saving, *(part for name, part in verdict.savings if name not in ("blade", "gross"))
     gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
+    sure = net_band_words(verdict) and f" ({net_band_words(verdict)})"
     if verdict.net_saving < MIN_SHOWN_W:
-        return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{_sure(verdict)}."
+        return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{_sure(verdict)}{but}."
-
-
-def _sure(verdict: Verdict) -> str:
-    words = net_band_words(verdict)
-    return f" ({words})" if words else ""
+    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
 
 
 def net_band_words(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    if band is None:
-        return ""
-    return f"± {kilowatt_text(band, _digits(verdict))}: {sureness(verdict.net_saving, band)}"
+    sure = None if band is None else f"± {kilowatt_text(band, _digits(verdict))}: {sureness(verdict.net_saving, band)}"
+    return sure or ""
 
 
 def _digits(verdict: Verdict) -> int:
@@ -362,8 +353,8 @@ def _savings(verdict: Verdict) -> str:
     if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost)}")
-    mass = part_words(verdict, "mass", -verdict.mass_cost)
-    parts.append(f"carrying {installed.masses.aircraft:.0f} kg {mass}")
+    mass = installed.masses.aircraft
+    parts.append(f"carrying {mass:.0f} kg {part_words(verdict, 'mass', -verdict.mass_cost)}")
     parts.append(f"its drive costs {kilowatt_text(verdict.drive_cost)}")
     ideal = part_words(verdict, "ideal", verdict.ideal_saving)
     return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {ideal}."

@@ -134,14 +134,11 @@ def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) 
     """Optima of other designs, from the same best twist."""
     other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
     found = [(name, design, run_search(replace(other, design=design))) for name, design in designs]
-    return tuple(
-        (name, optimum if optimum.best is None else _with_doubt(optimum, at_condition(design), design))
-        for name, design, optimum in found
-    )
+    return tuple((name, _with_doubt(optimum, at_condition(design), design)) for name, design, optimum in found)
 
 
 def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimum:
-    return replace(optimum, doubt=saving_doubt(objective, optimum.design, start))
+    return replace(optimum, doubt=optimum.best and saving_doubt(objective, optimum.design, start))
 
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:

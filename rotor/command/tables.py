@@ -81,12 +81,10 @@ def _sweep_column(name: str, level: bool, fine: int) -> Column:
     if name in ("status", "message"):
         return Column(key=name)
     head = None if level and name.startswith("climb") else name
-    if name == "twist":
+    if name in ("twist", "sureness"):
         return Column(head, LEFT, name)
     if name == "change_percent":
         return Column("change %", "+.2f", name, ".3f")
-    if name == "sureness":
-        return Column("sign", LEFT, name)
     if name.endswith("_kw"):
         return Column(head, f"z.{1 + fine}f", name, f"z.{2 + fine}f")
     shown = ".4g" if name in NUMBERS else ".1f" if name == "speed_kt" else ".2f"

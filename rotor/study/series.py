@@ -25,7 +25,6 @@ from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
-from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
@@ -110,16 +109,12 @@ class SweepTable:
     @property
     def doubts(self) -> tuple[Doubt | None, ...]:
         """How sure `changes` are; None where there is none, and for the rows of `reference` themselves."""
-        at, labels = _values(self.solutions, self.axis), self.labels
-        rows = list(zip(labels, at, map(Analysis, self.solutions), strict=True))
-        base = {place: one for label, place, one in rows if label == self.reference}
-
-        def known(one: Analysis | None) -> bool:
-            return one is not None and one.solution.converged and one.solution.design.models.trim != "free-rotor"
-
+        power = [one.converged and one.design.models.trim != "free-rotor" for one in self.solutions]
+        rows = list(zip(self.labels, _values(self.solutions, self.axis), power, self.solutions, strict=True))
+        base = {place: one for label, place, has, one in rows if has and label == self.reference}
         return tuple(
-            doubt(one, base[place]) if label != self.reference and known(one) and known(base.get(place)) else None
-            for label, place, one in rows
+            doubt(one, base[place]) if has and place in base and label != self.reference else None
+            for label, place, has, one in rows
         )
 
     @property

@@ -55,7 +55,7 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
                 if (change := near.along_beddoes(0.01 * row.size)) is not None:
                     changes[WAKE_PATH] = change
                 else:
-                    changes[WAKE_SLOPE] = near.towards_beddoes(_STEP_SHARE) / _STEP_SHARE * 0.01 * row.size
+                    changes[WAKE_SLOPE] = near.change(near.along(_STEP_SHARE)) / _STEP_SHARE * 0.01 * row.size
         elif row.name not in _CHANGES:
             continue
         elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
@@ -89,16 +89,13 @@ class _PowerNearby:
 
     def along_beddoes(self, part: float) -> float | None:
         """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; None without a trim."""
-        there = newton(self._moved(part), self._guess)
+        there = newton(self.along(part), self._guess)
         if not there.converged:
             return None
         return (self._main(there.problem, there.point.z, there.point.q) - self._start) * self._gain
 
-    def towards_beddoes(self, part: float) -> float:
-        """The same [W] to first order."""
-        return self.change(self._moved(part))
-
-    def _moved(self, part: float) -> Problem:
+    def along(self, part: float) -> Problem:
+        """With the wake moved by that part."""
         return replace(self.problem, course=replace(self.problem.course, beddoes=part))
 
     def _difference(self, problem: Problem, there: Point) -> float:

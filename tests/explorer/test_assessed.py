@@ -120,7 +120,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
-    read("power over the flight", "(?:needs|saves) # ±", report)
+    read("power over the flight", ", it (?:needs|saves) # ±", report)
     found["power over the flight"].append(total.lstrip("+−"))
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
