@@ -175,11 +175,10 @@ class HistoryPanel:
             return tuple(self._kept)
 
     def show(self, state: SessionState | None) -> None:
-        """None: the inputs have no solution to compare with."""
-        solution = None if state is None else state.solution
+        del state  # What is kept does not depend on it.
         with self._lock:
             kept, units = tuple(self._kept), self._context.units
-            if self._drawn == (drawn := (kept, solution if kept else None, units)):
+            if self._drawn == (drawn := (kept, units)):
                 return
             self._drawn = drawn
         self._rows.content = tag("div.rx", kept_rows(kept, units))
