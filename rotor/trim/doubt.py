@@ -110,8 +110,9 @@ class Doubt:
     def sureness(self) -> str | None:
         """`sure`, `likely` or `unclear`: whether the sign of the change is known; None without a change."""
         change, band = self.change, self.change_band
-        none = change is None or band is None or max(abs(change), band) < self._least
-        return None if none else sureness(change, band)
+        if change is None or band is None or max(abs(change), band) < self._least:
+            return None
+        return sureness(change, band)
 
     @property
     def sentence(self) -> str:

@@ -101,9 +101,11 @@ class TestWords:
             assert part in words
         assert "nan" not in words.lower()
         assert run.start_power is not None
-        doubt = run.optimum.doubt
-        assert run.best.power - run.start_power == pytest.approx(doubt.change, abs=1.0)
-        said = banded(doubt.change, doubt.change_band, SI, least=1, sign=True)
+        saved, within = run.optimum.doubt.change, run.optimum.doubt.change_band
+        assert saved is not None
+        assert within is not None
+        assert run.best.power - run.start_power == pytest.approx(saved, abs=1.0)
+        said = banded(saved, within, SI, least=1, sign=True)
         assert said.startswith("−")
         assert said in search_text.headline(run)
 
