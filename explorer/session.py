@@ -197,8 +197,6 @@ class Session:
             yield 0.0
             show("rest", "kept", "deferred")
             yield 0.0
-            if self._curves.widen(design, self._overtaken):
-                show_with_curve("power")
 
     def _show_failure(self, now: PageState) -> None:
         """The last converged picture stays, grey, with the sentence."""

@@ -17,9 +17,9 @@ sign held for every input and model that was varied alone. The size did not.
 **Which twist law is best?** No clear winner: two or three segments, or a quadratic twist, save 0.2 to 0.3 % more than
 one linear twist that follows speed. One good fixed twist saves 0.3 to 0.4 % against −16°.
 
-**Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs 23 kW
-more than the best fixed twist: 14 kW for the twist of the blade as built, 9 kW for its mass. Unlimited twist would gain
-3 kW.
+**Which actuator pays?** None on the blade as it is: the best of 24 combinations of actuator and twist law costs
+23 ± 5 kW more than the best fixed twist (sure): 14 kW for the twist of the blade as built, 9 kW for its mass. Unlimited
+twist would gain 3 kW.
 
 How uncertain each number is: :doc:`uncertainty </guide/doubt>`. A difference between two twists is known better
 than power itself, although inflow models disagree about it.

@@ -8,7 +8,7 @@ from explorer.model.units import SI, Unit, Units, number
 from explorer.parts.results import Sureness
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.support.markup import Markup, tag
-from rotor.trim.doubt import Doubt, OtherModels, decimals
+from rotor.trim.doubt import Doubt, OtherModels, banded, decimals
 from rotor.validation import coverage
 
 _SQUARE_METRE = Unit("m²", 1.0)
@@ -47,20 +47,20 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         for row, size in sizes
         if size >= _LEAST_PART * longest
     ]
-    words = f"Other models: {'; '.join(_in_words(each, units) for each in models)}."
+    words = f"Other models: {'; '.join(_in_words(each, band, units) for each in models)}."
     if any(abs(each.power - band.power) > band.band for each in models):
         words += " At least one lies outside the band."
     with_others = tag("div.rx-dim", words) if models else Markup()
     return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
 
 
-def _in_words(beside: OtherModels, units: Units) -> str:
-    """`bending 1 368 kW, saves 2.3 %`."""
+def _in_words(beside: OtherModels, band: Doubt, units: Units) -> str:
+    """`bending 1 368 kW, saves 2.3 ± 0.7 %: sure`, with the band of the same change by the design's own model."""
     words = f"{beside.name} {units.watts(beside.power)}"
-    if beside.change is None:
+    if beside.change is None or band.change_band is None:
         return words
-    percent = 100.0 * beside.change / abs(beside.power - beside.change)
-    return f"{words}, {'saves' if percent <= 0.0 else 'costs'} {number(abs(percent), 1)} %"
+    percent, within = (100.0 * size / abs(beside.power - beside.change) for size in (beside.change, band.change_band))
+    return f"{words}, {'saves' if percent <= 0.0 else 'costs'} {banded(abs(percent), within, '%')}"
 
 
 def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:

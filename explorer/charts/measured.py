@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from explorer.charts.plots import Range, held_range
 from explorer.charts.strip import INK, now_dot, role_line
@@ -12,7 +12,6 @@ from explorer.model.units import Units, number
 from explorer.text.status import validated
 from rotor import Design, FlightCondition, Solution, solve
 from rotor.design import Stand
-from rotor.study.series import between_drag_areas
 from rotor.support.chart import Axis, Chart, Points
 from rotor.validation import Comparison, MeasuredSet, compare_point, design_at
 from rotor.validation.compare import ComparedPoint, quantity_of
@@ -160,21 +159,12 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
     return ", ".join(parts), source
 
 
-@dataclass(frozen=True)
-class ComputedPower:
-    """Computed main-rotor power in a measured flight [W]."""
-
-    power: float | None
-    """None where it does not trim."""
-    band: tuple[float, float] | None
-    """With the lowest and the highest drag area of the sources; None where they give one value."""
-
-
 class FlownPowers:
     """One session's: each flight is trimmed once for each choice of models."""
 
     def __init__(self) -> None:
-        self._computed: dict[Design, dict[str, ComputedPower]] = {}
+        self._computed: dict[Design, dict[str, float]] = {}
+        """Main-rotor power by case [W]; NaN where it does not trim."""
 
     def marks(self, solution: Solution, units: Units) -> Points | None:
         """The measured flights as far as their powers are computed; None unless the blade is that of the flights."""
@@ -190,7 +180,7 @@ class FlownPowers:
             INK,
             "ring",
             words=[
-                f"{flight_words(flight, known.get(flight.case) or _now(flight, solution), units)} Press to fly there."
+                f"{flight_words(flight, known.get(flight.case, _now(flight, solution)), units)} Press to fly there."
                 for flight in flights
             ],
             action="flown",
@@ -223,23 +213,18 @@ class FlownPowers:
                 return
             if flight.case not in known:
                 trimmed = solve(key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude))
-                ends, power = between_drag_areas(trimmed), trimmed.power.main_rotor if trimmed.converged else None
-                band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
-                known[flight.case] = ComputedPower(power, band)
+                known[flight.case] = trimmed.power.main_rotor if trimmed.converged else math.nan
         shown()
 
 
-def flight_words(measured: MeasuredPower, computed: ComputedPower | None, units: Units) -> str:
-    """A measured flight in words, with the computed power where it is known."""
+def flight_words(measured: MeasuredPower, computed: float | None, units: Units) -> str:
+    """A measured flight in words, with the computed power [W] where it is known; NaN where it does not trim."""
     words = f"{measured.title}. Main rotor: measured {units.watts(measured.power, 1)}"
-    if computed is not None and computed.power is None:
+    if computed is not None and math.isnan(computed):
         words += "; the computed case does not trim"
-    elif computed is not None and computed.power is not None:
-        percent = number(100.0 * (computed.power / measured.power - 1.0), 1, sign=True)
-        words += f", computed {units.watts(computed.power, 1)}, {percent} %"
-        low, high = (units.watts(end, 1) for end in computed.band or (0.0, 0.0))
-        if low != high:
-            words += f"; {low} to {high} for the drag areas of the sources"
+    elif computed is not None:
+        percent = number(100.0 * (computed / measured.power - 1.0), 1, sign=True)
+        words += f", computed {units.watts(computed, 1)}, {percent} %"
     return f"{words}."
 
 
@@ -262,5 +247,5 @@ def _any_flight(design: Design) -> Design:
     return replace(design, condition=FlightCondition(0.0, design.aircraft.mass))
 
 
-def _now(measured: MeasuredPower, solution: Solution) -> ComputedPower | None:
-    return ComputedPower(solution.power.main_rotor, None) if measured.same_flight(solution.design) else None
+def _now(measured: MeasuredPower, solution: Solution) -> float | None:
+    return solution.power.main_rotor if measured.same_flight(solution.design) else None

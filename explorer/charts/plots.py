@@ -18,7 +18,6 @@ from explorer.picture.polar import stall_angles
 from explorer.text.readout import ideal_induced
 from explorer.workers.newest_wins import UPDATES
 from rotor import Design, Solution, solve
-from rotor.study.series import between_drag_areas
 from rotor.support.arrays import Array
 from rotor.trim import Guess
 from rotor.trim.low_speed import passes_over, vortex_ring
@@ -71,8 +70,6 @@ _FEW = (0, 1, 3, 6, 9, 12, 15, 18)
 """Places in `SWEEP` computed first; a smooth line joins them where time is short."""
 _FEWEST = (0, 6, 12, 15, 18)
 """Places in `SWEEP` computed first where a like design's curve is known: a line joins the differences from it."""
-_BAND = (4, 8, 13, 18)
-"""Places in `SWEEP` at which the band between the drag areas is trimmed."""
 _KEPT = 200
 """Curves remembered per session."""
 
@@ -90,13 +87,10 @@ class PowerCurve:
     """Whether `design` has been swept; else it is the curve of the design before it."""
     main_rotor: Array | None = None
     """Main-rotor power of `design`, as flight tests measure it."""
-    band: Array | None = None
-    """Power of `design` with the lowest and the highest drag area of its sources, (2, speeds); None until it is known,
-    and where the sources give one value."""
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
         """The curve in a unit other than kW."""
-        powers = {name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor", "band")}
+        powers = {name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor")}
         factor = KILOWATT.size / unit.size
         return replace(self, **{name: factor * power for name, power in powers.items() if power is not None})
 
@@ -108,10 +102,6 @@ class PowerCurves:
         self._haste = haste
         self._curves: dict[Design, Array] = {}
         """(3, points): total, ideal and main-rotor power [kW]."""
-        self._bands: dict[Design, Array] = {}
-        """(2, points): change of total power with the lowest and the highest drag area [kW]."""
-        self._band: Design | None = None
-        """The last of these that was asked for."""
         self._coarse: set[Design] = set()
         """Curves swept coarsely, to be swept again once there is time."""
         self._last: Design | None = None
@@ -135,43 +125,8 @@ class PowerCurves:
         before = self._curves.get(last, blank) if last is not None and alike else blank
         family = _family(design)
         total, ideal, main_rotor = self._curves.get(family, before)
-        if family in self._bands:
-            self._band = family
-        # Until its own is trimmed, a curve has that of the design before it: during a drag it hardly changes.
-        near = self._band if self._band is not None and self._band.aircraft == design.aircraft else None
-        level = near is not None and near.unusual == design.unusual
-        band = total + self._bands[near] if near is not None and level and design.models.fuselage else None
         reference_total = self._curves.get(_family(reference), blank)[0]
-        return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor, band)
-
-    def widen(self, design: Design, superseded: Callable[[], bool]) -> bool:
-        """Find the band of a design's curve between the drag areas of its sources; whether there is more to draw.
-
-        Trimmed at a few speeds: between them the change of power over the cube of speed, which is nearly constant,
-        is a smooth line.
-        """
-        family = _family(design)
-        flies = design.condition.stand is None and design.models.fuselage
-        if family in self._bands or design.fuselage.drag_area_band is None or not flies:
-            return False
-        changes: dict[int, tuple[float, float]] = {}
-        for k in _BAND:
-            if superseded():
-                return False
-            at = family.at(mu=SWEEP[k])
-            if vortex_ring(at):
-                continue
-            point = solve(at, self._starts.get(k))
-            ends = between_drag_areas(point)
-            if ends is not None:
-                low, high = ((end.power.total - point.power.total) / 1e3 for end in ends)
-                changes[k] = low, high
-        if len(changes) < 2:
-            return False
-        if len(self._bands) >= _KEPT:
-            del self._bands[next(iter(self._bands))]
-        self._bands[family] = _over_speed(changes)
-        return True
+        return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor)
 
     def sweep(
         self,
@@ -256,15 +211,6 @@ def _powers(point: Solution) -> tuple[float, float, float]:
     ideal = None if slow else ideal_induced(point)
     least = math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
     return total, least, point.power.main_rotor / 1e3
-
-
-def _over_speed(changes: dict[int, tuple[float, float]]) -> Array:
-    """Changes of power over `SWEEP`, (2, points), from those at a few of its places; NaN beyond the last."""
-    mus, at = np.array(SWEEP), np.array(sorted(changes))
-    ratios = np.array([changes[k] for k in at.tolist()]) / mus[at, None] ** 3
-    inside = np.clip(mus, mus[at[0]], None)
-    line = PchipInterpolator(mus[at], ratios, extrapolate=False)(inside)
-    return np.asarray(line * mus[:, None] ** 3, dtype=np.float64).T
 
 
 def _bridged(values: Array, first: int, base: Array | None) -> Array:

@@ -9,7 +9,8 @@ import numpy as np
 
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
-from explorer.model.units import BLANK, SI, Units, number
+from explorer.model.units import SI, Units, number
+from explorer.text.readout import banded
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import FixedBlade
 from rotor import Optimum
@@ -126,15 +127,15 @@ def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
     )
     return tag(
         "table",
-        (
-            tag("tr", tag("td", name), tag("td.rx-num", units.watts(saved, 1)), tag("td.rx-num", _sure(band)))
-            for name, saved, band in rows
-        ),
+        (tag("tr", tag("td", name), tag("td.rx-num", _saved(saved, band, units))) for name, saved, band in rows),
     )
 
 
-def _sure(band: Doubt | None) -> str:
-    return BLANK if band is None else band.saving_words
+def _saved(power: float, band: Doubt | None, units: Units) -> str:
+    """A saving [W]; with its band once that is known."""
+    if band is None or band.change_band is None:
+        return units.watts(power, 1)
+    return banded(power, band.change_band, units, least=1)
 
 
 def csv_of(progress: ScheduleProgress) -> bytes:

@@ -15,7 +15,7 @@ from explorer.charts.plots import SWEEP, PowerCurve, Range, alpha_along, angles_
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor import Design, Solution
 from rotor.support.arrays import Array
-from rotor.support.chart import Axis, Band, Chart, Line, Points, Rule, Values
+from rotor.support.chart import Axis, Chart, Line, Points, Rule, Values
 
 Role = Literal["this", "reference", "pinned", "limit", "saving", "earlier", "flown"]
 """What a line stands for.
@@ -69,7 +69,6 @@ def power_change_chart(
         Axis("µ", (0.0, SWEEP[-1])),
         Axis(f"{unit.symbol} vs. {reference}", held_range(previous, min(-2.0, *seen), max(2.0, *seen))),
         (line, *hover, now_dot(mu, now)),
-        value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
         note=autorotation_words(curve),
     )
 
@@ -127,7 +126,6 @@ def total_power_chart(
         Axis("µ", (0.0, SWEEP[-1])),
         Axis(f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol, y_range),
         (
-            *([] if here.band is None else [Band("", mus, here.band[0], here.band[1], SAVING)]),
             *_mostly_seen(engines, y_range),
             *shaft,
             role_line(role, mus, power),

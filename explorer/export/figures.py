@@ -195,7 +195,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
 
 def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
-    rows = balance(verdict.savings, units)
+    rows = balance(verdict.savings, units, verdict.net_band)
     ends, reached = [], 0.0
     for k, (_, power, _) in enumerate(rows):
         start = 0.0 if k == len(rows) - 1 else reached

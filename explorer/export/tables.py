@@ -36,7 +36,7 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
-    words = f"{number(change, 1, sign=True)} {_band(report, entry).change_words or '%'}"
+    words = _band(report, entry).saving_words or f"{number(change, 1, sign=True)} %"
     return tag("span.change", words, class_=kind)
 
 
@@ -140,7 +140,7 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         return _table(title, [(name, f"± {unit.text(size, decimals(unit.of(size)))}") for name, size in sizes])
 
     power = causes("Uncertainty of power", "Power", lambda row: row.power)
-    if not band.change_words:
+    if band.sureness is None:
         return power
     return group(power, causes("Uncertainty of the change", f"Change: {band.sureness}", lambda row: row.change or 0.0))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from explorer.workers.background import WorkRecord
-from explorer.workers.solver import ReferencePower, StartPower
+from explorer.workers.solver import ReferenceSaving, StartPower
 from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
     CONCEPTS,
@@ -22,6 +22,7 @@ from rotor.optimisation import (
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
 from rotor.support.user_input import shorten
+from rotor.trim.doubt import Doubt
 
 MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
 """Advance ratio and hours of each leg."""
@@ -170,9 +171,9 @@ class SearchRun:
         return next((report.power for report in self.record.reports if isinstance(report, StartPower)), None)
 
     @property
-    def reference_power(self) -> float | None:
-        """Power of the reference design [W]; None while it is not known."""
-        return next((report.power for report in self.record.reports if isinstance(report, ReferencePower)), None)
+    def reference_doubt(self) -> Doubt | None:
+        """What the optimum saves over the reference design; None where that is the start, or not known."""
+        return next((report.doubt for report in self.record.reports if isinstance(report, ReferenceSaving)), None)
 
     @property
     def optimum(self) -> Optimum | None:

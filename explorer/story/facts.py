@@ -27,8 +27,9 @@ from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import try_actuator
 from rotor.actuator.verdict import net_band_words
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design import Harmonic, LinearTwist
-from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist, rung_design
+from rotor.design import Harmonic
+from rotor.optimisation.doubt import difference_doubt
+from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist
 
 Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
 ACTUATOR = "MFC_P1"
@@ -222,7 +223,7 @@ def _fast_twist(step: LectureStep) -> StepFacts:
     numbers = (
         _named(step, a, b)
         | _of("angle", trim_low=moves[0], trim_high=moves[-1])
-        | _of("fine", without_drag=1.0 - without[0].power.total / without[1].power.total)
+        | _said(without_drag=doubt(*without).saving_words)
     )
     facts = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
     stops = tuple(replace(stop, dots=tuple(at)) for stop, at in zip(facts.stops, dots, strict=True))
@@ -273,8 +274,6 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
     best = [linear_optimum(_BUILT, mu, None) for mu in SPEEDS]
     moving = moving_twist(_BUILT, SPEEDS, None)
     gains = [moving_twist(_BUILT, SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
-    baseline = rung_design(_BUILT, SPEEDS[0]).twist
-    assert isinstance(baseline, LinearTwist)
     fixed, rates = round(moving.fixed_deg, 2), tuple(round(twist.rate_deg, 2) for twist in best)
     low, high = zip(*(twist.band_deg for twist in best), strict=True)
 
@@ -283,17 +282,19 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
         return ControlStop(f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate)))
 
     stops = tuple(map(stop, SPEEDS, rates))
+    moved = [solve(each.inputs.design()) for each in stops]
+    held = [solve(each.against.design()) for each in stops if each.against is not None]
+    sure = difference_doubt((1.0 / len(stops),) * len(stops), moved, held)
     inside = sum(a <= fixed <= b for a, b in zip(low, high, strict=True))
     numbers = (
         _of("angle", hover_best=rates[0], fast_best=rates[-1])
         | _of("mu", fast_mu=SPEEDS[-1])
-        | _of("fine", gain=moving.gain, gain_low=min(gains), gain_high=max(gains))
-        | _of("fine", fixed_saving=1.0 - moving.fixed_kw / moving.baseline_kw)
+        | _of("fine", gain_low=min(gains), gain_high=max(gains))
+        | _said(saves="" if sure is None else sure.saving_words)
         | _of("count", wakes=len(gains), inside=inside, speeds=len(SPEEDS))
         | _of("power", gain_power=1e3 * moving.gain * moving.fixed_kw, fixed_power=1e3 * moving.fixed_kw)
         | _of("percent", band=_FLAT_SHARE)
         | _said(fixed=angle_words(round(fixed, 1)))
-        | _said(baseline=f"a fixed {angle_words(round(math.degrees(baseline.rate), 1))}")
     )
     lines = ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)
     chart = StepChart("advance ratio", "twist [°/R]", "angle", SPEEDS, "mu", lines, (low, high))
@@ -311,12 +312,13 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
         stops.append(ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
     last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
     powers, indices = zip(*changes, strict=True)
+    start = solve(front.start.design)
+    saves, costs = (doubt(solve(point.design, start), start).saving_words for point in (front.points[0], last))
     numbers = (
         _named(step, None, None)
         | _said(harmonics=" and ".join(map(str, _HARMONICS)), reach=f"{_REACH:g}°")
         | _of("count", blades=last.design.rotor.blades)
-        | _of("fine", power_saving=-powers[0], power_cost=powers[-1])
-        | _said(sure=doubt(solve(front.points[0].design), solve(front.start.design)).change_words)
+        | _said(saves=saves, costs=costs)
         | _of("signed", index_change=indices[0], best_index=indices[-1])
         | _of("signed", wakes_low=0.01 * ends[0], wakes_high=0.01 * ends[1])
     )
@@ -432,8 +434,8 @@ def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[st
         of_a, of_b = getattr(a.power, name), getattr(b.power, name)
         numbers |= _of("power", **{f"{name}_a": of_a, f"{name}_b": of_b})
         numbers |= _of("change", **{f"{name}_change": of_b - of_a})
-    numbers |= _of("power", saving=a.power.total - b.power.total) | _said(sure=doubt(b, a).change_words)
-    return numbers | _of("fine", saving_percent=1.0 - b.power.total / a.power.total)
+    numbers |= _of("power", saving=a.power.total - b.power.total) | _said(saves=doubt(b, a).saving_words)
+    return numbers
 
 
 def _of(kind: Kind, **values: float) -> dict[str, Number]:

@@ -16,7 +16,7 @@ from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
-from rotor.trim.doubt import sureness
+from rotor.trim.doubt import Doubt, change_decimals, sureness
 from rotor.trim.solution import ElasticTwist
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
@@ -39,7 +39,7 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: titles[name] for name in PARTS if name in titles}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> Markup:
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: Doubt | None = None) -> Markup:
     """Total power with its change, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
@@ -49,35 +49,27 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
         tag("span", "total power"),
         tag("span", f"vs. {baseline_title(solution.design, baseline and baseline.design)}"),
     )
-    return _panel(solution, reference, words, tag("table", rows), units)
+    return _panel(solution, reference, words, tag("table", rows), units, band)
 
 
-def _panel(solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units) -> Markup:
+def _panel(
+    solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units, band: Doubt | None
+) -> Markup:
     """`words`: below the total, what it is and what it is compared with."""
+    power = solution.power
+    total = units.power[0].text(power.total, fineness(power, units))
     return tag(
         "div.rx",
-        total_line(solution.power, reference, units),
+        tag(
+            "div.rx-line.rx-base",
+            tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
+            tag("span.rx-dim", units.other_watts(power.total)),
+            tag("span.rx-push", change(power, reference, band), title=tip("change")),
+        ),
         tag("div.rx-line.rx-dim", words, title=tip("change")),
         table,
         ideal_line(solution, ideal_induced(solution), units),
         data_explorer="power",
-    )
-
-
-def open_drag_area(design: Design) -> tuple[float, float] | None:
-    """Lowest and highest drag area [m²] that the sources allow; None where they give one, in hover and on a stand."""
-    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
-    return design.fuselage.drag_area_band if flies else None
-
-
-def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
-    """The total in both units of power, and its change."""
-    total = units.power[0].text(power.total, fineness(power, units))
-    return tag(
-        "div.rx-line.rx-base",
-        tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
-        tag("span.rx-dim", units.other_watts(power.total)),
-        tag("span.rx-push", change(power, reference), title=tip("change")),
     )
 
 
@@ -104,12 +96,14 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
     return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
 
 
-def change(power: PowerBudget, reference: PowerBudget | None) -> Markup:
-    """Change of the total [%]: green for less, rust for more; a dash without a reference."""
+def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None = None) -> Markup:
+    """Change of the total [%], with its band once that is known: green for less, rust for more; a dash without a
+    reference."""
     if reference is None or reference.total <= 0.0:
         return tag("span.rx-dim", BLANK)
     percent = 100.0 * (power.total / reference.total - 1.0)
-    words = f"{number(percent, 1, sign=True)} %"
+    words = "" if band is None else band.saving_words
+    words = words or f"{number(percent, 1, sign=True)} %"
     return tag("span.rx-change", words, class_=direction(percent), data_explorer="change")
 
 
@@ -226,7 +220,7 @@ def faded(html: Markup) -> Markup:
     return tag("div.rx-faded", html)
 
 
-def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> Markup:
+def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: Doubt | None = None) -> Markup:
     """Total power with its change relative to A, and the parts of both.
 
     Where A has no trim it shows dashes.
@@ -242,7 +236,7 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
     compared = tag("span", "vs. " if reference else None, _name("A"), against)
     words = tag("span", "total power of ", _name("B")), compared
-    return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units)
+    return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units, band)
 
 
 def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
@@ -281,17 +275,21 @@ def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | Non
     return tag("tr", tag("td", title), [tag("td.rx-num", value) for value in values], class_=kind, title=tooltip)
 
 
-def digits_of(power: float, units: Units) -> int:
-    """Decimals of a power [W] in the main unit: models do not agree to a tenth."""
-    return 0 if round(abs(units.power[0].of(power)), 1) >= 10.0 else 1
+def digits_of(power: float, units: Units, band: float | None = None) -> int:
+    """Decimals of a power [W] in the main unit, of a change also beside its band: models do not agree to a tenth."""
+    unit = units.power[0]
+    digits = 0 if round(abs(unit.of(power)), 1) >= 10.0 else 1
+    return digits if band is None else change_decimals(unit.of(power), unit.of(band), digits)
 
 
-def balance(savings: Sequence[tuple[str, float]], units: Units) -> list[tuple[str, float, str]]:
+def balance(
+    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None
+) -> list[tuple[str, float, str]]:
     """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up.
 
-    savings: as `Verdict.savings`.
+    savings: as `Verdict.savings`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    digits = digits_of(sum(power for _, power in savings), units)
+    digits = digits_of(sum(power for _, power in savings), units, band)
     exact = [-units.power[0].of(power) for _, power in savings]
     names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
     written = adding(exact, digits)
@@ -308,12 +306,20 @@ def needs(verdict: Verdict, units: Units) -> str:
 
 def needs_words(net: float, band: float | None, units: Units) -> str:
     """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more`."""
-    unit, digits = units.power[0], digits_of(net, units)
+    unit, digits = units.power[0], digits_of(net, units, band)
     size = number(abs(unit.of(net)), digits)
     if band is not None:
-        size += f" ± {number(math.ceil(10.0**digits * unit.of(band)) / 10.0**digits, digits)}"
+        size += f" ± {number(unit.of(band), digits)}"
     words = f"saves {size} {unit.symbol}" if net > 0.0 else f"needs {size} {unit.symbol} more"
     return words if band is None else f"{words} ({sureness(net, band)})"
+
+
+def banded(change: float, band: float, units: Units, *, least: int = 0, sign: bool = False) -> str:
+    """A change of power [W] with its band [W] and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
+    unit = units.power[0]
+    digits = change_decimals(unit.of(change), unit.of(band), least)
+    size, within = number(unit.of(change), digits, sign=sign), number(unit.of(band), digits)
+    return f"{size} ± {within} {unit.symbol}: {sureness(change, band)}"
 
 
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:

@@ -2,8 +2,11 @@
 
 from explorer.model.search_run import SearchRun
 from explorer.model.units import SI, Units, number
+from explorer.text.readout import banded
 from rotor import Optimum
 from rotor.optimisation import Concept
+from rotor.optimisation.concept import Parameter
+from rotor.optimisation.results import ParameterBand
 from rotor.support.markup import Content, Markup, tag
 
 _EQUAL = 50.0
@@ -24,8 +27,8 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     return tag(
         "div.rxp-big",
         tag("b", units.watts(best.power, 1), data_explorer="best"),
-        tag("em", None if change is None else units.watts(change, 1, sign=True), class_=kind),
-        tag("div.rx-dim", mean, _against_start(best.power, run.start_power)),
+        tag("em", None if change is None else _moved(change, run.optimum, units), class_=kind),
+        tag("div.rx-dim", mean, "" if run.start_power else "; the starting design has no trim"),
     )
 
 
@@ -51,13 +54,13 @@ def _where(run: SearchRun) -> str:
     return run.record.words(running, "best so far is kept" if run.best else "nothing found yet")
 
 
-def _against_start(power: float, start: float | None) -> str:
-    if not start or start <= 0.0:
-        return "; the starting design has no trim"
-    return f", {number(100.0 * (power / start - 1.0), 2, sign=True)} % vs. start"
+def _moved(change: float, optimum: Optimum | None, units: Units) -> str:
+    """The change from the start [W]; with its band once the search has ended."""
+    band = None if optimum is None or optimum.doubt is None else optimum.doubt.change_band
+    return units.watts(change, 1, sign=True) if band is None else banded(change, band, units, least=1, sign=True)
 
 
-def result(run: SearchRun, units: Units = SI) -> Markup:
+def result(run: SearchRun) -> Markup:
     """What the best so far saves against what is not the starting design; or why there is none."""
     best = run.best
     parts: list[Markup] = []
@@ -69,38 +72,31 @@ def result(run: SearchRun, units: Units = SI) -> Markup:
         return _block(parts)
     if run.optimum is not None and run.optimum.doubt is not None:
         parts.append(tag("div", run.optimum.doubt.sentence, data_explorer="sure"))
-    if run.reference_power != run.start_power:
-        parts.append(tag("table", _saving(run.record.task.reference_title, best.power, run.reference_power, units)))
+    if run.reference_doubt is not None:
+        words = f"Against {run.record.task.reference_title} it {run.reference_doubt.saving_words}."
+        parts.append(tag("div", words, data_explorer="sure-reference"))
     return _block(parts)
 
 
-def details(run: SearchRun) -> Markup:
+def details(run: SearchRun, units: Units = SI) -> Markup:
     """What the optimum is made of, and how flat it is."""
     optimum = run.optimum
     if optimum is None or optimum.best is None:
         return Markup()
-    return _block(_optimum(optimum, run.concept), "details")
+    return _block(_optimum(optimum, run.concept, units), "details")
 
 
 def _block(parts: list[Markup], name: str = "found") -> Markup:
     return tag("div.rx.rx-found", parts, data_explorer=name) if parts else Markup()
 
 
-def _saving(title: str, power: float, reference: float | None, units: Units) -> Markup:
-    if reference is None or reference <= 0.0:
-        return tag("tr", tag("td.rx-dim", title), tag("td.rx-num", "has no trim"), tag("td"))
-    less = power <= reference
-    percent = 100.0 * (power / reference - 1.0)
-    kind = "" if abs(percent) < 0.005 else "rx-less" if less else "rx-more"
-    return tag(
-        "tr",
-        tag("td.rx-dim", "saving vs. " if less else "above ", title),
-        tag("td.rx-num", units.watts(abs(power - reference), 1)),
-        tag("td.rx-num", f"{number(abs(percent), 2)} %", class_=kind, style="width:26%"),
-    )
+def _range(parameter: Parameter, band: ParameterBand) -> str:
+    digits = 1 if parameter.angular else 2
+    low, high = (number(parameter.shown(end), digits) for end in (band.low, band.high))
+    return f"{parameter.title.lower()} {low} … {high} {parameter.shown_unit}".rstrip()
 
 
-def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
+def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     best = optimum.best
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
@@ -121,6 +117,11 @@ def _optimum(optimum: Optimum, concept: Concept) -> list[Markup]:
                 tag("td.rx-num.rx-dim", reach),
             )
         )
+    ranges = {band.parameter: band for band in optimum.doubt_band}
+    if ranges and optimum.doubt_cost is not None:
+        moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
+        notes.append(f"With other inputs or inflow: {moved}.")
+        notes.append(f"The best twist then would need about {units.watts(optimum.doubt_cost, 1)} less than this one.")
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:

@@ -8,7 +8,6 @@ from explorer.model.stand import SHORT, airload_cases, as_measured, flight_power
 from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import SECTIONS, tip
-from explorer.text.readout import open_drag_area
 from rotor import Solution
 from rotor.aero.problem import grid_of
 from rotor.support.compiled import compiling
@@ -64,17 +63,7 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
 
 
 def _own_cautions(solution: Solution) -> list[str]:
-    """The caveats of one solution, and the drag area where its sources leave it open."""
-    sentences = [typographic(caveat.sentence) for caveat in solution.caveats]
-    areas = open_drag_area(solution.design)
-    if areas is None:
-        return sentences
-    used = solution.design.fuselage.drag_area
-    return [
-        *sentences,
-        f"Power in forward flight is indicative: the sources give drag areas of {number(areas[0], 2)} to "
-        f"{number(areas[1], 2)} m²; this design uses {number(used, 2)} m².",
-    ]
+    return [typographic(caveat.sentence) for caveat in solution.caveats]
 
 
 def tiny(value: float) -> str:

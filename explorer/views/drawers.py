@@ -21,10 +21,14 @@ def details(now: PageState) -> dict[str, Any]:
     if state is None:
         return {}
     solution, pinned = state.solution, state.pinned
+    band = now.answers.get(shown_doubt(now)[0].key)
     if pinned is None:
-        tables = readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
+        tables = readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
     else:
-        tables = readout.compared_power_panel(solution, pinned, units), readout.compared_trim_panel(solution, pinned)
+        tables = (
+            readout.compared_power_panel(solution, pinned, units, band),
+            readout.compared_trim_panel(solution, pinned),
+        )
     power, trim = map(readout.faded, tables) if now.problem else tables
     return {"details.power": power, "details.trim": trim}
 

@@ -145,7 +145,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     return replace(
         state,
         where=pair_words(verdict),
-        bars=_bars(verdict.savings, units),
+        bars=_bars(verdict.savings, units, verdict.net_band),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
@@ -155,18 +155,19 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
 def _earns_here(now: PageState, problem: str) -> EarnsPart:
     """The same in this flight; nothing is drawn until it is known."""
     parts, hovers = now.of(parts_here), now.inputs.advance_ratio == 0.0
+    here = None if (one := actuated_blade(now)) is None else one.here
     speed = 0.0 if now.sliders is None else now.inputs.advance_ratio * now.sliders.rotor.tip_speed
     return EarnsPart(
         "ready" if parts else "problem" if problem else "computing",
         now.units.power[0].symbol,
         here=True,
         where="in hover" if hovers else f"at {now.units.speed[0].text(speed)}",
-        bars=_bars(parts, now.units) if parts else (),
+        bars=_bars(parts, now.units, here and here.band) if parts else (),
     )
 
 
-def _bars(savings: Sequence[tuple[str, float]], units: Units) -> tuple[PowerBar, ...]:
-    rows = balance(savings, units)
+def _bars(savings: Sequence[tuple[str, float]], units: Units, band: float | None) -> tuple[PowerBar, ...]:
+    rows = balance(savings, units, band)
     return tuple(PowerBar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
 
 

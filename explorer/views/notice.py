@@ -5,10 +5,11 @@ from typing import Any
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
 from explorer.parts.stage import SceneLabel
+from explorer.text.readout import banded
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
-from rotor.trim.doubt import Doubt, decimals, sureness
+from rotor.trim.doubt import Doubt
 
 _EQUAL = 50.0
 """Changes of power below this [W] are none."""
@@ -42,10 +43,8 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
         return f"{power}, yours the same"
     if band is None:
         return f"{power}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
-    within = unit.of(band.change_band or 0.0)
-    digits = max(decimals(within), 1)
-    amount = f"{number(unit.of(abs(change)), digits)} ± {number(within, digits)}"
-    return f"{power}, yours {amount} {unit.symbol} {way}: {sureness(change, band.change_band or 0.0)}"
+    amount, sure = banded(abs(change), band.change_band or 0.0, units, least=1).rsplit(":", 1)
+    return f"{power}, yours {amount} {way}:{sure}"
 
 
 def prompt(now: PageState) -> dict[str, SceneLabel | None]:

@@ -13,7 +13,7 @@ from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel
 from explorer.views.work import shown_doubt
-from rotor.trim.doubt import Doubt, decimals, sureness
+from rotor.trim.doubt import Doubt, change_decimals, sureness
 
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
@@ -51,15 +51,11 @@ def _change(state: SessionState, band: Doubt | None, units: Units) -> dict[str, 
     solution, reference = state.solution, state.reference
     if solution.design == reference.design or not reference.converged:
         return {"rest": "same as A" if state.pinned else "as built", "why": "Pull the blade tip up or down."}
-    change, sure = solution.power.total - reference.power.total, ""
+    change, sure, digits = solution.power.total - reference.power.total, "", fineness(solution.power, units)
     if band is not None and (within := band.change_band) is not None:
-        size = units.power[0].of(within)
-        sure = f"± {number(size, decimals(size))}: {sureness(change, within)}"
-    return {
-        "sure": sure,
-        "moved": units.watts(change, fineness(solution.power, units), sign=True),
-        "why": why(reference, solution, units),
-    }
+        digits = change_decimals(units.power[0].of(change), units.power[0].of(within), digits)
+        sure = f"± {number(units.power[0].of(within), digits)}: {sureness(change, within)}"
+    return {"sure": sure, "moved": units.watts(change, digits, sign=True), "why": why(reference, solution, units)}
 
 
 def _numbers(state: SessionState, units: Units) -> PowerPart:

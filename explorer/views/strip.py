@@ -12,11 +12,10 @@ from explorer.charts.measured import source_of
 from explorer.charts.plots import PowerCurve
 from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
 from explorer.model.session_state import SessionState
-from explorer.model.units import number
 from explorer.parts.results import Kind, MarkedSpeeds, StripChart
 from explorer.text.design_words import against
 from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Tell
-from rotor import Design, Solution
+from rotor import Solution
 from rotor.support.chart import Chart, drawn_chart
 
 _NOTICEABLE = 500.0
@@ -57,7 +56,7 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         marks = now.flown.marks(state.solution, units)
         total = None if failed else state.solution.power.total
         chart = total_power_chart(curve, mu, total, units, held, marks, design)
-        notes = [chart.note, band_words(design, curve.band is not None), source_of(design)]
+        notes = [chart.note, source_of(design)]
         value = "" if failed else now.flown.value(state.solution)
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
@@ -98,14 +97,6 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
     points = work("measured", now.measured.trim_points)
     plain = solution.design == now.state.reference.design
     return (points, work("flights", now.flown.trim_flights)) if plain else (points,)
-
-
-def band_words(design: Design, drawn: bool) -> str:
-    """What the band of power over µ is; empty where none is drawn."""
-    areas = design.fuselage.drag_area_band
-    if areas is None or not drawn:
-        return ""
-    return f"Band: drag areas of {number(areas[0], 2)} to {number(areas[1], 2)} m², from the sources."
 
 
 STRIP = Panel(strip, works=trims_asked, turns=True, remember=remember_ranges)

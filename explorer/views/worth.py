@@ -1,13 +1,21 @@
-"""What a step of each slider changes. Of the twist exactly, from one adjoint; of the flight by differences of trims."""
+"""What a step of each slider changes: of the twist exactly, from one adjoint, with the band of two designs a step
+apart; of the flight by differences of trims, with the band of power in proportion, because all its parts change."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
 from typing import Any, Literal
 
-from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, slider, twist_sensitivities
-from explorer.model.units import Units
+from explorer.model.inputs import LAWS, Inputs
+from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, limits, slider, twist_sensitivities
+from explorer.model.units import SI, Units
 from explorer.parts.results import SliderSaving
+from explorer.text.readout import banded
 from explorer.views.page_state import PageState, Panel, PanelWork, Tell
-from explorer.views.work import has_power
+from explorer.views.work import has_power, shown_doubt
+from rotor import doubt, solve
+from rotor.trim.analysis import Analysis
+from rotor.trim.doubt import sureness
 
 _HALF_LENGTH = 6.0
 """Change of a step in the unit of power at which the arrow has half the greatest length, so that none looks as long as
@@ -28,7 +36,28 @@ def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
     of_twist = PanelWork(
         "slopes", (solution.design,), lambda superseded, tell: analyses.of(solution).gradient, soon=True
     )
-    return of_twist, PanelWork("flight-slopes", (solution.design,), of_flight)
+
+    def of_steps(superseded: Callable[[], bool], tell: Tell) -> Mapping[str, float] | None:
+        return step_bands(state.inputs, analyses.of(solution), superseded)
+
+    works = of_twist, PanelWork("flight-slopes", (solution.design,), of_flight)
+    alike = state.inputs.design() == solution.design
+    return (*works, PanelWork("twist-steps", (solution.design,), of_steps)) if alike else works
+
+
+def step_bands(inputs: Inputs, here: Analysis, superseded: Callable[[], bool]) -> Mapping[str, float] | None:
+    """Band of what a step of each twist slider changes [W]; without those whose design does not trim."""
+    found = dict[str, float]()
+    for name in LAWS[inputs.law].inputs:
+        if superseded():
+            return None
+        step, high = slider(name, SI).natural, limits(name)[1]
+        step = step if getattr(inputs, name) + step <= high else -step
+        with suppress(ValueError):
+            there = solve(replace(inputs, **{name: getattr(inputs, name) + step}).design(), here.solution)
+            if there.converged and (band := doubt(there, here).change_band) is not None:
+                found[name] = band
+    return found
 
 
 def twist_slopes(now: PageState) -> dict[str, float]:
@@ -45,33 +74,35 @@ def worth(now: PageState) -> dict[str, Any]:
     state, asked, rows = now.state, slopes_asked(now), dict[str, SliderSaving]()
     if state is None or not asked:
         return {"worth": rows}
-    (gradient, of_now), (flight, flight_of_now) = map(now.latest, asked)
+    (gradient, of_now), (flight, flight_of_now), *rest = map(now.latest, asked)
+    bands: Mapping[str, float] = (rest[0][0] if rest else None) or {}
+    sure = now.latest(shown_doubt(now)[0])[0]
+    part = None if sure is None or not sure.power else sure.band / abs(sure.power)
     if gradient is not None and state.solution.design == state.inputs.design():
         for name, one in twist_sensitivities(state.inputs, gradient).items():
-            rows[name] = worth_row(one, now.units, stale=not of_now)
+            rows[name] = worth_row(one, now.units, bands.get(name), stale=not of_now)
     for name, one in (flight or {}).items():
-        rows[name] = worth_row(one, now.units, stale=not flight_of_now)
+        rows[name] = worth_row(one, now.units, part and part * abs(one.watts(now.units)), stale=not flight_of_now)
     return {"worth": rows}
 
 
-def worth_row(sensitivity: SliderSensitivity, units: Units, *, stale: bool = False) -> SliderSaving:
-    """The change of power by a step up, with its sign, and which way saves."""
+def worth_row(one: SliderSensitivity, units: Units, band: float | None = None, *, stale: bool = False) -> SliderSaving:
+    """The change of power by a step up, with its sign and band [W], and which way saves unless that is unclear."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
-    way = ways[sensitivity.saving_direction(units)]
-    value = sensitivity.value_text(units) if way else "no effect"
-    title = SLIDERS[sensitivity.name].label.partition(" [")[0]
-    step = slider(sensitivity.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
+    way = ways[one.saving_direction(units)]
+    value = one.value_text(units) if way else "no effect"
+    title = SLIDERS[one.name].label.partition(" [")[0]
+    step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
-    sentence = (
-        f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
-        f"A {'higher' if way == 'up' else 'lower'} value saves power."
-        if way
-        else f"{title}: {step} more changes power by less than 0.05 {units.power[0].symbol}."
-    )
-    size = abs(units.power[0].of(sensitivity.watts()))
-    return SliderSaving(
-        way, value, sensitivity.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale
-    )
+    change = one.watts(units)
+    said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=1, sign=True)
+    sentence = f"{title}: {step} more changes power by {said if way else f'less than 0.05 {units.power[0].symbol}'}."
+    if way and band is not None and sureness(change, band) == "unclear":
+        way, value = "", f"{value} {one.unit_text(units)}"
+    elif way:
+        sentence += f" A {'higher' if way == 'up' else 'lower'} value saves power."
+    size = abs(units.power[0].of(one.watts()))
+    return SliderSaving(way, value, one.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale)
 
 
 WORTH = Panel(worth, works=slopes_asked)

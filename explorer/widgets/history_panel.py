@@ -1,6 +1,5 @@
 """Undo, redo, and the kept designs; a click goes to one."""
 
-import math
 import threading
 from collections.abc import Callable, Sequence
 
@@ -30,27 +29,23 @@ Step = tuple[Inputs, ActuatorInputs | None]
 """What sliders and Actuate have; None, of a page that opens or was loaded again: the actuator stays as it is."""
 
 
-def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> Markup:
-    """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
+def kept_rows(kept: Sequence[KeptDesign], units: Units = SI) -> Markup:
+    """The kept designs: outline of the twist, name and power."""
     if not kept:
         return tag("div.rx-dim.rx-small", "No bookmarks yet. Press Keep to add this design.")
     rows: list[Markup] = []
     for k, item in enumerate(kept):
-        change = ""
-        if present is not None and math.isfinite(item.power):
-            change = f"now {units.watts(present.power.total - item.power, sign=True)}"
         take, drop = ({"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop"))
         name = (
             tag("div", title_words(item.solution.design)),
             tag("div.rx-dim.rx-small", flight_name(item.inputs, units)),
         )
-        power = units.watts(item.power), tag("div.rx-dim.rx-small", change)
         rows.append(
             tag(
                 "tr",
                 tag("td.rx-take", _spark(item.solution), **take),
                 tag("td.rx-take.rx-kept", name, **take),
-                tag("td.rx-take.rx-num", power, **take),
+                tag("td.rx-take.rx-num", units.watts(item.power), **take),
                 tag("td.rx-num", tag("a.rx-take.rx-dim", "✕", title="Delete", **drop)),
             )
         )
@@ -180,14 +175,13 @@ class HistoryPanel:
             return tuple(self._kept)
 
     def show(self, state: SessionState | None) -> None:
-        """None: the inputs have no solution to compare with."""
-        solution = None if state is None else state.solution
+        del state  # What is kept does not depend on it.
         with self._lock:
             kept, units = tuple(self._kept), self._context.units
-            if self._drawn == (drawn := (kept, solution if kept else None, units)):
+            if self._drawn == (drawn := (kept, units)):
                 return
             self._drawn = drawn
-        self._rows.content = tag("div.rx", kept_rows(kept, solution, units))
+        self._rows.content = tag("div.rx", kept_rows(kept, units))
 
     @property
     def steps(self) -> tuple[bool, bool]:

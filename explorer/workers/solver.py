@@ -22,6 +22,7 @@ from rotor.optimisation import (
     run_plan,
     run_search,
 )
+from rotor.optimisation.doubt import saving_doubt
 from rotor.study.point import WarmStarts
 from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
 from rotor.trim import analyse, power_gradient
@@ -69,10 +70,10 @@ class BaselineCache:
 
 
 @dataclass(frozen=True)
-class ReferencePower:
-    """Power of the reference design by the objective of a search [W]; None if it does not trim."""
+class ReferenceSaving:
+    """What the best twist saves over the reference design; None where that does not trim."""
 
-    power: float | None
+    doubt: Doubt | None
 
 
 @dataclass(frozen=True)
@@ -92,16 +93,15 @@ class SearchTask:
     reference_title: str = ""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
-        """Reports `StartPower`, `ReferencePower`, then every `Progress`."""
+        """Reports `StartPower`, every `Progress`, and where the reference is another design, `ReferenceSaving`."""
         search = self.search
         objective = search.objective or at_condition(search.design)
         begin = evaluate_objective(objective, search.design, gradient=False)
         tell(StartPower(begin.power))
-        if self.reference == search.design:
-            tell(ReferencePower(begin.power))
-        elif not stop():
-            tell(ReferencePower(evaluate_objective(objective, self.reference, gradient=False).power))
-        return run_search(search, tell, stop)
+        optimum = run_search(search, tell, stop)
+        if self.reference != search.design and optimum.best is not None:
+            tell(ReferenceSaving(saving_doubt(objective, optimum.design, self.reference)))
+        return optimum
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, reference
 from rotor.optimisation.concepts import find_concept
 from rotor.support.terminal import wrapped
+from rotor.trim.doubt import sureness
 
 NONE = "–"
 
@@ -135,6 +136,7 @@ def _comparison(verdict: Verdict) -> Row:
         "drive kW": kilowatts(-verdict.drive_cost),
         "net kW": kilowatts(verdict.net_saving),
         "± kW": NONE if verdict.net_band is None else kilowatts(verdict.net_band),
+        "sign": NONE if verdict.net_band is None else sureness(verdict.net_saving, verdict.net_band),
         "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
     }
 

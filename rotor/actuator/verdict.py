@@ -1,7 +1,7 @@
 """Net benefit of an actuator: required and attainable twist, voltages, mass, power saving, and the sentence."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -17,7 +17,8 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
-from rotor.trim.doubt import Doubt, sureness
+from rotor.trim.analysis import Analysis
+from rotor.trim.doubt import Doubt, banded, change_decimals, sureness
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -55,6 +56,8 @@ class Verdict:
     drive: Drive
     doubt: Doubt | None
     """How sure the saving is, before the drive."""
+    parts_doubt: Mapping[str, Doubt | None]
+    """How sure its parts are, by the names of `savings`; the drive's is known as well as the drive."""
     limits: tuple[Limit, ...]
     caveats: tuple[str, ...]
 
@@ -228,7 +231,7 @@ def judge(
     base = baseline(pair, concept)
     rotor, aircraft = pair.design.rotor, pair.design.aircraft
     installed = install(actuator, replace(placement, divisions=base.divisions), host, rotor)
-    resting, counted_from = base.fixed, list(base.fixed.solutions)
+    resting, counted_from = base.fixed, base.fixed.solutions
     near = counted_from
     if host.kind == "retrofit" or against == "same-blade":
         built = [solve(design, start).require() for design, start in zip(pair.designs(), near, strict=True)]
@@ -236,7 +239,7 @@ def judge(
             resting, near = TwistOptimum((), (), (), pair.mean(_totals(built))), built
         if against == "same-blade":
             counted_from = built
-    bare_power, free = resting.power, [best.power for best in base.best]
+    bare, bare_power, free = near, resting.power, [best.power for best in base.best]
     if pair.design.elastic:
         resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near)
         near = resting.solutions
@@ -247,6 +250,12 @@ def judge(
     reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
     required = base.segment_changes(installed.placement.divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
+    blades = reached.solutions, near, bare, counted_from, heavy
+    known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
+    flown, still, own, other, loaded = ([known[id(trim)] for trim in trims] for trims in blades)
+    alike = own == other or against == "best-fixed"
+    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    steps |= {"stiffness": (still, own), "mass": (loaded, flown)}
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -262,7 +271,8 @@ def judge(
         ),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
-        doubt=difference_doubt(pair.shares, heavy, counted_from),
+        doubt=difference_doubt(pair.shares, loaded, other),
+        parts_doubt={name: difference_doubt(pair.shares, *step) for name, step in steps.items()},
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
@@ -284,21 +294,22 @@ def verdict_sentence(verdict: Verdict) -> str:
     parts = verdict.gross_saving, *(part for name, part in verdict.savings if name not in ("blade", "gross"))
     gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
+    sure = net_band_words(verdict) and f" ({net_band_words(verdict)})"
     if verdict.net_saving < MIN_SHOWN_W:
-        return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{_sure(verdict)}."
+        return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."
     but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving)}{_sure(verdict)}{but}."
-
-
-def _sure(verdict: Verdict) -> str:
-    words = net_band_words(verdict)
-    return f" ({words})" if words else ""
+    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
 
 
 def net_band_words(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    return "" if band is None else f"± {kilowatt_text(band)}: {sureness(verdict.net_saving, band)}"
+    sure = None if band is None else f"± {kilowatt_text(band, _digits(verdict))}: {sureness(verdict.net_saving, band)}"
+    return sure or ""
+
+
+def _digits(verdict: Verdict) -> int:
+    return 1 if verdict.net_band is None else change_decimals(verdict.net_saving / 1e3, verdict.net_band / 1e3, 1)
 
 
 def verdict_details(verdict: Verdict) -> str:
@@ -336,27 +347,31 @@ def _savings(verdict: Verdict) -> str:
     installed, concept = verdict.installed, verdict.baseline.concept.name
     start = verdict.reference_power - verdict.bare_power
     gross = dict(verdict.savings)["gross"]
-    parts = [f"Against {reference(verdict)}, its twist {_change(gross)}"]
+    parts = [f"Against {reference(verdict)}, its twist {part_words(verdict, 'gross', gross)}"]
     if abs(start) >= MIN_SHOWN_IN_KW:
-        parts[0] += f", and its built-in twist alone {_change(start)}"
+        parts[0] += f", and its built-in twist alone {part_words(verdict, 'blade', start)}"
     if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
-        parts.append(f"the {other} elastic blade {_change(-verdict.stiffness_cost)}")
-    parts.append(f"carrying {installed.masses.aircraft:.0f} kg costs {kilowatt_text(verdict.mass_cost)}")
+        parts.append(f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost)}")
+    mass = installed.masses.aircraft
+    parts.append(f"carrying {mass:.0f} kg {part_words(verdict, 'mass', -verdict.mass_cost)}")
     parts.append(f"its drive costs {kilowatt_text(verdict.drive_cost)}")
-    return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {_change(verdict.ideal_saving)}."
+    ideal = part_words(verdict, "ideal", verdict.ideal_saving)
+    return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {ideal}."
 
 
-def _change(saving: float) -> str:
-    if abs(saving) < MIN_SHOWN_W:
-        return "saves nothing"
-    return f"saves {kilowatt_text(saving)}" if saving > 0.0 else f"costs {kilowatt_text(-saving)}"
+def part_words(verdict: Verdict, name: str, saving: float) -> str:
+    verb, size, doubt = "costs" if saving <= -MIN_SHOWN_W else "saves", abs(saving), verdict.parts_doubt.get(name)
+    band = verdict.net_band if name == "net" else doubt and doubt.change_band
+    if not band or size < MIN_SHOWN_W:
+        return f"{verb} {kilowatt_text(size)}"
+    return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1)}"
 
 
 def flight_text(advance_ratio: float) -> str:
     return "hover" if advance_ratio == 0.0 else f"µ {advance_ratio:.2f}"
 
 
-def kilowatt_text(power: float) -> str:
-    """A power [W] in kilowatts with one decimal; "nothing" below MIN_SHOWN_W."""
-    return "nothing" if abs(power) < MIN_SHOWN_W else f"{power / 1e3:.1f} kW"
+def kilowatt_text(power: float, digits: int = 1) -> str:
+    """A power [W] in kilowatts; "nothing" below MIN_SHOWN_W."""
+    return "nothing" if abs(power) < MIN_SHOWN_W else f"{power / 1e3:.{digits}f} kW"

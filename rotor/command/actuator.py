@@ -14,7 +14,7 @@ from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, break_even, break_even_chart, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
-from rotor.actuator.verdict import Verdict, judge, reference, verdict_details, verdict_sentence
+from rotor.actuator.verdict import Verdict, judge, part_words, reference, verdict_details, verdict_sentence
 from rotor.command import common
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
@@ -115,6 +115,7 @@ def record(verdict: Verdict) -> dict[str, Any]:
         "stiffness_cost_w": verdict.stiffness_cost,
         "mass_cost_w": verdict.mass_cost,
         "drive_cost_w": verdict.drive_cost,
+        "part_bands_w": {name: doubt and doubt.change_band for name, doubt in verdict.parts_doubt.items()},
         "net_saving_w": verdict.net_saving,
         "net_saving_band_w": verdict.net_band,
         "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
@@ -136,6 +137,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         **dict.fromkeys(("added_mass_kg", "torsion_frequency_per_rev")),
         "against": args.against,
         **dict.fromkeys(("ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w")),
+        "part_bands_w": None,
         **dict.fromkeys(("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h")),
         "limits": [],
         "caveats": [],
@@ -159,9 +161,10 @@ def report(verdict: Verdict) -> str:
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
         "",
         f"savings against {reference(verdict)}",
-        f"  gross, by its twist         {_kw(gross)}  (of unlimited twist: {_kw(verdict.ideal_saving)})",
-        *(f"  {name:<28}{_kw(saving)}" for name, saving in verdict.savings if name != "gross"),
-        f"  net                         {_kw(verdict.net_saving)}{fuel}",
+        f"  gross, by its twist         {part_words(verdict, 'gross', gross)}  "
+        f"(of unlimited twist: {_kw(verdict.ideal_saving).strip()})",
+        *(f"  {name:<28}{part_words(verdict, name, part)}" for name, part in verdict.savings if name != "gross"),
+        f"  net                         {part_words(verdict, 'net', verdict.net_saving)}{fuel}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °",

@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     if optimum.best is not None and optimum.doubt is None:
-        optimum = replace(optimum, doubt=saving_doubt(objective, optimum.design, design))
+        optimum = _with_doubt(optimum, objective, design)
     beside = _extra_results(design, objective, optimum)
     if optimum.best is not None and optimum.status is SearchStatus.CONVERGED:
         if args.doubt:
@@ -133,7 +133,12 @@ def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum
 def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) -> tuple[tuple[str, Optimum], ...]:
     """Optima of other designs, from the same best twist."""
     other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
-    return tuple((name, run_search(replace(other, design=design))) for name, design in designs)
+    found = [(name, design, run_search(replace(other, design=design))) for name, design in designs]
+    return tuple((name, _with_doubt(optimum, at_condition(design), design)) for name, design, optimum in found)
+
+
+def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimum:
+    return replace(optimum, doubt=optimum.best and saving_doubt(objective, optimum.design, start))
 
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
@@ -194,8 +199,7 @@ def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[st
         "evaluations": optimum.evaluations,
         "elapsed_s": optimum.elapsed,
         "message": optimum.message,
-        "saving_doubt_percent": None if optimum.doubt is None else optimum.doubt.change_band_percent,
-        "sureness": optimum.doubt and optimum.doubt.sureness,
+        **_sure(optimum),
         "doubt_band": _bands(concept, optimum.doubt_band),
         "doubt_cost_w": optimum.doubt_cost,
         "active": [] if best is None else list(best.active),
@@ -214,7 +218,13 @@ def _other(optimum: Optimum, concept: Concept) -> dict[str, Any]:
         "parameters": {} if optimum.best is None else named(concept, optimum.best.parameters),
         "power_w": None if optimum.best is None else optimum.best.power,
         "saving_percent": optimum.saving_percent,
+        **_sure(optimum),
     }
+
+
+def _sure(optimum: Optimum) -> dict[str, float | str | None]:
+    doubt = optimum.doubt
+    return {"saving_doubt_percent": doubt and doubt.change_band_percent, "sureness": doubt and doubt.sureness}
 
 
 def _bands(concept: Concept, bands: Sequence[ParameterBand]) -> dict[str, list[float]]:
@@ -297,8 +307,7 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         lines.append(f"starting twist on these airfoils {power}; the best {beside.same_airfoils.saving_words}")
     for name, outcome in (*beside.models, *beside.flights):
         twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
-        saving = "" if outcome.saving is None else f", saving {100 * outcome.saving:.2f} %"
-        lines.append(f"with {name}: {twist}{saving}")
+        lines.append(f"with {name}: {twist}" + (f", {outcome.saving_words}" if outcome.saving_words else ""))
     for other in optimum.minima[1:]:
         lines.append(f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}")
     lines.append(f"{optimum.evaluations} evaluations, {optimum.elapsed:.2g} s")

@@ -11,11 +11,12 @@ from rotor.design.aircraft import in_words, reported_names
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
-from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
+from rotor.optimisation.schedule import InFlightGain, Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from rotor.support.table import CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text, power_unit
 from rotor.support.user_input import parse_range
+from rotor.trim.doubt import banded
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
@@ -119,6 +120,7 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 "gain_w": gain.gain,
                 "gain_percent": 100.0 * gain.share,
                 "gain_band_w": sure.change_band if (sure := schedule.gain_doubt(name)) is not None else None,
+                "sureness": sure and sure.sureness,
             }
             for name, gain in gains.items()
         },
@@ -146,6 +148,7 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
         "power_w": None if best is None else best.power,
         "saving_percent": optimum.saving_percent,
         "saving_doubt_percent": optimum.doubt and optimum.doubt.change_band_percent,
+        "sureness": optimum.doubt and optimum.doubt.sureness,
     }
 
 
@@ -169,15 +172,21 @@ def report(schedule: Schedule) -> str:
             sentence = (
                 f"{concept.title}: starting design {gain.baseline / size:.1f} {symbol}, best fixed "
                 f"{gain.fixed / size:.1f} {symbol}, variable {gain.moving / size:.1f} {symbol}. "
-                f"Additional saving from variable twist {gain.gain / size:.1f} {symbol} "
-                f"({100 * gain.share:.2f} %)."
+                f"Variable twist {_beyond(schedule, concept.name, gain)} beyond that."
             )
-            if (sure := schedule.gain_doubt(concept.name)) is not None and sure.sureness:
-                sentence += f" Known to ± {(sure.change_band or 0.0) / size:.1f} {symbol}: {sure.sureness}."
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end.")
     return "\n".join(lines)
+
+
+def _beyond(schedule: Schedule, concept: str, gain: InFlightGain) -> str:
+    """What variable twist saves beyond the best fixed one; without a band where that is not known."""
+    symbol, size = power_unit(gain.baseline)
+    sure = schedule.gain_doubt(concept)
+    if sure is None or sure.change_band is None or sure.sureness is None:
+        return f"saves {gain.gain / size:.1f} {symbol}"
+    return f"saves {banded(gain.gain / size, sure.change_band / size, symbol, 1)}"
 
 
 def _where(schedule: Schedule, condition: int | None) -> str:
@@ -210,8 +219,9 @@ def optima_table(schedule: Schedule) -> Table:
         *(Column(key=name, stored=".6g" if name == "mass_kg" else ".4g") for name in quantities),
         Column(key="hours", stored=".4g"),
         *(Column(key=key) for key in ("concept", "status")),
-        *(Column(key=key, stored=".2f") for key in ("baseline_kw", "power_kw", "saving_percent")),
-        *(Column(key=key) for key in ("twist", "met")),
+        *(Column(key=key, stored=".2f") for key in ("baseline_kw", "power_kw")),
+        *(Column(key=key, stored=".2f") for key in ("saving_percent", "saving_doubt_percent")),
+        *(Column(key=key) for key in ("sureness", "twist", "met")),
     )
     rows: list[tuple[CellValue, ...]] = []
     for cell in schedule.cells:
@@ -228,6 +238,8 @@ def optima_table(schedule: Schedule) -> Table:
                 optimum.baseline_power and optimum.baseline_power / 1e3,
                 best and best.power / 1e3,
                 optimum.saving and 100.0 * optimum.saving,
+                optimum.doubt and optimum.doubt.change_band_percent,
+                optimum.doubt and optimum.doubt.sureness,
                 best and best.twist,
                 best and ", ".join(best.active),
             )

@@ -11,7 +11,6 @@ from rotor.actuator.installation import with_actuator
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.aircraft import in_words
 from rotor.design.design import Design
-from rotor.study.series import between_drag_areas
 from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import KNOT, power_unit
@@ -60,8 +59,6 @@ def run(args: argparse.Namespace) -> int:
     loads = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
         also: dict[str, Any] = {"distribution": loads and loads.to_dict()} if args.distribution else {}
-        if (band := between_drag_areas(solution)) is not None:
-            also["power_band_w"] = [end.power.total for end in band]
         if args.doubt:
             also["doubt"] = sure and sure.record()
         print(json.dumps({**solution_record(solution), **also, **_vibration(solution)}, indent=2, allow_nan=False))
@@ -176,13 +173,7 @@ def _powers(solution: Solution) -> list[str]:
     symbol, size = power_unit(*powers.values())
     digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
     lines = [f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items()]
-    lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
-    if (band := between_drag_areas(solution)) is not None:
-        low, high = (end.design.fuselage.drag_area for end in band)
-        less, more = (end.power.total / size for end in band)
-        between = f"{less:.1f} … {more:.1f} {symbol} for drag areas {low:g} … {high:g} m²"
-        lines += [f"{'total':<12}{between}, the range of the sources"]
-    return lines
+    return [*lines, "", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
 
 
 def _coefficients(solution: Solution) -> list[str]:

@@ -81,7 +81,7 @@ def _sweep_column(name: str, level: bool, fine: int) -> Column:
     if name in ("status", "message"):
         return Column(key=name)
     head = None if level and name.startswith("climb") else name
-    if name == "twist":
+    if name in ("twist", "sureness"):
         return Column(head, LEFT, name)
     if name == "change_percent":
         return Column("change %", "+.2f", name, ".3f")
@@ -115,8 +115,10 @@ FRONT_COLUMNS = (
     Column(key="twist_per_rev"),
     Column(key="twist"),
     Column("power kW", ".1f", "power_kw", ".2f"),
-    Column("change %", "+.2f", "power_change_percent", ".2f"),
-    Column("± %", ".2f", "power_change_band_percent", ".2f"),
+    Column(key="power_change_percent", stored=".2f"),
+    Column(key="power_change_band_percent", stored=".2f"),
+    Column(key="sureness"),
+    Column("power", LEFT),
     Column("index %", ".2f", "index_percent", ".2f"),
     Column("over models %"),
     Column("change %", "+.0f", "index_change_percent", ".2f"),
@@ -169,7 +171,7 @@ def run_front(args: argparse.Namespace) -> int:
 
 def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[CellValue, ...]:
     """A point by `FRONT_COLUMNS`; None for what it does not have. trimmed: the solution of the start."""
-    sure = None if point is start else doubt(solve(point.design, trimmed), trimmed).change_band_percent
+    sure = None if point is start else doubt(solve(point.design, trimmed), trimmed)
     active, none = point.design.active_twist, (None, None)
     harmonics = () if active is None else active.harmonics
     twist = point.design.twist.spec()
@@ -178,7 +180,9 @@ def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[
         twist,
         point.power / 1e3,
         100.0 * (point.power / start.power - 1.0),
-        sure,
+        sure and sure.change_band_percent,
+        sure and sure.sureness,
+        sure and sure.saving_words,
         point.index,
         point.band and "{:.1f} … {:.1f}".format(*point.band),
         100.0 * (point.index / start.index - 1.0),

@@ -123,14 +123,13 @@ def airload_report(rows: list[CurveAgreement]) -> str:
 def power_report(rows: list[FlownPower]) -> str:
     columns = (
         *(Column("rotor", LEFT), Column("case"), Column("mu", ".3f"), Column("measured", ".1f")),
-        *(Column("computed", ".1f"), Column("error %", "+.1f"), Column("between the drag areas", LEFT)),
+        *(Column("computed", ".1f"), Column("error %", "+.1f"), Column("", LEFT)),
     )
     cells: list[tuple[CellValue, ...]] = []
     for row in rows:
         computed, error, words = None, None, "does not trim"
         if row.computed is not None:
-            computed, error = row.computed / 1e3, 100.0 * (row.computed / row.measured - 1.0)
-            words = row.band and f"{row.band[0] / 1e3:.1f} … {row.band[1] / 1e3:.1f}"
+            computed, error, words = row.computed / 1e3, 100.0 * (row.computed / row.measured - 1.0), None
         cells.append((row.rotor, row.case, row.mu, row.measured / 1e3, computed, error, words))
     title = f"{POWERS}: main-rotor power in level flight [kW]; never fitted"
     return f"{title}\n{table(columns, cells).text()}"

@@ -26,6 +26,7 @@ from rotor.design.quantities import ARGUMENTS, OPTIONS, STAND, SWITCHES
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation.concepts import Concept, restrict
+from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.results import Optimum, SearchStatus
@@ -338,6 +339,8 @@ def _found(optimum: Optimum, search: Search) -> Row:
         row[parameter.label] = parameter.shown(value)
     row |= {"mean_power_w": best.power, "active": ", ".join(best.active)}
     assert search.objective is not None
+    if (doubt := saving_doubt(search.objective, optimum.design, search.design)) is not None:
+        row |= {"saving_doubt_percent": doubt.change_band_percent, "sureness": doubt.sureness}
     if (
         any(condition.flight.advance_ratio == 0.0 for condition in search.objective.conditions)
         and len(search.objective.conditions) > 1

@@ -1,4 +1,4 @@
-"""Series of trims of one design: over speed, between drag areas, and with physical effects switched on one by one.
+"""Series of trims of one design: over speed, and with physical effects switched on one by one.
 
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
@@ -25,6 +25,7 @@ from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
+from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.no_hub_loads import why_no_hub_loads
@@ -40,6 +41,7 @@ their amplitudes, and frequencies of the blade."""
 PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 POWERS = ("total", "main_rotor", *PARTS)
+_CHANGES = ("change_percent", "change_band_percent", "sureness")
 SHARED_COLUMNS = ("rotor", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
 """Columns of a sweep that are the same in all rows of one rotor at one weight and altitude."""
 
@@ -78,11 +80,11 @@ class SweepTable:
         if not self.reference:
             return columns
         place = columns.index("message")
-        return (*columns[:place], "change_percent", *columns[place:])
+        return (*columns[:place], *_CHANGES, *columns[place:])
 
     def relative_to(self, name: str) -> "SweepTable":
-        """This table with a column `change_percent`: total power relative to the rows of one design, which `plot_power`
-        then draws.
+        """This table with the columns `change_percent`, total power relative to the rows of one design, which
+        `plot_power` then draws, and `change_band_percent` and `sureness` as `rotor.doubt` has them.
 
         name: one of `labels`, or the SPEC of a twist that one of them alone has; ValueError for any other.
         """
@@ -105,6 +107,17 @@ class SweepTable:
         return tuple(100.0 * (power / own - 1.0) if power is not None and own else None for power, own in pairs)
 
     @property
+    def doubts(self) -> tuple[Doubt | None, ...]:
+        """How sure `changes` are; None where there is none, and for the rows of `reference` themselves."""
+        power = [one.converged and one.design.models.trim != "free-rotor" for one in self.solutions]
+        rows = list(zip(self.labels, _values(self.solutions, self.axis), power, self.solutions, strict=True))
+        base = {place: one for label, place, has, one in rows if has and label == self.reference}
+        return tuple(
+            doubt(one, base[place]) if has and place in base and label != self.reference else None
+            for label, place, has, one in rows
+        )
+
+    @property
     def axis(self) -> Quantity:
         """What was swept; where that is not known, what varies."""
         return SWEPT[self.over] if self.over in SWEPT else _swept(self.solutions)
@@ -118,10 +131,12 @@ class SweepTable:
     def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
         """One row per solution; None where a solution that did not converge has no power."""
         columns = self.columns
-        changes = self.changes if self.reference else [None] * len(self)
+        none = [None] * len(self)
+        changes, doubts = (self.changes, self.doubts) if self.reference else (none, none)
+        sure = [(None, None) if one is None else (one.change_band_percent, one.sureness) for one in doubts]
         return tuple(
-            tuple(map((_cells(solution, set(columns)) | {"change_percent": change}).get, columns))
-            for solution, change in zip(self.solutions, changes, strict=True)
+            tuple(map((_cells(solution, set(columns)) | dict(zip(_CHANGES, (change, *two), strict=True))).get, columns))
+            for solution, change, two in zip(self.solutions, changes, sure, strict=True)
         )
 
     def to_dict(self) -> dict[str, list[float | str | None]]:
@@ -457,16 +472,3 @@ def waterfall(design: Design) -> Waterfall:
     """All switches on one after another, then each one off alone; a trim for each."""
     steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
     return Waterfall(steps[:on], steps[on:])
-
-
-def between_drag_areas(solution: Solution) -> tuple[Solution, Solution] | None:
-    """A flight with the lowest and the highest drag area that the sources of the airframe allow.
-
-    None in hover, on a test stand, where the rotor file states one value only, and where one of the two does not trim.
-    """
-    design, band = solution.design, solution.design.fuselage.drag_area_band
-    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
-    if band is None or not flies or not solution.converged:
-        return None
-    low, high = (solve(replace(design, fuselage=replace(design.fuselage, drag_area=area)), solution) for area in band)
-    return (low, high) if low.converged and high.converged else None

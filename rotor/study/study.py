@@ -318,11 +318,11 @@ ANSWER = (
 """Results of a trim."""
 _VIBRATION = ("index_percent", *HUB_COLUMNS, *(f"{mode}_per_rev" for mode in FREQUENCIES))
 """Columns with `bending`: amplitudes at N_b/rev, without the band over inflow models, which takes three more trims."""
-_SAVED = ("mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent")
+_SAVED = ("mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent", "saving_doubt_percent", "sureness")
 _SEARCH = (*_SAVED, "local_minima", "active", "evaluations")
 """`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
 _COUNTS = ("point", "passes", "local_minima", "evaluations")
-_WORDS = ("status", "message", "caveats", "active")
+_WORDS = ("status", "message", "caveats", "active", "sureness")
 
 
 def columns_of(study: Study) -> tuple[StudyColumn, ...]:

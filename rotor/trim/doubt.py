@@ -90,8 +90,16 @@ class Doubt:
 
     @property
     def change_band(self) -> float | None:
-        """Uncertainty of `change`, ± [W]."""
-        return None if self.against is None else math.hypot(*(row.change or 0.0 for row in self.rows))
+        """Uncertainty of `change`, ± [W]; of a change that is one, `LEAST_REPORTED` of the power at least."""
+        if self.change is None:
+            return None
+        band = math.hypot(*(row.change or 0.0 for row in self.rows))
+        return band if max(abs(self.change), band) < self._least else max(band, self._least)
+
+    @property
+    def _least(self) -> float:
+        """Least change or band that is reported [W]."""
+        return 0.01 * LEAST_REPORTED * abs(self.against or 0.0)
 
     @property
     def change_band_percent(self) -> float | None:
@@ -101,16 +109,10 @@ class Doubt:
     @property
     def sureness(self) -> str | None:
         """`sure`, `likely` or `unclear`: whether the sign of the change is known; None without a change."""
-        change, band, least = self.change, self.change_band, 0.01 * LEAST_REPORTED * abs(self.against or 0.0)
-        return None if change is None or band is None or max(abs(change), band) < least else sureness(change, band)
-
-    @property
-    def change_words(self) -> str:
-        """The band of the change and whether its sign is known, `± 0.7 %: sure`; empty without a change."""
-        within, sure = self.change_band_percent, self.sureness
-        if within is None or sure is None:
-            return ""
-        return f"± {max(within, LEAST_REPORTED):.{min(decimals(within), 2)}f} %: {sure}"
+        change, band = self.change, self.change_band
+        if change is None or band is None or max(abs(change), band) < self._least:
+            return None
+        return sureness(change, band)
 
     @property
     def sentence(self) -> str:
@@ -128,13 +130,12 @@ class Doubt:
     @property
     def saving_words(self) -> str:
         """`saves 1.8 ± 0.7 %: sure`; empty without a change."""
-        change, within, sure = self.change, self.change_band_percent, self.change_words
+        change, within = self.change, self.change_band_percent
         if change is None or within is None or not self.against:
             return ""
-        if not sure:
+        if self.sureness is None:
             return "neither saves nor costs"
-        verb, amount = "saves" if change <= 0.0 else "costs", abs(100.0 * change / self.against)
-        return f"{verb} {amount:.{min(decimals(within), 2)}f} {sure}"
+        return f"{'saves' if change <= 0.0 else 'costs'} {banded(abs(100.0 * change / self.against), within, '%')}"
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
@@ -159,6 +160,21 @@ def sureness(change: float, band: float) -> str:
     """Whether the sign of a change is known within its band."""
     ratio = math.inf if band == 0.0 else abs(change) / band
     return "sure" if ratio >= SURE else "likely" if ratio >= LIKELY else "unclear"
+
+
+def banded(change: float, band: float, unit: str, least: int = 0) -> str:
+    """A change with its band and whether its sign is known, as `1.8 ± 0.7 %: sure`; decimals as `change_decimals`."""
+    digits = change_decimals(change, band, least)
+    return f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band)}"
+
+
+def change_decimals(change: float, band: float, least: int = 0) -> int:
+    """Decimals of a change and its band as printed: `least` or those of the band, up to 2, and more until the printed
+    numbers have the word of the exact ones. So equal numbers have equal words."""
+    digits = max(min(decimals(band), 2), least)
+    while digits < 9 and sureness(round(change, digits), round(band, digits)) != sureness(change, band):
+        digits += 1
+    return digits
 
 
 def decimals(band: float) -> int:

@@ -5,7 +5,8 @@ At a trim x of a design, with the multipliers a of power, Jᵀ a = ∂P/∂x, a 
     ΔP = P(d', x) − P(d, x) − a·[R(d', x) − R(d, x)]:
 
 one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay. Only
-another path of the wake has a trim of its own: to first order its change would be up to three times too large.
+another path of the wake has a trim of its own, because its change is not small. Where that trim does not converge, the
+first order stands in the band by a name of its own.
 """
 
 from collections.abc import Callable, Mapping
@@ -30,7 +31,7 @@ from rotor.trim.newton import newton
 from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
-WAKE_PATH = "wake_path_percent"
+WAKE_PATH, WAKE_SLOPE = "wake_path_percent", "wake_path_slope_percent"
 _STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
 
@@ -50,8 +51,11 @@ def power_changes(adjoint: Adjoint) -> dict[str, float]:
         elif near is None:
             continue
         elif row.name == WAKE_PATH:
-            if change := near.along_beddoes(0.01 * row.size):
-                changes[row.name] = change
+            if course_of(near.problem) is not None:
+                if (change := near.along_beddoes(0.01 * row.size)) is not None:
+                    changes[WAKE_PATH] = change
+                else:
+                    changes[WAKE_SLOPE] = near.change(near.along(_STEP_SHARE)) / _STEP_SHARE * 0.01 * row.size
         elif row.name not in _CHANGES:
             continue
         elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
@@ -83,14 +87,16 @@ class _PowerNearby:
         x[: len(system.numbers)] = system.numbers
         return self._difference(problem, evaluate(system, system.grid, x))
 
-    def along_beddoes(self, part: float) -> float:
-        """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; 0 without one."""
-        problem = self.problem
-        if course_of(problem) is None:
-            return 0.0
-        there = newton(replace(problem, course=replace(problem.course, beddoes=part)), self._guess)
-        change = self._main(there.problem, there.point.z, there.point.q) - self._start
-        return change * self._gain if there.converged else 0.0
+    def along_beddoes(self, part: float) -> float | None:
+        """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; None without a trim."""
+        there = newton(self.along(part), self._guess)
+        if not there.converged:
+            return None
+        return (self._main(there.problem, there.point.z, there.point.q) - self._start) * self._gain
+
+    def along(self, part: float) -> Problem:
+        """With the wake moved by that part."""
+        return replace(self.problem, course=replace(self.problem.course, beddoes=part))
 
     def _difference(self, problem: Problem, there: Point) -> float:
         point = self._point

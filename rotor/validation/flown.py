@@ -17,7 +17,6 @@ import numpy as np
 from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.study.series import between_drag_areas
 from rotor.support.arrays import Array
 from rotor.support.assets import asset_path, csv_rows
 from rotor.support.chart import Axis, Chart, Line, Points, Series
@@ -108,8 +107,6 @@ class FlownPower:
     measured: float
     computed: float | None
     """None where our rotor does not trim."""
-    band: tuple[float, float] | None
-    """Computed power with the lowest and the highest drag area of the sources."""
     measured_angles: tuple[float, ...] | None
     """Collective, cyclic 1c and 1s; None where they were not measured. Where along the blade the report takes the
     collective is not known."""
@@ -136,12 +133,11 @@ def flown_powers() -> Iterator[FlownPower]:
     """Every measured power beside the computed one."""
     for power in measured_powers():
         solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
-        ends, controls = between_drag_areas(solution), solution.controls
+        controls = solution.controls
         computed = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
         main = solution.power.main_rotor if solution.converged else None
-        band = None if ends is None else (ends[0].power.main_rotor, ends[1].power.main_rotor)
         angles = tuple(map(math.degrees, computed)) if solution.converged else None
-        yield FlownPower(power.rotor, power.case, power.mu, power.power, main, band, power.angles, angles)
+        yield FlownPower(power.rotor, power.case, power.mu, power.power, main, power.angles, angles)
 
 
 def shape_errors(computed: Sequence[float], measured: Sequence[float]) -> tuple[float, float]:
@@ -241,14 +237,11 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
 def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
     mine = sorted((row for row in powers if row.rotor == rotor and row.computed is not None), key=lambda row: row.mu)
     mu = [row.mu for row in mine]
-    series: list[Series] = [
+    series = (
         Points("measured", mu, [row.measured / 1e3 for row in mine]),
         Line("computed", mu, [(row.computed or math.nan) / 1e3 for row in mine], 1, dots=True),
-    ]
-    for k, word in enumerate(("lowest", "highest")):
-        ends = [math.nan if row.band is None else row.band[k] / 1e3 for row in mine]
-        series.append(Line(f"{word} drag area", mu, ends, 2 + k, dashes=True))
-    return Chart(f"Power of the {TITLES[rotor]}", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), tuple(series))
+    )
+    return Chart(f"Power of the {TITLES[rotor]}", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series)
 
 
 def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
@@ -260,21 +253,20 @@ def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
 
 
 def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
-    rows = [("Helicopter", "Quantity", "At", "Measured", "Computed", "Band", "Error")]
+    rows = [("Helicopter", "Quantity", "At", "Measured", "Computed", "Error")]
     for row in powers:
         computed = "no trim" if row.computed is None else f"{row.computed / 1e3:.1f}"
-        band = "" if row.band is None else f"{row.band[0] / 1e3:.1f}…{row.band[1] / 1e3:.1f}"
-        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", computed, band, ""))
+        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", computed, ""))
     for row in powers:
         if row.measured_angles and row.angles:
             for name, theirs, computed in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
                 error = f"{computed - theirs:+.1f}"
-                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{computed:.1f}", "", error))
+                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{computed:.1f}", error))
     for angle in angles:
         for speed, theirs, computed in zip(angle.speed_kt, angle.measured, angle.computed, strict=True):
             what = f"{ANGLES[angle.quantity]} [°]"
             at, error = f"{speed:.1f} kt", f"{computed - theirs:+.1f}"
-            rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{computed:.1f}", "", error))
+            rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{computed:.1f}", error))
     return tuple(rows)
 
 

@@ -25,11 +25,12 @@ from explorer.views.flight import FLIGHT
 from explorer.views.page_state import PageState, SetHand
 from explorer.views.power import POWER
 from explorer.workers.call import Call
-from rotor import Design, Solution
+from rotor import Design, Solution, doubt
 from rotor.actuator import FlightLeg, effect, fly, try_actuator, with_actuator
 from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from rotor.trim.doubt import change_decimals
 from rotor.trim.solve import solve
 from tests.actuate import actuate, asked, done, solved, told
 
@@ -119,7 +120,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
-    read("power over the flight", "(?:needs|saves) # ±", report)
+    read("power over the flight", ", it (?:needs|saves) # ±", report)
     found["power over the flight"].append(total.lstrip("+−"))
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
@@ -135,6 +136,12 @@ def judged(against: Against, id: str = "MFC_P1") -> Verdict:
     return try_actuator(id, DESIGN, against=against)
 
 
+def as_said(watts: float, band: float | None) -> str:
+    digits = 0 if abs(watts) >= 9950.0 else 1
+    digits = digits if band is None else change_decimals(1e-3 * watts, 1e-3 * band, digits)
+    return f"{abs(1e-3 * watts):.{digits}f}"
+
+
 def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> dict[str, str]:
     """The same quantities, by `rotor` alone."""
     verdict = judged(against, id)
@@ -144,7 +151,7 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         drive = float(round(100.0 * installed.actuator.share_of(swing)))
     flown = trimmed(with_actuator(DESIGN, f"{id},drive={drive}"))
     blade = DESIGN if against == "same-blade" else replace(DESIGN, twist=verdict.baseline.fixed_twist)
-    other, change = trimmed(blade), lambda watts: f"{abs(1e-3 * watts):.{0 if abs(watts) >= 9950.0 else 1}f}"
+    other = trimmed(blade)
     bent = [replace(one, models=replace(one.models, bending=True)) for one in (flown.design, blade)]
     index = run(Call(effect, tuple(bent))).index
     ends = [installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes)) for end in (-1.0, 1.0)]
@@ -154,8 +161,11 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         "tip": f"{tip:+.2f}°" if drive else "0.00°",
         "reach": "…".join(f"{math.degrees(end):+.2f}" for end in sorted(ends)) + "°",
         "power": f"{1e-3 * flown.power.total:.0f}",
-        "power here": change(flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0)),
-        "power over the flight": change(verdict.net_saving),
+        "power here": as_said(
+            flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
+            None if flown.design == other.design else doubt(flown, other).change_band,
+        ),
+        "power over the flight": as_said(verdict.net_saving, verdict.net_band),
         **{f"limit {limit.name}": f"{limit.value:.{0 if limit.bound >= 20.0 else 2}f}" for limit in verdict.broken},
     }
     if min(index) * max(index) > 0.0:

@@ -1,4 +1,4 @@
-"""Measured in flight on the page: flights over the power curve, airloads in the probe, the band of the drag area."""
+"""Measured in flight on the page: flights over the power curve, airloads in the probe."""
 
 import math
 from dataclasses import replace
@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 from explorer.charts.measured import FlownPowers, source_of
-from explorer.charts.plots import SWEEP, PowerCurves
 from explorer.charts.probe_measured import beside_measured, correlation, measured_panel
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of
 from explorer.model.units import SI
-from explorer.text.readout import open_drag_area
-from explorer.text.status import cautions, validated
-from rotor.study.series import between_drag_areas
+from explorer.text.status import validated
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve
 
@@ -42,12 +39,7 @@ class TestFlights:
             flown.trim_flights(solution, lambda: False, lambda: drawn.append(True))
         assert len(drawn) == 1
         other = solve(at_test("gazelle", "FC2").design())
-        ends = between_drag_areas(other)
-        assert ends is not None
-        after = flown.marks(solution, SI)
-        words = after.words[1]
-        for one in (other, *ends):
-            assert f"{one.power.main_rotor / 1e3:.1f} kW" in words
+        assert f"computed {other.power.main_rotor / 1e3:.1f} kW" in flown.marks(solution, SI).words[1]
         percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
         assert flown.value(solution) == f"FC1: {percent:.1f} %".replace("-", "−")
         assert "TM-88351" in source_of(solution.design)
@@ -65,42 +57,6 @@ class TestFlights:
         solution = solve(inputs.design())
         assert FlownPowers().marks(solution, SI) is None
         assert source_of(solution.design) == ""
-
-
-class TestBand:
-    @pytest.mark.parametrize("name", ["gazelle", "bo105"])
-    def test_between_its_trims_it_is_within_three_per_cent_of_its_half_width(self, name: str):
-        """Or half a kilowatt."""
-        design, curves = with_rotor(OPENING, name).design(), PowerCurves()
-        assert curves.sweep(design, design, lambda: False)
-        assert not curves.widen(design, lambda: True)
-        assert curves.known(design, design).band is None
-        assert curves.widen(design, lambda: False)
-        assert not curves.widen(design, lambda: False)
-        curve = curves.known(design, design)
-        assert curve.band is not None
-        assert np.isfinite(curve.band).all()
-        assert curve.band[:, 0] == pytest.approx(curve.design[0])  # Hover has no drag.
-        for mu in (0.15, 0.25, 0.4):
-            solution, k = solve(design.at(mu=mu)), SWEEP.index(mu)
-            ends = between_drag_areas(solution)
-            assert ends is not None
-            for band, end in zip(curve.band, ends, strict=True):
-                change = (end.power.total - solution.power.total) / 1e3
-                assert band[k] - curve.design[k] == pytest.approx(change, rel=0.03, abs=0.5)
-
-    def test_none_where_the_sources_give_one_drag_area(self):
-        curves = PowerCurves()
-        assert not curves.widen(OPENING.design(), lambda: False)
-        assert not curves.widen(with_rotor(OPENING, "hart2").design(), lambda: False)
-        assert open_drag_area(replace(GAZELLE, advance_ratio=0.0).design()) is None
-
-    def test_the_page_says_it(self):
-        solution = solve(GAZELLE.design())
-        sentence = cautions(solution, None)[-1]
-        assert sentence.startswith("Power in forward flight is indicative")
-        assert "0.80 to 1.17 m²; this design uses 1.10 m²" in sentence
-        assert not any("indicative" in one for one in cautions(solve(OPENING.design()), None))
 
 
 class TestAirloads:

@@ -22,6 +22,7 @@ from explorer.model.search_run import SearchRequest, SearchRun
 from explorer.model.units import AVIATION, SI
 from explorer.sharing.share import code_of, design_from
 from explorer.text import search_words as search_text
+from explorer.text.readout import banded
 from explorer.views.notice import comparison
 from explorer.widgets.optimise.optimise_panel import same_but_twist
 from explorer.workers.background import WorkRecord
@@ -74,7 +75,9 @@ class TestSearchRun:
         for frame in (run.frames[0], run.frames[len(run.frames) // 2], run.frames[-1]):
             assert solve(frame.design).power.total == pytest.approx(frame.power, rel=1e-7)
         assert run.start_power == pytest.approx(solve(run.search.design).power.total, rel=1e-9)
-        assert run.reference_power == pytest.approx(solve(baseline_of(run.search.design)).power.total, rel=1e-9)
+        built = solve(baseline_of(run.search.design)).power.total
+        assert run.reference_doubt.against == pytest.approx(built, rel=1e-9)
+        assert run.reference_doubt.saving_words in search_text.result(run)
 
     def test_stopped_before_any_design_it_has_found_nothing(self):
         run = SearchRun(begun(1).record.then(JobEnded(None, stopped=True)))
@@ -98,9 +101,13 @@ class TestWords:
             assert part in words
         assert "nan" not in words.lower()
         assert run.start_power is not None
-        saved = 100.0 * (1.0 - run.best.power / run.start_power)
-        assert saved > 0.01
-        assert f"−{saved:.2f} % vs. start" in search_text.headline(run)
+        saved, within = run.optimum.doubt.change, run.optimum.doubt.change_band
+        assert saved is not None
+        assert within is not None
+        assert run.best.power - run.start_power == pytest.approx(saved, abs=1.0)
+        said = banded(saved, within, SI, least=1, sign=True)
+        assert said.startswith("−")
+        assert said in search_text.headline(run)
 
     @pytest.mark.parametrize("name", CONCEPTS)
     def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):
@@ -277,7 +284,7 @@ class TestSchedule:
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
         assert "Variable twist, beyond that" in table
-        assert re.search(r"saves [\d.]+ ± [\d.]+ %: \w+", table)
+        assert len(re.findall(r">[\d.]+ ± [\d.]+ kW: \w+<", table)) == 2
         assert "nan" not in table.lower()
         assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 

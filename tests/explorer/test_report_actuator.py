@@ -51,7 +51,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     needed = [-float(text.replace("−", "-")) for text in numbers(page)]
     if against == "best-fixed":  # The command begins with what the actuator does.
         needed[:2] = needed[1::-1]
-    assert needed == pytest.approx([float(text) for text in of_command], abs=1.0)
+    assert needed == pytest.approx(of_command, abs=1.0)
     assert len(of_command) == len(one.savings) + 1
     assert float(of_command[-1]) == pytest.approx(1e-3 * one.net_saving, abs=0.051)
     (kilograms,) = re.findall(r"fuel: ([\d.]+) kg an hour", printed)

@@ -15,8 +15,9 @@ from explorer.model.sliders import (
     twist_sensitivities,
 )
 from explorer.model.units import AVIATION, SI
-from explorer.views.worth import worth_row
-from rotor.trim.analysis import power_gradient
+from explorer.views.worth import step_bands, worth_row
+from rotor import doubt
+from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.solve import solve
 
 DIVISION_STEP = 1e-4
@@ -45,6 +46,14 @@ def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
     for name, one in found.items():
         step = DIVISION_STEP if SLIDERS[name].per.endswith("R") else 0.01
         assert_allclose(one.slope, difference(inputs, name, step), rtol=2e-3, atol=2.0)
+
+
+def test_the_band_of_a_step_of_twist_is_that_of_two_designs():
+    inputs = Inputs(law="linear", linear=-12.0)
+    here, there = (solve(one.design()).require() for one in (inputs, replace(inputs, linear=-11.0)))
+    found = step_bands(inputs, Analysis(here), lambda: False)
+    assert found == {"linear": pytest.approx(doubt(there, here).change_band, rel=1e-3)}
+    assert step_bands(inputs, Analysis(here), lambda: True) is None
 
 
 @pytest.mark.parametrize("mass", [8.0, 9.5])
@@ -95,6 +104,10 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     bent = worth_row(SliderSensitivity("quadratic_curvature", -900.0), SI)
     assert bent.unit == "kW per °/R²"
     assert "1°/R more changes power by −0.9 kW. A higher value saves power." in twist.sentence
+    sure, unclear = (worth_row(SliderSensitivity("built_outer", -900.0), SI, band) for band in (400.0, 1100.0))
+    assert "by −0.9 ± 0.4 kW: sure. A higher value saves power." in sure.sentence
+    assert unclear.sentence.endswith("by −0.9 ± 1.1 kW: unclear.")
+    assert (unclear.way, unclear.value) == ("", "−0.9 kW per °/R")
     climb = worth_row(SliderSensitivity("climb_m_s", 100e3), AVIATION)
     assert "100 ft/min more changes power by +" in climb.sentence
     nothing = worth_row(SliderSensitivity("built_division", 0.0), SI)

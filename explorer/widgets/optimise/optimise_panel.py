@@ -199,8 +199,8 @@ class OptimisePanel:
         self._show_ranges(design)
         if run is None:
             return
-        self._result.content = text.result(run, units)
-        self._details.content = text.details(run)
+        self._result.content = text.result(run)
+        self._details.content = text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
         self._scrubber.visible = on_offer and here

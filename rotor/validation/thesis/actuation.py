@@ -131,6 +131,7 @@ def table_5_2() -> Report:
         numbers={
             "rows": float(len(gains)),
             "best_kw": gains[0],
+            "best_band_kw": float(best[place["± kW"]]),
             "actuators": float(len({row[0].partition(",")[0] for row in rows.rows})),
             **{key: float(fitted[place[column]]) for key, column in columns.items()},
         },

@@ -29,8 +29,8 @@ from rotor.trim.solve import solve
 KEYS = [
     "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg", "feasible",
     "voltages_v", "added_mass_kg", "torsion_frequency_per_rev", "against", "ideal_saving_w", "gross_saving_w",
-    "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "net_saving_w", "net_saving_band_w", "fuel_saving_kg_h",
-    "limits", "caveats",
+    "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "part_bands_w", "net_saving_w", "net_saving_band_w",
+    "fuel_saving_kg_h", "limits", "caveats",
 ]  # fmt: skip
 
 CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]

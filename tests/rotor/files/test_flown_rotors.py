@@ -14,7 +14,6 @@ from rotor import Solution, make_design, solve
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.dynamics.torsion import blade_modes
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
-from rotor.study.series import between_drag_areas
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
 from rotor.trim.power import hub_moment
@@ -172,19 +171,6 @@ def test_the_coning_balances_lift_weight_and_a_spring_that_rests_at_the_precone(
     against = stiff * beta + blade.flap_spring * (beta - math.radians(2.5))
     assert_allclose(against, lift - 9.80665 * blade.flap_static_moment, rtol=1e-5)
     assert flap_dynamics(rotor, 1.2, blade_weight=True).preload > 0.0
-
-
-@pytest.mark.parametrize("name", ["gazelle", "bo105", "r22", "s61"])
-def test_power_between_the_drag_areas(name: str):
-    """Half ρ V³ times the width of the band at least: a tilted rotor with more drag also induces and drags more."""
-    solution = solve(make_design(rotor=name, mu=0.25)).require()
-    ends, area = between_drag_areas(solution), solution.design.fuselage.drag_area_band
-    assert ends is not None
-    low, high = (end.power.total for end in ends)
-    assert low <= solution.power.total <= high
-    work = 0.5 * solution.design.condition.density * solution.design.airspeed**3 * (area[1] - area[0])
-    assert 1.0 < (high - low) / work < 1.3
-    assert between_drag_areas(solve(make_design(rotor=name, hover=True)).require()) is None
 
 
 @pytest.mark.parametrize(

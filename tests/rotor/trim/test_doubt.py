@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache, partial
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.support.assets import asset_path
 from rotor.trim.analysis import Analysis
-from rotor.trim.doubt import Doubt, DoubtRow, doubt, other_models, sureness
+from rotor.trim.doubt import Doubt, DoubtRow, banded, doubt, other_models, sureness
 from rotor.trim.power_changes import power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
@@ -170,6 +171,7 @@ def test_tip_loss_is_as_in_new_trims(options: dict[str, Any], patch: Patch):
     exact = 0.5 * (np.array(ends[0]) - np.array(ends[1]))
     assert found.change_band is not None
     assert row.change is not None
+    print(f"tip_loss_percent: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W")
     assert exact[0] > 0.0
     assert row.power == pytest.approx(exact[0], abs=0.15 * found.band)
     assert row.change == pytest.approx(exact[0] - exact[1], abs=0.15 * found.change_band)
@@ -186,6 +188,17 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
     assert abs(changes[0]) > 500.0
     linear = rotor.solve(rotor.make_design(mu=mu, inflow="pitt-peters")).require()
     assert "wake_path_percent" not in Analysis(linear).power_changes
+
+
+def test_a_path_of_the_wake_without_a_trim_stays_in_the_band(patch: Patch):
+    """To first order, about as large as the new trim, and by a name of its own."""
+    here, _ = at_speed()
+    trimmed = {row.name: row.power for row in doubt(here).rows}
+    patch("rotor.trim.power_changes.newton", lambda *_: SimpleNamespace(converged=False))
+    found = {row.name: row.power for row in doubt(Analysis(here)).rows}
+    assert trimmed.keys() - found.keys() == {"wake_path_percent"}
+    assert found.keys() - trimmed.keys() == {"wake_path_slope_percent"}
+    assert found["wake_path_slope_percent"] == pytest.approx(trimmed["wake_path_percent"], rel=0.3)
 
 
 def test_the_band_of_a_free_rotor_is_that_of_its_drag():
@@ -208,6 +221,19 @@ def test_the_words_follow_the_ratio(change: float, band: float, word: str):
     assert sureness(change, band).startswith(word)
 
 
+def test_equal_numbers_have_equal_words():
+    """As printed: where rounding would make a change sure that is not, it has more digits."""
+    assert banded(1.004, 0.502, "%") == "1.0 ± 0.5 %: sure"
+    assert banded(0.996, 0.502, "%") == "0.996 ± 0.502 %: likely"
+    assert banded(11.9, 12.1, "kW") == "11.9 ± 12.1 kW: unclear"
+    said: dict[str, set[str]] = {}
+    for change, band in np.random.default_rng(1).uniform(0.2, 4.0, (4000, 2)).tolist():
+        numbers, _, word = banded(change, band, "kW").partition(": ")
+        said.setdefault(numbers, set()).add(word)
+        assert sureness(*(float(part) for part in numbers.removesuffix(" kW").split(" ± "))) == word
+    assert max(map(len, said.values())) == 1
+
+
 def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
     row = DoubtRow("section_moment", "section moment", 0.01, "x", power=52e3, change=6.3e3)
     found = Doubt(901.4e3, (row,), against=917.9e3)
@@ -217,7 +243,7 @@ def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
     assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith("It costs 2.43 ± 0.11 %: sure.")
     assert Doubt(901.4e3, (replace(row, change=0.03),), 880e3).sentence.endswith("It costs 2.43 ± 0.01 %: sure.")
     same = Doubt(901.4e3, (replace(row, change=0.03),), 901.4e3 + 0.01)
-    assert (same.sureness, same.change_words) == (None, "")
+    assert same.sureness is None
     assert same.sentence == "Power 901 ± 52 kW. It neither saves nor costs."
 
 
