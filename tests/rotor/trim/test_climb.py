@@ -315,12 +315,3 @@ class TestVortexRing:
     def test_slow_descent_and_flight_at_speed_have_no_caveat(self):
         for mu, climb in ((0.0, -2.4), (0.1, -8.0)):
             assert "vortex-ring" not in {caveat.name for caveat in solve(design(mu, climb)).caveats}
-
-
-def test_what_cannot_climb_says_so():
-    with pytest.raises(ValueError, match="document's equations"):
-        make_design(preset="thesis", climb_m_s=3.0)
-    with pytest.raises(ValueError, match="rate of climb 101 m/s is outside"):
-        make_design(climb_m_s=101.0)
-    with pytest.raises(TypeError, match="climb_m_s is 'fast'"):
-        make_design(climb_m_s="fast")  # pyright: ignore[reportArgumentType]

@@ -50,16 +50,3 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
     reproduced = [(f"Table 3.{k}", "input reproduced") for k in (1, 2)]
     assert found == [*reproduced, ("Table 5.1", "no reference")]
     assert all(one["statement"] in said for one in results)
-
-
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        (["--processes", "0"], ["0 processes"]),
-        (["--figure", "9.9"], ["9.9", "3.11"]),
-        (["--figure", "2.1"], ["figure 2.1 is a drawing in the thesis (stream tube in hover)"]),
-    ],
-)
-def test_bad_flags_are_one_line(flags: list[str], words: list[str], tmp_path: Path, refused: Callable[..., str]):
-    line = refused("reproduce", str(tmp_path), *flags)
-    assert all(word in line for word in words)
