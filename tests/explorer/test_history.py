@@ -160,6 +160,7 @@ class TestShare:
             ("1;linear:-8;elements=49", "asks for 49 blade elements and the usual azimuths"),
             ("1;linear:-8;inflow=drees;azimuths=241", "computes with at most 48 and 240"),
             ("1;linear:-8;mass=1e9", "mass"),
+            ("1;linear:-8;pitch_per_rev=1:1:0", "in the address cannot be used: root pitch at 1/rev"),
             ("1;linear:-8" + ";mu=0.2" * 400, f"at most {LONGEST} are allowed"),
         ],
     )

@@ -27,14 +27,10 @@ from tests.solved import SAME, assert_same_trim
 from tests.torsion_waves import driven_by_its_root, tip_wave
 
 
-def rigid(design: Design) -> Design:
-    return replace(design, models=replace(design.models, elastic_twist=False))
-
-
 @pytest.mark.parametrize("per_rev", range(2, 9))
 def test_the_pitch_of_a_rigid_blade_has_the_wave(per_rev: int):
     """θ = θ_tw + θ0 + θ1c cos ψ + θ1s sin ψ + A cos(Nψ − φ) at every element and azimuth."""
-    design = rigid(make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev=[(per_rev, 0.8, 70.0)]))
+    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev=[(per_rev, 0.8, 70.0)], off="elastic-twist")
     solution = solve(design).require()
     disk, controls, psi = solution.disk, solution.controls, solution.disk.psi
     wave = math.radians(0.8) * np.cos(per_rev * psi - math.radians(70.0))

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.aircraft import in_words
 from rotor.design.quantities import PRESETS
-from rotor.files.design_file import design_from_record, load_design
+from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design, uh60a_rotor
 
 
@@ -89,13 +89,6 @@ def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
     assert again.pop("stand", {}) == pytest.approx(record.pop("stand", {}))
     assert again == record
     assert json.loads(path.read_text())["version"] == 2
-
-
-def test_a_thesis_design_comes_back_with_what_is_not_written():
-    record: dict[str, Any] = {"preset": "thesis", "twist": "linear:-8"}
-    design = design_from_record(record)
-    assert design == make_design(**record)
-    assert design_from_record(design.to_dict()) == design
 
 
 def test_the_twist_of_a_case_outlives_a_preset():

@@ -17,7 +17,7 @@ from rotor import Design, Solution, load_rotor, make_design, solution_record, so
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import loss_factor
-from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, axial_inflow, glauert_inflow, vortex_ring_edge
+from rotor.aero.momentum import FASTEST_RING, axial_flow_is_steady, axial_inflow, vortex_ring_edge
 from rotor.aero.problem import build_problem
 from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
@@ -57,13 +57,6 @@ def test_ideal_rotor_follows_momentum_theory(climb: float):
     at = design(0.0, climb)
     ratio = climb / (hover_velocity(at) / math.sqrt(1.0 - at.rotor.blade.root_cutout**2))
     assert_allclose(power(climb) / power(0.0), 0.5 * ratio + math.hypot(0.5 * ratio, 1.0), rtol=1e-2)
-
-
-@pytest.mark.parametrize("mu_x", [0.04, 0.06, 0.2])
-@pytest.mark.parametrize("mu_z", [-0.2, -0.15, -0.1, -0.06])
-def test_glauert_closes_in_fast_descent(mu_x: float, mu_z: float):
-    inflow, _ = glauert_inflow(0.0065, mu_x, mu_z)
-    assert_allclose(2.0 * inflow * math.hypot(mu_x, mu_z + inflow), 0.0065, rtol=1e-12)
 
 
 @pytest.mark.parametrize("twist", ["linear:0", "linear:-12", "linear:-24", "ideal"])
@@ -193,16 +186,6 @@ def test_excess_power_climbs_at_its_known_efficiency(mu: float):
     assert 0.8 < climbing.climb / (climbing.total - level.total) < 0.95
     hover, rising = (solve(design(0.0, climb)).require().power for climb in (0.0, 0.5))
     assert (rising.main_rotor - hover.main_rotor) / rising.climb == pytest.approx(0.55, abs=0.05)
-
-
-@pytest.mark.parametrize("climb", [-4.0, 3.0, 15.0])
-@pytest.mark.parametrize("hover_inflow", ["annulus", "closed-form"])
-def test_axial_flight_is_the_limit_of_forward_flight(climb: float, hover_inflow: str):
-    def watts(mu: float) -> float:
-        return solve(design(mu, climb, hover_inflow=hover_inflow), None, TIGHT).require().power.total
-
-    assert watts(1e-4) == pytest.approx(watts(0.0), rel=1e-5)
-    assert watts(0.001) == pytest.approx(watts(0.0), rel=1e-3)
 
 
 def test_power_is_continuous_in_the_rate_of_climb_where_hover_is_held_at_the_edge():
