@@ -1,4 +1,4 @@
-"""Trims of a rotor on a test stand: exact derivatives, the energy identity, and agreement of the trims with another."""
+"""Trims of a rotor on a test stand: their agreement with each other and with flight, their limits."""
 
 import math
 from dataclasses import replace
@@ -34,15 +34,6 @@ def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: floa
     design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand)
     models = replace(design.models, elements=20, azimuths=48)
     return replace(design, models=models, rotor=replace(design.rotor, precone=precone))
-
-
-@pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
-@pytest.mark.parametrize("name", TRIMS)
-def test_shaft_power_is_the_sum_of_its_parts(name: str, inflow: str):
-    solution = solve(bench(name, inflow=inflow)).require()
-    power = solution.power
-    assert abs(power.shaft - power.main_rotor) <= 1e-8 * (abs(power.induced) + power.profile + abs(power.parasite))
-    assert power.tail == 0.0
 
 
 @pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
