@@ -1,4 +1,4 @@
-"""The public API: the notebook example, errors for wrong arguments, and no side effects of importing."""
+"""The public API: the examples of its docstrings, tables and pictures, and no side effects of importing."""
 
 import csv
 import doctest
@@ -21,31 +21,16 @@ import pytest
 from matplotlib import pyplot
 from numpy.testing import assert_allclose
 
+import explorer
 import rotor
 import rotor.command.validate
 from rotor.__main__ import main
 from rotor.design.twist import LinearTwist, parse_twist
-from rotor.support.assets import asset_path
 from rotor.support.units import KNOT
 from rotor.trim.analysis import power_gradient
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent.parent
-NOTEBOOK = """
-import rotor
-design = rotor.make_design(twist="linear:-12", mu=0.2)
-solution = rotor.solve(design)
-solution.power.total, solution.controls.collective, solution.disk.alpha
-rotor.solve(design.at(mu=0.3), start=solution)
-rotor.sweep(design, mu=[.1, .2, .3])
-best = rotor.optimise(design, concept="two-segment")
-design.with_twist(best.twist)
-rotor.save_solution(solution, "a.json")
-rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); rotor.save_solution(solution, "a.json")
-rotor.plot_field(solution, "alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
-import explorer; page = explorer.show(design, browser=False)
-"""
-"""As a user types it, except that the page opens no browser."""
 
 
 @pytest.fixture(scope="module")
@@ -65,27 +50,18 @@ def failed(design: rotor.Design) -> rotor.Solution:
     return found
 
 
-@pytest.mark.slow
-def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.chdir(tmp_path)
-    Path("mine.toml").write_bytes(asset_path("r22.toml").read_bytes())
-    names: dict = {}
+def test_the_page_of_a_design_is_served_until_it_is_stopped():
+    """Notebooks on this machine may show it in a frame."""
+    page = explorer.show(rotor.make_design(twist="linear:-12", mu=0.2), browser=False)
     try:
-        exec(NOTEBOOK, names)
-        page, best = names["page"], names["best"]
         answer = urllib.request.urlopen(page.address, timeout=60)
         assert answer.status == 200
         assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
         assert page.address in page._repr_html_()
     finally:
-        if "page" in names:
-            names["page"].stop()
+        page.stop()
     with pytest.raises(OSError, match="refused"):
         urllib.request.urlopen(page.address, timeout=60)
-    assert best.saving_percent >= 0.0
-    low, high = best.band[0].low, best.band[0].high
-    assert low < best.twist.rates[0] < high
-    assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
 EXPLAINED = ("make_design", "solve", "solve_many", "sweep", "optimise", "schedule", "run_study", "doubt")
