@@ -50,6 +50,7 @@ def failed(design: rotor.Design) -> rotor.Solution:
     return found
 
 
+@pytest.mark.slow
 def test_the_page_of_a_design_is_served_until_it_is_stopped():
     """Notebooks on this machine may show it in a frame."""
     page = explorer.show(rotor.make_design(twist="linear:-12", mu=0.2), browser=False)

@@ -161,6 +161,8 @@ def test_design_files_hold_both(tmp_path: Path):
     shaped = replace(design, active_twist=ActiveTwist((Harmonic(2, 0.02),), (0.3, 1.0)))
     assert "twist_per_rev" not in shaped.to_dict()
     assert design_from_record(shaped.to_dict()).active_twist == shaped.active_twist
+    alone = design_from_record({"active_twist": {"harmonics": [{"per_rev": 2, "amplitude_deg": 1}]}}).active_twist
+    assert alone == ActiveTwist((Harmonic(2, math.radians(1.0)),), (0.13, 1.0), (0.0, 1.0))
     with pytest.raises(ValueError, match="both"):
         design_from_record({**record, "active_twist": shaped.to_dict()["active_twist"]})
 
