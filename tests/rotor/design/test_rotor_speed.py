@@ -115,12 +115,13 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
             continue
         value = float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
         changed: dict[str, Any] = {name: value}
-        for wrong, error, words in (
-            (row.high + 1.0, ValueError, f"is outside {row.low:g}…{row.high:g}"),
-            ("little", TypeError, f"{name} is 'little', not a number"),
-        ):
+        wrong: dict[Any, tuple[type[Exception], str]] = {
+            row.high + 1.0: (ValueError, f"is outside {row.low:g}…{row.high:g}"),
+            "little": (TypeError, f"{name} is 'little', not a number"),
+        }
+        for beyond, (error, words) in wrong.items():
             with pytest.raises(error, match=re.escape(words)):
-                rotor.make_design(**{name: wrong})
+                rotor.make_design(**{name: beyond})
         design = rotor.make_design(**changed, **SMALL)
         assert row.of(design) == value
         assert row.put(rotor.make_design(**SMALL), value) == design
