@@ -31,7 +31,7 @@ providers._get_local_constants = providers.Constants  # pyright: ignore[reportPr
 
 ONE_PROCESS = {
     "test_wheel": "wheel", "test_chapter_4": "searches", "test_lecture": "lecture",
-    "test_chapter_3": "reports", "test_trust_sets": "reports", "test_reproduce_command": "reports",
+    "test_chapter_3": "reports", "test_reproduce_command": "reports",
 }  # fmt: skip
 """Files whose slow tests share what takes long to make, and its name: with `--dist loadgroup` one process makes it,
 once."""

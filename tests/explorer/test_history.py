@@ -10,11 +10,21 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.undo import PAUSE, STEPS, History, LongestPause, PowerTracker
 from explorer.model.units import UNITS
 from explorer.picture.fields import FIELDS
-from explorer.sharing.share import LONGEST, StoredHistory, code_of, inputs_from, read_history, view_code, view_from
+from explorer.sharing.share import (
+    DESIGN,
+    LONGEST,
+    Address,
+    StoredHistory,
+    code_of,
+    inputs_from,
+    read_history,
+    view_code,
+    view_from,
+)
 from rotor.design.aircraft import RotorFiles
 
 START = Inputs()
-LONG = 5.0
+LONG, DIGITS = 5.0, "9" * 400
 VIEWS = st.builds(
     ViewState, field=st.sampled_from(tuple(FIELDS)), exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
     difference=st.booleans(), reverse_flow=st.booleans(), stall=st.booleans(), drag_divergence=st.booleans(),
@@ -145,29 +155,42 @@ class TestShare:
         assert inputs.design().twist.spec() == twist
         assert code_of(inputs.design()) == f"1;{twist};mu=0.3"
 
-    @pytest.mark.parametrize(
-        ("code", "sentence"),
-        [
-            ("", "not of version 1"),
-            ("1;table:/etc/passwd", "a file on the sender"),
-            ("1;linear:-8;mu", "not of the form key=value"),
-            ("1;linear:-8;mu=fast", "not a number: write for example 1.0"),
-            ("1;linear:-8;mu=NaN", "advance_ratio is nan, outside"),
-            ("1;linear:-8;wings=2", "unknown key 'wings'"),
-            ("1;linear:-8;inflow=magic", "magic"),
-            ("1;bent:3", "is not known"),
-            ("1;linear:-8;mu=0.47", "Adv. ratio µ is 0.47, outside this page's 0…0.45"),
-            ("1;linear:-8;elements=49", "asks for 49 blade elements and the usual azimuths"),
-            ("1;linear:-8;inflow=drees;azimuths=241", "computes with at most 48 and 240"),
-            ("1;linear:-8;mass=1e9", "mass"),
-            ("1;linear:-8" + ";mu=0.2" * 400, f"at most {LONGEST} are allowed"),
-        ],
-    )
-    def test_a_bad_one_is_one_sentence(self, code: str, sentence: str):
-        with pytest.raises(ValueError, match=r"\w") as caught:
-            inputs_from(code)
-        assert sentence in str(caught.value)
-        assert "\n" not in str(caught.value)
+
+BAD = {
+    "": "not of version 1",
+    "1;table:/etc/passwd": "a file on the sender",
+    "1;linear:-8;mu": "not of the form key=value",
+    "1;linear:-8;mu=fast": "not a number: write for example 1.0",
+    "1;linear:-8;mu=NaN": "advance_ratio is nan, outside",
+    "1;linear:-8;wings=2": "unknown key 'wings'",
+    "1;linear:-8;inflow=magic": "magic",
+    "1;bent:3": "is not known",
+    "1;linear:-8;mu=0.47": "Adv. ratio µ is 0.47, outside this page's 0…0.45",
+    "1;linear:-8;elements=49": "asks for 49 blade elements and the usual azimuths",
+    "1;linear:-8;inflow=drees;azimuths=241": "computes with at most 48 and 240",
+    "1;linear:-8;mass=1e9": "mass",
+    "1;linear:-8;pitch_per_rev=1:1:0": "in the address cannot be used: root pitch at 1/rev",
+    "1;linear:-8" + ";mu=0.2" * 400: f"at most {LONGEST} are allowed",
+    **dict.fromkeys((
+        "1;linear:-8;mass=" + DIGITS, "1;linear:-8;mass=" + "9" * 5000, "1;linear:-8;rotor=" + "[" * 1500,
+        '1;linear:-8;rotor={"main":{}}', "1;linear:-8;active_twist=" + DIGITS, "1;" + "+".join(["ideal"] * 250),
+        "1;" + "x" * 7000, "1;linear:-8;\0=1", "own",
+    ), ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("code", BAD, ids=lambda code: code[:40])
+def test_a_bad_link_opens_the_page_with_one_sentence(code: str):
+    address = Address("?d=" + code, lambda query: None)
+    assert address.read(DESIGN, inputs_from, START, "Not the design") == START
+    with pytest.raises(ValueError, match=r"\w") as caught:  # As A of a link, which is read elsewhere.
+        inputs_from(code)
+    for sentence in (str(caught.value), *(said for _, said in address.problems)):
+        assert BAD[code] in sentence
+        assert "\n" not in sentence
+        assert len(sentence) < 450
+        assert "9" * 100 not in sentence
+    assert len(address.problems) == 1
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """The address: random designs through it as viser's client rewrites it, links that cannot be read, and its writing."""
 
+import json
 import random
 import time
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ from explorer.sharing.share import DESIGN, Address, code_of, design_from, inputs
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
+from rotor.files.design_file import design_from_record
 from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from tests.waited import until
 
@@ -106,7 +108,7 @@ def random_designs(count: int) -> Iterator[Design]:
         yield design
 
 
-def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has_rewritten():
+def test_a_thousand_random_designs_come_back_from_a_file_and_an_address_that_the_client_has_rewritten():
     sums = 0
     for design in random_designs(1000):
         code = code_of(design)
@@ -116,19 +118,20 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
         for _ in range(3):  # It rewrites it at each connection, and the page may lose its server.
             query = rewritten(query)
             assert parameter(query, DESIGN) == code
-        again = design_from(parameter(query, DESIGN) or "")
-        assert code_of(again) == code
         shown = inputs_from(code)
-        assert code_of(shown.design()) == code
-        assert (again.models, again.rotor, again.preset) == (design.models, design.rotor, design.preset)
-        assert (again.active_twist, again.pitch_per_rev) == (design.active_twist, design.pitch_per_rev)
         assert shown.design().pitch_waves == design.pitch_waves
-        assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
-        assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
-        assert again.condition.rotor_speed_percent == design.condition.rotor_speed_percent
-        assert again.condition.load_factor == pytest.approx(design.condition.load_factor, rel=1e-9)
-        r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
-        assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # Links hold a millionth of a degree.
+        assert code_of(shown.design()) == code
+        file = design_from_record(json.loads(json.dumps(design.to_dict())))
+        for again in (design_from(parameter(query, DESIGN) or ""), file):
+            assert code_of(again) == code
+            assert (again.models, again.rotor, again.preset) == (design.models, design.rotor, design.preset)
+            assert (again.active_twist, again.pitch_per_rev) == (design.active_twist, design.pitch_per_rev)
+            assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
+            assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
+            assert again.condition.rotor_speed_percent == design.condition.rotor_speed_percent
+            assert again.condition.load_factor == pytest.approx(design.condition.load_factor, rel=1e-9)
+            r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
+            assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # To a millionth of a degree.
     assert sums > 200
     chance = random.Random(20)
     assert {random_inputs(chance).law for _ in range(200)} == set(LAWS) - {"optimised"}

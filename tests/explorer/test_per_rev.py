@@ -8,12 +8,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.export.provenance import provenance_lines
-from explorer.model.inputs import OPENING, baseline_of, inputs_of, with_rotor
+from explorer.model.inputs import OPENING, baseline_of, with_rotor
 from explorer.model.session_state import Pinned
 from explorer.parts.actuate import DialNumbers
 from explorer.picture.picture import blade_pose, pitch_series
 from explorer.scene.controller import motion_of
-from explorer.sharing.share import StoredHistory, code_of, inputs_from, read_history
 from explorer.text.design_words import twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
@@ -30,7 +29,7 @@ from rotor.actuator import (
     steady_room,
     tip_amplitude,
 )
-from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
+from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
@@ -42,26 +41,6 @@ from tests.actuate import foreseen
 
 PITCH, TWIST = read_harmonics("3:1.5:180,5:0.2:40", "test"), read_harmonics("2:1:30", "test")
 MOVED = replace(OPENING, pitch_per_rev=PITCH, twist_per_rev=TWIST)
-
-
-def rigid(design: Design) -> Design:
-    return replace(design, models=replace(design.models, elastic_twist=False))
-
-
-def test_designs_come_back_from_sliders_links_and_history():
-    design = MOVED.design()
-    assert (design.pitch_per_rev, design.linear_active_twist) == (PITCH, TWIST)
-    assert inputs_of(design) == MOVED
-    assert "pitch_per_rev=3:1.5:180,5:0.2:40" in code_of(design)
-    assert "twist_per_rev=2:1:30" in code_of(design)
-    assert inputs_from(code_of(design)) == MOVED
-    shaped = replace(MOVED, active_shape=((0.4, 0.9), (0.0, 1.0)))
-    assert shaped.design().active_twist == ActiveTwist(TWIST, (0.4, 0.9), (0.0, 1.0))
-    assert inputs_from(code_of(shaped.design())) == shaped
-    history = read_history(StoredHistory((OPENING, MOVED), OPENING).text(), OPENING)
-    assert history.past == (OPENING, MOVED)
-    with pytest.raises(ValueError, match=r"in the address cannot be used: root pitch at 1/rev"):
-        inputs_from("1;linear:-8;pitch_per_rev=1:1:0")
 
 
 def test_another_rotor_and_the_baseline_have_none():
@@ -96,7 +75,7 @@ def test_each_blade_is_drawn_at_the_pitch_of_its_root():
 def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     """A rigid blade has the band of the twist alone: at the tip an amplitude to either side of the jig twist."""
     r = np.array([OPENING.aircraft.rotor.blade.root_cutout, 1.0])
-    solution = solve(rigid(replace(OPENING, twist_per_rev=TWIST).design())).require()
+    solution = solve(replace(OPENING, twist_per_rev=TWIST, elastic_twist=False).design()).require()
     band = flown_band(solution, r)
     assert band is not None
     mean, low, high = band
@@ -104,7 +83,7 @@ def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     assert_allclose(mean, jig, atol=1e-9)
     assert_allclose([low[1] - jig[1], high[1] - jig[1]], [-tip, tip], atol=0.02)
     assert_allclose([low[0] - jig[0], high[0] - jig[0]], [0.0, 0.0], atol=0.05)  # To the first element.
-    still = solve(rigid(OPENING.design())).require()
+    still = solve(replace(OPENING, elastic_twist=False).design()).require()
     assert flown_band(still, r) is None
     elastic, pitched = (
         flown_band(solve(one.design()).require(), r) for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))

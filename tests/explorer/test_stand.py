@@ -9,28 +9,16 @@ from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.session_state import Pinned
 from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
-from explorer.sharing.share import code_of, inputs_from
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
 from rotor import make_design, solve
-from rotor.support.assets import MEASURED_ROTORS
 from rotor.support.chart import Points
 from rotor.validation.compare import SETS, load_set
 from tests.curves import curves
 
 XV15 = next(one for one in measured_conditions("xv15") if one.test == "Tunnel, 15° forward")
 FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio, stand=XV15.stand)
-
-
-@pytest.mark.parametrize("name", MEASURED_ROTORS)
-def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: str):
-    inputs = with_rotor(OPENING, name)
-    assert any(
-        (one.advance_ratio, one.stand) == (inputs.advance_ratio, inputs.stand) for one in measured_conditions(name)
-    )
-    assert inputs_from(code_of(inputs.design())) == inputs
-    assert with_rotor(inputs, "uh60a").stand is None
 
 
 def test_the_wind_tunnel_begins_with_what_the_flight_had():

@@ -7,9 +7,13 @@ from typing import Any
 import pytest
 from patched import Patch, patching
 
+from rotor import make_design
 from rotor.__main__ import main
+from rotor.aero.lifting_line import WakeCourse
+from rotor.aero.problem import build_problem
 from rotor.engine.linearise import Point
 from rotor.engine.newton import Factors
+from rotor.trim import forward
 
 
 @pytest.fixture
@@ -30,6 +34,14 @@ def patch() -> Iterator[Patch]:
     """For what cached functions read: every cache is emptied with each change, and at the end."""
     with patching() as patch:
         yield patch
+
+
+@pytest.fixture
+def same_course(patch: Patch) -> WakeCourse:
+    """The course of every wake of a lifting line: that of the UH-60A at µ = 0.2."""
+    course = forward.with_course(build_problem(make_design(mu=0.2))).course
+    patch("rotor.trim.forward.found_course", lambda design: course)
+    return course
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""The public API: the notebook example, errors for wrong arguments, and no side effects of importing."""
+"""The public API: the examples of its docstrings, tables and pictures, and no side effects of importing."""
 
 import csv
 import doctest
@@ -10,7 +10,6 @@ import re
 import subprocess
 import sys
 import urllib.request
-from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -27,27 +26,11 @@ import rotor
 import rotor.command.validate
 from rotor.__main__ import main
 from rotor.design.twist import LinearTwist, parse_twist
-from rotor.support.assets import asset_path
 from rotor.support.units import KNOT
 from rotor.trim.analysis import power_gradient
 
 matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent.parent
-NOTEBOOK = """
-import rotor
-design = rotor.make_design(twist="linear:-12", mu=0.2)
-solution = rotor.solve(design)
-solution.power.total, solution.controls.collective, solution.disk.alpha
-rotor.solve(design.at(mu=0.3), start=solution)
-rotor.sweep(design, mu=[.1, .2, .3])
-best = rotor.optimise(design, concept="two-segment")
-design.with_twist(best.twist)
-rotor.save_solution(solution, "a.json")
-rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); rotor.save_solution(solution, "a.json")
-rotor.plot_field(solution, "alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
-import explorer; page = explorer.show(design, browser=False)
-"""
-"""As a user types it, except that the page opens no browser."""
 
 
 @pytest.fixture(scope="module")
@@ -68,26 +51,18 @@ def failed(design: rotor.Design) -> rotor.Solution:
 
 
 @pytest.mark.slow
-def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.chdir(tmp_path)
-    Path("mine.toml").write_bytes(asset_path("r22.toml").read_bytes())
-    names: dict = {}
+def test_the_page_of_a_design_is_served_until_it_is_stopped():
+    """Notebooks on this machine may show it in a frame."""
+    page = explorer.show(rotor.make_design(twist="linear:-12", mu=0.2), browser=False)
     try:
-        exec(NOTEBOOK, names)
-        page, best = names["page"], names["best"]
         answer = urllib.request.urlopen(page.address, timeout=60)
         assert answer.status == 200
         assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
         assert page.address in page._repr_html_()
     finally:
-        if "page" in names:
-            names["page"].stop()
+        page.stop()
     with pytest.raises(OSError, match="refused"):
         urllib.request.urlopen(page.address, timeout=60)
-    assert best.saving_percent >= 0.0
-    low, high = best.band[0].low, best.band[0].high
-    assert low < best.twist.rates[0] < high
-    assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
 EXPLAINED = ("make_design", "solve", "solve_many", "sweep", "optimise", "schedule", "run_study", "doubt")
@@ -272,101 +247,6 @@ class TestSweep:
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install pandas"):
             table.to_dataframe()
-
-
-WRONG = {
-    "rotor.make_design(twist=-12)": (TypeError, 'twist -12 is not a twist: write "linear:-12"'),
-    "rotor.make_design(twist='-12')": (ValueError, "twist '-12' is not known: write linear:-12"),
-    "rotor.make_design(twist=lambda r: 0 * r)": (TypeError, 'is not a twist: write a text such as "linear:-12"'),
-    "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.3"),
-    "rotor.make_design(mu=2)": (ValueError, "advance ratio 2 is outside 0…0.6"),
-    "rotor.make_design(mu=0.2, hover=True)": (ValueError, "mu=0.2 and hover=True each set the speed"),
-    "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
-    "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
-    "rotor.make_design(mass_kg=9.5)": (ValueError, "mass 9.5 kg is outside 100…50000 kg: 9.5 t is 9500 kg"),
-    "rotor.make_design(mass_kg=90000)": (ValueError, "mass 90000 kg is outside 100…50000 kg: choose a value inside"),
-    "rotor.make_design(rotor='UH-60A')": (ValueError, "rotor 'UH-60A' is not known; did you mean 'uh60a'?"),
-    "rotor.make_design(twist='liner:-8')": (ValueError, "twist 'liner:-8' is not known; did you mean 'linear'?"),
-    "rotor.make_design(twist='UH-60A')": (ValueError, "did you mean 'uh60a'?"),
-    "rotor.make_design(elements='many')": (TypeError, "elements is 'many', not a whole number"),
-    "rotor.make_design(azimuths=24.5)": (TypeError, "azimuths is 24.5, not a whole number"),
-    "rotor.make_design(bending='yes')": (TypeError, "bending is 'yes': write bending=True"),
-    "rotor.make_design(inflow=3)": (TypeError, "inflow is 3, not a text"),
-    "rotor.make_design(airfoils=3)": (TypeError, "airfoils is 3, not a text"),
-    "rotor.make_design(off=['swirl'])": (TypeError, "off is ['swirl'], not a text"),
-    "rotor.make_design(case='x.json')": (TypeError, "case is 'x.json', not a design: give what rotor.load_design"),
-    "rotor.make_design(models='best')": (TypeError, "models is 'best', not rotor.Models"),
-    "rotor.make_design(stand='wind')": (TypeError, "stand is 'wind', not a dictionary"),
-    "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
-    "rotor.make_design(delta_isa=20)": (TypeError, "no argument 'delta_isa': write isa_offset_c=20"),
-    "rotor.sweep(design, mass_kg=['heavy'])": (TypeError, "heavy"),
-    "design.at(mass=8000)": (TypeError, "no argument 'mass'; did you mean 'mass_kg'?"),
-    "rotor.sweep(design, twist=['linear:-8'])": (
-        TypeError,
-        "no argument 'twist': write rotor.sweep([design.with_twist(",
-    ),
-    "design.at(twist='linear:-8')": (TypeError, "no argument 'twist': write design.with_twist(…)"),
-    "design.at(rotor='s61')": (TypeError, "no argument 'rotor': write rotor.make_design(case=design, rotor=…)"),
-    "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
-    "rotor.make_design(rotor='xv15', drag_area_m2=3)": (ValueError, "drag_area_m2 3 has no effect on a test stand"),
-    "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
-    "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),
-    "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
-    "rotor.solve(design, start=design)": (TypeError, "give an earlier solution or leave it out"),
-    "rotor.sweep(design, mu=0.2)": (TypeError, "give a list, for example mu=[0.1, 0.2, 0.3]"),
-    "rotor.sweep(design)": (TypeError, "a sweep over nothing: give one of mu, speed_kt, mass_kg"),
-    "rotor.sweep(design, mu=[0.1], mass_kg=[8000])": (TypeError, "a sweep over mu and mass_kg: give one of"),
-    "rotor.Limits(rate_deg=-20)": (TypeError, "give the steepest and the flattest, for example (-20, 0)"),
-    "rotor.Limits(change_deg=-1)": (ValueError, "change limit -1° is negative: give 0 or more"),
-    "rotor.optimise(design, limits=2.0)": (TypeError, "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))"),
-    "rotor.optimise(design, conditions=0.3)": (TypeError, "give pairs of advance ratio and weight"),
-    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "use one rotor"),
-    "rotor.schedule(design, mu=0.1)": (TypeError, "mu is 0.1: give a list of advance ratios"),
-    "rotor.distribution(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.hub_loads('x')": (TypeError, "solution is 'x': give what rotor.solve returns"),
-    "rotor.hub_loads(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.doubt(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.optimise(design, 3)": (TypeError, 'concept is 3, not a text: write for example "linear"'),
-    "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
-    "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
-    "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
-    "rotor.plot_field(solution, 'noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
-    "rotor.vibration_front(bent, points=1)": (ValueError, "1 points"),
-    "rotor.vibration_front(bent, reach_deg=0.0)": (ValueError, "reach 0°"),
-    "rotor.vibration_front(bent, 'screw')": (ValueError, "screw"),
-    "rotor.t_matrix(bent, (2, 9))": (ValueError, "9/rev"),
-    "rotor.t_matrix(bent.at(mu=0.1))": (ValueError, "below µ 0.2"),
-    "rotor.t_matrix(design.at(mu=0.3))": (ValueError, "--bending"),
-    "rotor.t_matrix(bent, (2,)).response('3:1:0')": (ValueError, "no 3/rev"),
-    "stand({'ct_over_sigma': 0.07, 'flapping': 'hub-moments'}, rotor='pca2')": (ValueError, "on blades hinged at"),
-    "stand({'ct_over_sigma': 0.07, 'hub_roll_nm': 5.0}, rotor='hart2')": (ValueError, "set flapping to hub-moments"),
-    "stand({**MOMENTS, 'cyclic_1c_deg': 1.0}, rotor='hart2')": (ValueError, "needed to trim the hub moments"),
-    "stand({**MOMENTS, 'hub_roll_nm': 20.0}, rotor='hart2', mu=0.0)": (ValueError, "in hover the rotor is balanced"),
-    "stand({})": (ValueError, "none of them"),
-    "stand({'thrust_n': 1.0, 'collective_deg': 2.0})": (ValueError, "thrust_n and collective_deg"),
-    "stand({'ct_over_sigma': 0.5})": (ValueError, "outside 0…0.25"),
-    "stand({'collective_deg': 5.0, 'cyclic_1c_deg': 1.0})": (ValueError, "needed to trim the flapping"),
-    "stand({'collective_deg': '5'})": (ValueError, "give a number"),
-    "stand({'pitch': 5.0})": (ValueError, "is not known"),
-}
-
-
-BENT = rotor.make_design(mu=0.3, inflow="pitt-peters", bending=True)
-
-
-def on_stand(stand: dict[str, Any], **given: Any) -> rotor.Design:
-    return rotor.make_design(trim="wind-tunnel", stand=stand, **given)
-
-
-@pytest.mark.parametrize("call", WRONG)
-def test_a_wrong_argument_fails_at_once(call: str, design: rotor.Design, solution: rotor.Solution):
-    kind, words = WRONG[call]
-    names = {"rotor": rotor, "explorer": explorer, "design": design, "solution": solution, "bent": BENT}
-    names |= {"MOMENTS": {"thrust_n": 3300.0, "flapping": "hub-moments"}, "stand": partial(on_stand, mu=0.1)}
-    with pytest.raises(kind) as caught:
-        eval(call, names)
-    assert words in str(caught.value)
-    assert "\n" not in str(caught.value)
 
 
 IMPORT = """

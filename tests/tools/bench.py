@@ -1,12 +1,11 @@
 """Processor times of evaluations, trims, searches and studies, beside their targets.
 
-`python -m tests.tools.bench [--long] [--json] [--against DIR | --release | --page]`
+`python -m tests.tools.bench [--json] [--against DIR | --release | --page]`
 """
 
 import argparse
 import itertools
 import json
-import os
 import statistics
 import subprocess
 import sys
@@ -26,7 +25,7 @@ import numpy as np
 from rotor import Design, Solution, make_design, solve
 from rotor.aero.problem import build_problem
 from rotor.engine.linearise import evaluate
-from rotor.optimisation import CONCEPTS, SchedulePlan, Search, WeightedCondition, find_concept, run_plan, run_search
+from rotor.optimisation import Search, find_concept, run_search
 from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
@@ -37,8 +36,8 @@ from rotor.trim.power_changes import power_changes
 from tests.tools import measured
 
 T = TypeVar("T")
-TARGETS_S = {"optimum, two segments": 0.6, "schedule, 15 conditions, 8 concepts": 20.0}
-"""Targets of the project [s], flight preset, one core for an optimum, two for the schedule."""
+TARGETS_S = {"optimum, two segments": 0.6}
+"""Targets of the project [s], flight preset, one core."""
 
 TARGETS_MS = {
     "evaluation": 0.25, "rigid blade, warm": 4.0, "bending blade, cold": 60.0, "bending blade, warm": 6.0,
@@ -59,8 +58,8 @@ TARGET_PER_SECOND = 28.0
 _POINTS = 200
 
 
-def measure_searches(*, long: bool) -> dict[str, float]:
-    """Seconds by name; mean over three advance ratios, bands included. `long` adds the schedule."""
+def measure_searches() -> dict[str, float]:
+    """Seconds by name; mean over three advance ratios, bands included."""
     figures: dict[str, float] = {}
     for name, concept, starts in (
         ("optimum, two segments", "two-segment", 6),
@@ -72,13 +71,6 @@ def measure_searches(*, long: bool) -> dict[str, float]:
             solve(design)  # Builds the grid and the wake once, as an open page has done.
             elapsed += run_search(Search(design, find_concept(concept), starts=starts)).elapsed
         figures[name] = elapsed / len(_SEARCH_ADVANCE_RATIOS)
-    if long:
-        design = make_design(preset="flight")
-        ratios = [0.0, *(0.05 + 0.025 * k for k in range(1, 15))]
-        conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-        begin = time.perf_counter()
-        run_plan(SchedulePlan(design, tuple(CONCEPTS.values()), conditions), processes=min(2, os.cpu_count() or 1))
-        figures["schedule, 15 conditions, 8 concepts"] = time.perf_counter() - begin
     return figures
 
 
@@ -102,7 +94,6 @@ def _points_per_second(call: Callable[[], Any]) -> float:
 def main(argv: list[str] | None = None) -> int:
     """Exit code 0: targets are printed, not enforced."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     other = parser.add_mutually_exclusive_group()
     other.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
@@ -113,14 +104,14 @@ def main(argv: list[str] | None = None) -> int:
         measured.write(_least)
         return 0
     with TemporaryDirectory(prefix="release-") as room:
-        answer = _timed(unpacked_release(Path(room)) if args.release else args.against, long=args.long)
+        answer = _timed(unpacked_release(Path(room)) if args.release else args.against)
     print(json.dumps(answer, indent=2, allow_nan=False) if args.json else report(answer))
     return 0
 
 
 def _least() -> dict[str, Any]:
     """The best figures of some runs."""
-    runs = [(measure(), measure_searches(long=False), measure_batch()) for _ in range(measured.RUNS)]
+    runs = [(measure(), measure_searches(), measure_batch()) for _ in range(measured.RUNS)]
     times, searches, rates = zip(*runs, strict=True)
     return {
         "ms": {name: min(one[name] for one in times) for name in times[0]},
@@ -129,15 +120,15 @@ def _least() -> dict[str, Any]:
     }
 
 
-def _timed(checkout: Path | None, *, long: bool) -> dict[str, Any]:
+def _timed(checkout: Path | None) -> dict[str, Any]:
     """All figures, beside those of another checkout if there is one."""
-    theirs = None if checkout is None else started(checkout, long=long)
+    theirs = None if checkout is None else started(checkout)
     answer: dict[str, Any] = {
         "ms": measure(),
         "targets_ms": TARGETS_MS,
         "unsteady_over_steady": measure_unsteady(),
         "targets_unsteady": TARGETS_UNSTEADY,
-        "seconds": measure_searches(long=long),
+        "seconds": measure_searches(),
         "targets_s": TARGETS_S,
         "trims_per_second_and_core": measure_batch(),
         "target_per_second": TARGET_PER_SECOND,
@@ -175,7 +166,7 @@ def report(answer: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def started(checkout: Path, *, long: bool) -> subprocess.Popen[str]:
+def started(checkout: Path) -> subprocess.Popen[str]:
     """The own bench of another checkout, by this Python, at the same time: what slows one slows both.
 
     The kernels of both are compiled before, side by side.
@@ -186,7 +177,7 @@ def started(checkout: Path, *, long: bool) -> subprocess.Popen[str]:
     begun = [subprocess.Popen(warm, cwd=place, stdout=quiet, stderr=quiet) for place in (_ROOT, checkout)]
     for compiling in begun:
         compiling.wait()
-    call = [sys.executable, "-m", *words, "--json", *(["--long"] if long else [])]
+    call = [sys.executable, "-m", *words, "--json"]
     return subprocess.Popen(call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 

@@ -83,8 +83,6 @@ class Outcome:
     said: str = ""
     first: bool = True
     """The first attempt finds the trim: no other start, continuation or branch is needed."""
-    alone: bool = True
-    """Nor was one looked for, as it is where stalled sections carry much of the lift's moment."""
     plain: bool = False
     """Level flight within `TRIMMABLE`."""
     stalled: float = 0.0
@@ -102,10 +100,10 @@ def try_design(asked: dict[str, Any]) -> Outcome:
 def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     tries: list[int] = []
     solution = solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: bool(tries.append(1))))
-    alone, plain = not tries, _plain(design)
-    first = alone or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
-    if wrong := _wrong(solution):
-        return Outcome(asked, "wrong", wrong, first, alone, plain, solution.stalled_moment)
+    plain = _plain(design)
+    first = not tries or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
+    if said := wrong(solution):
+        return Outcome(asked, "wrong", said, first, plain, solution.stalled_moment)
     mu = design.condition.advance_ratio
     neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
     warm = solve(design, neighbour)
@@ -119,7 +117,7 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     elif not _same(solution, warm):
         kind = "in deep stall" if stalled > MOST_STALLED else "other power"
         said = f"cold {solution.last_power.main_rotor:.3f} W, warm {warm.last_power.main_rotor:.3f} W"
-    return Outcome(asked, kind, said, first, alone, plain, stalled)
+    return Outcome(asked, kind, said, first, plain, stalled)
 
 
 def _same(one: Solution, other: Solution) -> bool:
@@ -136,19 +134,24 @@ def _plain(design: Design) -> bool:
     return loading <= TRIMMABLE[0] and condition.advance_ratio <= TRIMMABLE[1]
 
 
-def _wrong(solution: Solution) -> str:
+def wrong(solution: Solution) -> str:
     """What no solution may be: not finite, not closed, without a sentence; nothing where all is well."""
     message = solution.message
     if not message.endswith(".") or "\n" in message or re.search(r"\bnan\b|\binf\b", message.lower()):
         return f"message {message!r}"
+    for caveat in solution.caveats:
+        if not caveat.sentence.endswith(".") or "\n" in caveat.sentence:
+            return f"caveat {caveat.sentence!r}"
     if not solution.converged:
-        return "" if message.startswith("Not trimmed") else f"message {message!r}"
-    for field in fields(solution.disk):
-        if field.name in ("unsteady", "find_apparent"):  # A value of its own arrays, and no value.
+        return "" if message.startswith("Not trimmed:") else f"message {message!r}"
+    if message != "Trimmed.":
+        return f"message {message!r}"
+    for name in (*(field.name for field in fields(solution.disk)), "apparent"):
+        if name in ("unsteady", "find_apparent"):  # A value of its own arrays, and no value.
             continue
-        values = getattr(solution.disk, field.name)
+        values = getattr(solution.disk, name)
         if values is not None and not np.isfinite(values).all():
-            return f"{field.name} is not finite"
+            return f"{name} is not finite"
     numbers = [
         *asdict(solution.last_power).values(),
         *(getattr(solution.controls, f.name) for f in fields(solution.controls)),
@@ -183,10 +186,7 @@ def run(count: int, seed: int) -> list[Outcome]:
         return [try_design(draw(random, rotors[k % len(rotors)])) for k in range(count)]
 
 
-def share(outcomes: list[Outcome], *, plain: bool = False, below: float = 1.0) -> float:
-    """Part of the designs that trim, with less than `below` stalled, which the first attempt trims.
-
-    `plain`: of all plain level flights.
-    """
-    chosen = [one for one in outcomes if (one.plain if plain else one.kind == "trimmed" and one.stalled <= below)]
+def share(outcomes: list[Outcome]) -> float:
+    """Part of the plain level flights that the first attempt trims."""
+    chosen = [one for one in outcomes if one.plain]
     return sum(one.kind == "trimmed" and one.first for one in chosen) / max(len(chosen), 1)

@@ -14,8 +14,7 @@ from viser.infra import Message
 from explorer.app import App
 from explorer.hosting.messages import LONGEST_TEXT, accepted_value
 from explorer.hosting.viser_compat import _Callbacks, on_event_loop
-from explorer.model.inputs import OPENING, ViewState
-from explorer.sharing import share
+from explorer.model.inputs import ViewState
 from explorer.sharing.share import Address, view_from
 from tests.tools.visitor import arrived, ran
 
@@ -42,24 +41,6 @@ def test_values_that_a_widget_can_hold_pass():
     assert accepted_value("b", "a", choices=("a", "b")) == "b"
     assert accepted_value(True, False) is True
     assert accepted_value([1, 2.5], (0.0, 0.0)) == [1, 2.5]
-
-
-LINKS = [
-    "1;linear:-8;mass=" + DIGITS, "1;linear:-8;mass=" + "9" * 5000, "1;linear:-8;rotor=" + "[" * 1500,
-    '1;linear:-8;rotor={"main":{}}', "1;linear:-8;active_twist=" + DIGITS, "1;" + "+".join(["ideal"] * 250),
-    "1;" + "x" * 7000, "1;linear:-8;\0=1", "own",
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("code", LINKS, ids=lambda code: code[:24])
-def test_a_link_opens_the_page_with_a_sentence(code: str):
-    address = Address("?d=" + code, lambda query: None)
-    assert address.read(share.DESIGN, share.inputs_from, OPENING, "Not the design") == OPENING
-    ((_, sentence),) = address.problems
-    assert len(sentence) < 450
-    assert "9" * 100 not in sentence
-    with pytest.raises(ValueError, match=r"\w"):  # As A of a link, which is read elsewhere.
-        share.inputs_from(code)
 
 
 def test_any_failure_of_a_reader_leaves_the_page_standing():

@@ -267,24 +267,6 @@ def test_exit_code_is_1_if_nothing_trims(capsys: pytest.CaptureFixture[str]):
     assert answer["net_saving_w"] is None
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--actuator", "MFC_P"], "actuator 'MFC_P' is not known; did you mean 'MFC_P2'? use one of MFC_P1"),
-        (["--concept", "two-segment", "--division", "1.5"], "division 1.5 of concept two-segment is outside"),
-        (["--plies", "0"], "0 plies"),
-        (["--from-mu", "0.3"], "both conditions have advance ratio 0.3"),
-        (["--span", "0.2"], "active span '0.2' is not understood"),
-        (["--chord", "0.5:0.1"], "active chord 0.5…0.1"),
-        (["--blade", "retrofit", "--stiffness", "0.5"], "retrofit keeps the blade"),
-        (["--blade", "new", "--stiffness", "5"], "stiffness 5"),
-        (["--angle-deg", "0"], "fibre angle 0"),
-    ],
-)
-def test_bad_input_is_refused(arguments: list[str], words: str, refused: Callable[..., str]):
-    assert words in refused("actuator", *arguments)
-
-
 def test_the_attainable_twist_can_be_solved_as_a_design():
     """The SPEC of an attainable twist is read again, and on the actuated blade it gives the same power."""
     solution = verdict().optimum.solutions[1]

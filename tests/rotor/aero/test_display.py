@@ -11,17 +11,35 @@ from numpy.testing import assert_allclose, assert_array_equal
 from rotor import Design, Solution, make_design, solve
 from rotor.aero.disk import stations
 from rotor.aero.display import as_asked, resampling
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
+from rotor.design.design import Models
 from rotor.trim import Analysis, analyse
-from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
 
 FAST, HEAVY = 0.35, 9500.0
+ELEMENTS, AZIMUTHS = 24, {"few azimuths": 24, "many azimuths": 120}
+
+
+class OwnGrid(LinearInflow):
+    """Linear inflow on a grid of its own, finer towards the tip."""
+
+    fine_tip = True
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        del models, blades
+        return ELEMENTS, AZIMUTHS[self.name]
 
 
 @pytest.fixture(scope="module", autouse=True)
 def models() -> Iterator[None]:
-    with uneven_models():
+    """Pitt and Peters' inflow on the two grids, as `few azimuths` and `many azimuths`."""
+    like = INFLOW_MODELS["pitt-peters"]
+    assert isinstance(like, LinearInflow)
+    with pytest.MonkeyPatch.context() as patch:
+        for name in AZIMUTHS:
+            patch.setitem(INFLOW_MODELS, name, OwnGrid(name, name, "", like.longitudinal, like.lateral))
         yield
 
 

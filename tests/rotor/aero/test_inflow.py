@@ -1,6 +1,7 @@
 """Momentum theory, the linear inflow family, eqs. (2.29)–(2.33), (3.4), and momentum theory point by point."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -24,9 +25,14 @@ WAKES = [DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.3, 0
 DISK = build_disk(make_design().rotor, elements=12, azimuths=24)
 
 
-@pytest.mark.parametrize("mu_x", [0.0, 0.05, 0.2, 0.45])
-@pytest.mark.parametrize("mu_z", [-0.01, 0.0, 0.03, 0.1])
-@pytest.mark.parametrize("ct", [1e-4, 0.006, 0.013])
+FLOWS = [
+    *product((1e-4, 0.006, 0.013), (0.0, 0.05, 0.2, 0.45), (-0.01, 0.0, 0.03, 0.1)),
+    *product((0.0065,), (0.04, 0.06, 0.2), (-0.2, -0.15, -0.1, -0.06)),
+]
+"""C_T, µ_x and µ_z: level flight and climb, and fast descent."""
+
+
+@pytest.mark.parametrize(("ct", "mu_x", "mu_z"), FLOWS)
 def test_glauert_closes_and_slope_is_exact(ct: float, mu_x: float, mu_z: float):
     """Eq. (2.30); less thrust than nothing gives the mirror image."""
     inflow, slope = glauert_inflow(ct, mu_x, mu_z)

@@ -96,36 +96,6 @@ def test_not_converged_is_exit_1_with_nulls(answer: Answer):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["solve", "--mu", "0.2", "--hover"], "--hover"),
-        (["optimize", "--hover"], "did you mean 'optimise'?"),
-        (["solve", "--twst", "linear:-8"], "did you mean '--twist'?"),
-        (["sweep", "--mu", "0.4:0.1:0.1"], "write 0.4:0.1:-0.1 or 0.1:0.4:0.1"),
-        (["schedule", "--hover"], "--hover is not a flag of this command; see"),
-        (["sweep", "--mu", "0.1", "--twist", "linear:-8", "--relative-to", "builtin"], "use linear:-8"),
-        (["solve", "--trim", "controls", "--thrust-n", "20"], "needs a collective"),
-        (["solve", "--ct-over-sigma", "0.07"], "add --trim wind-tunnel"),
-        (["solve", "--preset", "thesis", "--climb-m-s", "4"], "leave the rate of climb out"),
-        (["airfoil", "show", "sc1095", "--mach", "0.7"], "needs both --mach and --alpha"),
-        (["airfoil", "build", "sc1095"], "'build' is not a known value: use show"),
-        (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
-        (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
-        (["optimise", "--bound", "angle=1,2"], "does not name a parameter"),
-        (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
-        (["schedule", "--plies", "3"], "add --actuator"),
-        (["schedule", "--processes", "0"], "0 processes"),
-        (["study", "nowhere.toml"], "two_segment.toml"),
-        (["study", "two_segment.toml", "DIR"], "study show DIR"),
-        (["study", "two_segment.toml", "--workers", "0"], "1…1024"),
-        (["study", "show", "nowhere"], "nowhere"),
-    ],
-)
-def test_bad_input_is_exit_2_and_one_line(refused: Printed, arguments: list[str], words: str):
-    assert words in refused(*arguments)
-
-
-@pytest.mark.parametrize(
     ("flags", "words"),
     [
         (["--twist", "linear:-30"], "built with about 20"),
@@ -213,12 +183,6 @@ def test_a_stand_says_its_altitude_and_a_model_rotor_its_torque(printed: Printed
     out = printed("solve", "--rotor", "knight-hefner-3", "--hover", "--ct-over-sigma", "0.01", "--altitude-m", "900")
     assert "flapping trimmed, 900 m" in out
     assert re.search(r"torque 0\.\d{3} N m", out)
-
-
-def test_two_ranges_or_outputs_at_once_are_refused(refused: Printed):
-    for words in ([], ["--mu", "0.1:0.3:0.1", "--mass-kg", "7000:8000:500"], ["--mu", "0.1", "--speed-kt", "80"]):
-        assert "give one range" in refused("sweep", *words)
-    assert "both print" in refused("sweep", "--mu", "0.1:0.2:0.1", "--csv", "-", "--json")
 
 
 def test_keys_of_the_json_are_documented(answer: Answer):

@@ -1,7 +1,6 @@
 """The loaded UH-60A data against the document's tables and published values; design files."""
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotor.airfoil.polynomial import THESIS_READING
 from rotor.design.aircraft import in_words
 from rotor.design.quantities import PRESETS
-from rotor.files.design_file import design_from_record, load_design
+from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design, uh60a_rotor
 
 
@@ -57,8 +56,6 @@ def test_standard_atmosphere_and_a_hot_day():
     assert_allclose((hot.density, hot.sound_speed, hot.viscosity), (0.987, 346.3, 1.8384e-5), rtol=2e-4)
     assert in_words(hot.unusual) == ("ISA + 20 °C",)
     assert in_words(make_design(isa_offset_c=-10, climb_m_s=-3).unusual) == ("ISA − 10 °C", "descent 3 m/s")
-    with pytest.raises(ValueError, match=r"ISA offset 80 °C is outside -60…60 °C"):
-        make_design(isa_offset_c=80)
 
 
 STAND = {"shaft_tilt_deg": -12.0, "thrust_n": 60e3, "flapping": "free", "cyclic_1s_deg": -2.0}
@@ -90,30 +87,6 @@ def test_design_files_round_trip(tmp_path: Path, asked: dict[str, Any]):
     assert again.pop("stand", {}) == pytest.approx(record.pop("stand", {}))
     assert again == record
     assert json.loads(path.read_text())["version"] == 2
-
-
-def test_a_thesis_design_comes_back_with_what_is_not_written():
-    record: dict[str, Any] = {"preset": "thesis", "twist": "linear:-8"}
-    design = design_from_record(record)
-    assert design == make_design(**record)
-    assert design_from_record(design.to_dict()) == design
-
-
-@pytest.mark.parametrize(
-    ("case", "words"),
-    [
-        ({"mass": 7000}, "unknown key 'mass'; did you mean 'mass_kg'?"),
-        ({"mass_kg": "heavy"}, "'heavy'"),
-        ({"dynamic_stall": "auto"}, "dynamic_stall is 'auto', not true or false"),
-        ({"twist": 3}, "twist is 3, not a text"),
-        ({"inflow": "magic"}, "'magic'"),
-        ({"low_speed": "fly"}, "use hover or wake"),
-    ],
-)
-def test_bad_design_files_are_one_sentence(case: dict[str, object], words: str):
-    with pytest.raises(ValueError, match=re.escape(words)) as caught:
-        design_from_record(case)
-    assert "\n" not in str(caught.value)
 
 
 def test_the_twist_of_a_case_outlives_a_preset():

@@ -1,7 +1,7 @@
 """Rotor speed as a quantity: what scales with Ω and what does not, and that it reaches everything from its row."""
 
 import argparse
-import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -24,7 +24,6 @@ from rotor.study.series import sweep_columns
 from rotor.study.study import columns_of
 from rotor.study.study_file import parse_study
 from rotor.support.units import KNOT
-from rotor.trim.analysis import power_gradient
 
 SMALL: dict[str, Any] = {"elements": 12, "azimuths": 24}
 
@@ -104,8 +103,6 @@ def test_a_given_tip_mach_number_excludes_it():
     stand = {"ct_over_sigma": 0.07, "tip_mach": 0.6}
     with pytest.raises(ValueError, match=r"rotor speed 90 % and tip_mach 0\.6 both .* give one of them"):
         rotor.make_design(stand=stand, rotor_speed_percent=90)
-    with pytest.raises(ValueError, match=r"rotor speed 60 % is outside 70…110 %: choose a value inside"):
-        rotor.make_design(rotor_speed_percent=60)
 
 
 def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
@@ -118,6 +115,13 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
             continue
         value = float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
         changed: dict[str, Any] = {name: value}
+        wrong: dict[Any, tuple[type[Exception], str]] = {
+            row.high + 1.0: (ValueError, f"is outside {row.low:g}…{row.high:g}"),
+            "little": (TypeError, f"{name} is 'little', not a number"),
+        }
+        for beyond, (error, words) in wrong.items():
+            with pytest.raises(error, match=re.escape(words)):
+                rotor.make_design(**{name: beyond})
         design = rotor.make_design(**changed, **SMALL)
         assert row.of(design) == value
         assert row.put(rotor.make_design(**SMALL), value) == design
@@ -146,21 +150,13 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
 
 
 def test_drag_area_is_that_of_the_airframe():
-    """Parasite power ½ρV³f; its gradient is that of a trim with this area, and without one it is the rotor file's."""
+    """Parasite power ½ρV³f; without an area of its own it is the rotor file's."""
     design = rotor.make_design(mu=0.2, twist="linear:-12", drag_area_m2=2.0, off="download", **DREES)
     power = rotor.solve(design).require().power
     assert_allclose(power.parasite, 0.5 * design.condition.density * design.airspeed**3 * 2.0, rtol=1e-8)
     table = rotor.sweep(design, drag_area_m2=[2.0, 3.0])
     assert [one.design.fuselage.drag_area for one in table.solutions] == [2.0, 3.0]
-    slope, step = power_gradient(rotor.solve(design).require()), 0.02
-    ahead, behind = (rotor.solve(design.with_twist(f"linear:{-12.0 + s!r}")).power.total for s in (step, -step))
-    change = (ahead - behind) / math.radians(2.0 * step)
-    assert float(slope.by_element @ (slope.r - 0.75)) == pytest.approx(change, rel=2e-4)
     assert "drag_area_m2" not in design.at(drag_area_m2=design.aircraft.fuselage.drag_area).to_dict()
-    with pytest.raises(ValueError, match=r"drag area 51 m² is outside 0…50 m²: choose a value inside"):
-        design.at(drag_area_m2=51.0)
-    with pytest.raises(TypeError, match="drag_area_m2 is 'small', not a number"):
-        rotor.make_design(drag_area_m2="small")  # pyright: ignore[reportArgumentType]
 
 
 # Load factor: a heavier aircraft with the same drag; in a climb power lifts the weight alone
@@ -202,9 +198,3 @@ def test_hover_needs_the_power_of_momentum_theory():
     design = rotor.make_design(hover=True, off="download", **DREES)
     one, two = (rotor.solve(design.at(load_factor=n)).require() for n in (1.0, 1.5))
     assert_allclose(two.power.induced / one.power.induced, 1.5**1.5, rtol=0.03)
-
-
-def test_what_it_may_be():
-    with pytest.raises(ValueError, match=r"load factor 9 is outside 0\.1…5: choose a value inside"):
-        rotor.make_design(load_factor=9)
-    assert "load factor 1.5" in repr(rotor.make_design(load_factor=1.5))

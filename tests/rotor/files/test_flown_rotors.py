@@ -173,20 +173,6 @@ def test_the_coning_balances_lift_weight_and_a_spring_that_rests_at_the_precone(
     assert flap_dynamics(rotor, 1.2, blade_weight=True).preload > 0.0
 
 
-@pytest.mark.parametrize(
-    ("line", "said"),
-    [
-        ('hub = "gimballed"\nflap_spring_nm_rad = 5.0', "flap_spring_nm_rad on a hub that is 'gimballed'"),
-        ('hub = "articulated"\nprecone_deg = 2.5', "precone_deg on a hub that is 'articulated'"),
-    ],
-)
-def test_a_spring_belongs_to_a_hinge_of_its_own(line: str, said: str):
-    text = asset_path("bo105.toml").read_text(encoding="utf-8")
-    text = re.sub(r"^(flap_spring_nm_rad|precone_deg|hub) = .*\n", "", text, flags=re.M)
-    with pytest.raises(ValueError, match=said):
-        read_aircraft("own.toml", {"own.toml": text.replace("[main_rotor]", f"[main_rotor]\n{line}", 1)})
-
-
 def test_a_spring_at_the_offset_hinge_of_an_articulated_hub():
     """ν² = 1 + eS/I + K/IΩ² by hand, and a rigid blade that cones between its rest and where it would without."""
     text = asset_path("gazelle.toml").read_text(encoding="utf-8")

@@ -99,14 +99,6 @@ def test_design_files_name_a_shipped_rotor_and_contain_a_users_own(key: str):
 def test_design_files_without_a_rotor_are_the_uh60a():
     design = design_from_record({"format": "rotor-explorer design", "version": 2, "twist": "uh60a"})
     assert design.aircraft == shipped_aircraft("uh60a")
-    with pytest.raises(ValueError, match=r"'rotor-explorer design' version 1: this program reads .* version 2"):
-        design_from_record({"format": "rotor-explorer design", "version": 1, "twist": "uh60a"})
-    with pytest.raises(
-        ValueError, match=r"design file key 'rotor' does not name or hold a rotor: write one of uh60a, r22, s61"
-    ):
-        design_from_record({"rotor": {"main": "a.toml"}})
-    with pytest.raises(ValueError, match="rotor '/etc/passwd' is not known: use uh60a"):
-        design_from_record({"rotor": "/etc/passwd"})  # A path is for the command line alone.
 
 
 def test_a_shipped_twist_fits_any_rotor():
@@ -122,13 +114,9 @@ def test_fewer_blades_have_a_greater_bound():
     assert bounds["r22"].any_circulation > bounds["uh60a"].any_circulation > bounds["s61"].any_circulation > 1.0
 
 
-def test_rotor_flag(
-    printed: Callable[..., str], answer: Callable[..., Any], refused: Callable[..., str], tmp_path: Path
-):
+def test_rotor_flag(printed: Callable[..., str], answer: Callable[..., Any], tmp_path: Path):
     path = tmp_path / "mine.toml"
     path.write_text(own("r22")["my.toml"], encoding="utf-8")
     named, read = (answer("solve", "--rotor", rotor, "--hover") for rotor in ("r22", str(path)))
     assert named["power_w"] == pytest.approx(read["power_w"], rel=SAME)
     assert printed("sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--preset", "thesis").count("\n") == 3
-    assert "rotor 'r44' is not known: use uh60a, r22, s61, gazelle" in refused("solve", "--rotor", "r44")
-    assert "rotor file 'none.toml' does not exist" in refused("solve", "--rotor", "none.toml")

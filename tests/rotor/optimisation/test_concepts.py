@@ -105,22 +105,3 @@ def test_a_change_added_to_a_fixed_law():
     assert_allclose(nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9)
     law = parse_twist("linear:+3+uh60a", builtin=design.twist)
     assert_allclose(law(R), math.radians(3.0) * (R - 0.75) + design.twist(R))
-
-
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: find_concept("wavy"), "'wavy' is not known"),
-        (lambda: find_concept("linear", [0.5]), "cannot take 1 division"),
-        (lambda: find_concept("two-segment", [0.99]), "outside 0.25…0.92"),
-        (lambda: find_concept("three-segment", [0.8, 0.4]), "must ascend"),
-        (lambda: restrict(CONCEPTS["quadratic"], {"rate": 0.0}), "no parameter 'rate'"),
-        (lambda: restrict(CONCEPTS["linear"], {"rate": 0.0}), "no free parameter left"),
-        (lambda: parse_twist("spline:1,2@0.2,0.8"), "four or more"),
-        (lambda: parse_twist("spline:1,2,3,4@0.2,0.1,0.8,1"), "ascend"),
-    ],
-)
-def test_bad_input_is_one_sentence(call, words: str):
-    with pytest.raises(ValueError, match=words) as caught:
-        call()
-    assert "\n" not in str(caught.value)

@@ -214,24 +214,6 @@ def test_mission_optimum_is_between_those_of_its_conditions(quantity: Quantity):
     assert both.power >= sum(one.power for one in alone) / 2 - 1.0
 
 
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: Search(small(0.2), CONCEPTS["linear"], starts=0), "0 starts"),
-        (lambda: Search(small(0.2), CONCEPTS["linear"], seed=-1), "seed -1"),
-        (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("angle", 0, 1),))), "no parameter"),
-        (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("rate", 0.1, 0.0),))), "allow no value"),
-        (lambda: Limits(rate=(0.1, 0.0)), "steepest first"),
-        (lambda: Limits(stalled=2.0), "200 %"),
-        (lambda: Limits(index=0.0), "0 % of the vibration index"),
-        (lambda: ChangeLimit(LinearTwist(0.0), (0.0, 1.0), (0.1,)), "one angle"),
-    ],
-)
-def test_bad_searches_are_one_sentence(call, words: str):
-    with pytest.raises(ValueError, match=words):
-        call()
-
-
 class TestVibration:
     """The index of the hub loads as objective and limit."""
 

@@ -11,7 +11,7 @@ from rotor import load_design, solve
 from rotor.study.chunks import StudyFolder, StudyProvenance, arrow_modules, evaluate_chunk
 from rotor.study.results import Results, design_at, design_of_row, read_file, read_results
 from rotor.study.study_file import StudyFile, parse_study
-from rotor.support.assets import asset_path, package_version
+from rotor.support.assets import package_version
 from tests.solved import assert_same_trim
 
 TRIMS = """
@@ -105,18 +105,3 @@ def test_the_command_solves_and_saves_a_row(trims: tuple[Path, Results], tmp_pat
     assert_same_trim(solve(load_design(file)), solve(design_at(f"{folder}:5")))
     heavy = answer("solve", "--row", f"{folder}:5", "--mass-kg", "9000")
     assert heavy["power_w"]["total"] > found["power_w"]["total"]
-
-
-@pytest.mark.parametrize(
-    ("flags", "sentence"),
-    [
-        (["--row", "{study}"], "give a study's folder and a point, as DIR:17"),
-        (["--row", "{study}:9999"], "no finished point 9999: give one of 0…527"),
-        (["--row", "nowhere:1"], "holds no study"),
-        (["--row", "{study}:1", "--case", "a.json"], "use one of them"),
-        (["--save", "a.toml"], "a.toml"),
-    ],
-)
-def test_bad_input_gets_one_sentence(flags: list[str], sentence: str, refused: Callable[..., str]):
-    study = str(asset_path("studies") / "hover_cruise_264")
-    assert sentence in refused("solve", *(flag.replace("{study}", study) for flag in flags))

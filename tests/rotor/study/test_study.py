@@ -120,11 +120,35 @@ def test_a_bad_study_file_is_one_sentence(name: str, tmp_path: Path, refused: Ca
     assert not (tmp_path / "out").exists()
 
 
-def test_rows_agree_with_single_trims():
-    study = parse_study(SMALL)
+STANDS = """
+[axes]
+stand_shaft_tilt_deg = [15, 30]
+[fixed]
+rotor = "xv15"
+mu = 0.15
+stand_ct_over_sigma = 0.075
+stand_tip_mach = 0.691
+[models]
+trim = "wind-tunnel"
+inflow = "uniform"
+"""
+
+
+def alone_in_flight(row: dict[str, Any]) -> Design:
+    twist = f"linear:{row['rate_deg']:g}"
+    return make_design(twist=twist, mu=row["mu"], inflow="pitt-peters", elements=12, azimuths=24)
+
+
+def alone_on_a_stand(row: dict[str, Any]) -> Design:
+    stand = {"shaft_tilt_deg": row["stand_shaft_tilt_deg"], "ct_over_sigma": 0.075, "tip_mach": 0.691}
+    return make_design(rotor="xv15", mu=0.15, trim="wind-tunnel", stand=stand, inflow="uniform")
+
+
+@pytest.mark.parametrize(("text", "asked"), [(SMALL, alone_in_flight), (STANDS, alone_on_a_stand)])
+def test_rows_agree_with_single_trims(text: str, asked: Callable[[dict[str, Any]], Design]):
+    study = parse_study(text)
     for row in evaluate_points(study, 0, study.count):
-        twist = f"linear:{row['rate_deg']:g}"
-        design = make_design(twist=twist, mu=row["mu"], inflow="pitt-peters", elements=12, azimuths=24)
+        design = asked(row)
         alone = solve(design)
         assert (row["status"], row["twist"]) == ("converged", design.twist.spec())
         assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
@@ -174,26 +198,6 @@ def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
     assert [row["rotor"] for row in rows] == ["mine.toml", "s61"]
     assert rows[0]["mass_kg"] < 700.0 < rows[1]["mass_kg"]
     assert rows[0]["twist"] == "points:5,-5@0.1,1"
-
-
-def test_a_rotor_on_a_test_stand_is_studied_over_the_inputs_of_its_test():
-    text = """
-[axes]
-stand_shaft_tilt_deg = [15, 30]
-[fixed]
-rotor = "xv15"
-mu = 0.15
-stand_ct_over_sigma = 0.075
-stand_tip_mach = 0.691
-[models]
-trim = "wind-tunnel"
-inflow = "uniform"
-"""
-    for row, tilt in zip(evaluate_points(parse_study(text), 0, 2), (15.0, 30.0), strict=True):
-        stand = {"shaft_tilt_deg": tilt, "ct_over_sigma": 0.075, "tip_mach": 0.691}
-        alone = solve(make_design(rotor="xv15", mu=0.15, trim="wind-tunnel", stand=stand, inflow="uniform"))
-        assert row["status"] == "converged"
-        assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
 
 
 def test_the_row_of_an_optimum_has_its_results():

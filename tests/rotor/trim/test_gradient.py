@@ -74,7 +74,7 @@ FLOWN: dict[str, dict[str, Any]] = {
     "closed form in descent": {"mu": 0.0, "climb_m_s": -4.0, "inflow": "closed-form"},
     **{f"{name} at µ {mu}": {"mu": mu, "trim": trim, "stand": stand}
        for mu in (0.0, 0.2) for name, (trim, stand) in STANDS.items()},
-    "stalled": {"mu": 0.35, "mass_kg": 9500.0},
+    "stalled": {"mu": 0.35, "mass_kg": 9500.0}, "drag area": {"mu": 0.2, "drag_area_m2": 2.0},
     "hover": {"mu": 0.0}, "hover of the thesis": {"mu": 0.0, "preset": "thesis"}, "thesis": {"preset": "thesis"},
 }  # fmt: skip
 

@@ -8,7 +8,7 @@ import pytest
 
 from rotor import Design, make_design, solve
 from rotor.aero.momentum import glauert_inflow
-from rotor.design.quantities import LowSpeed
+from rotor.design.quantities import HOVER_INFLOWS, HoverInflow, LowSpeed
 from rotor.trim.low_speed import FASTEST, axial_share, inflow_ratio
 from rotor.trim.newton import SolverOptions
 from tests.patched import Patch
@@ -46,17 +46,31 @@ def test_share_falls_faster_than_the_fifth_power_and_ends():
     assert axial_share(0.06 * (FASTEST - 0.01), 2.0 * 0.06**2) < 1e-6
 
 
-@pytest.mark.parametrize("elastic", [True, False])
-@pytest.mark.parametrize("twist", ["linear:0", "linear:-24", "builtin"])
-def test_hover_is_the_limit_of_forward_flight(twist: str, elastic: bool):
-    at = design(twist, elastic_twist=elastic)
+def climbing(climb: float, hover_inflow: HoverInflow) -> Design:
+    at = design().at(climb_m_s=climb)
+    return replace(at, models=replace(at.models, hover_inflow=hover_inflow))
+
+
+AXIAL = {
+    **{f"{twist}, elastic {on}": design(twist, elastic_twist=on)
+       for twist in ("linear:0", "linear:-24", "builtin") for on in (True, False)},
+    **{f"{climb} m/s, {inflow}": climbing(climb, inflow)
+       for climb in (-4.0, 3.0, 15.0) for inflow in HOVER_INFLOWS},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("at", AXIAL.values(), ids=AXIAL)
+def test_hover_is_the_limit_of_forward_flight(at: Design):
     assert watts(at.at(mu=0.002)) == pytest.approx(watts(at), rel=1e-3)
     assert watts(at.at(mu=1e-4)) == pytest.approx(watts(at), rel=1e-5)
 
 
 def test_it_changes_slow_flight_alone():
+    """Of the lifting line alone it is a step of 2 % at most from the balance of annuli."""
     with_, without = design(), design(low_speed="wake")
     assert watts(without.at(mu=0.002)) < 0.995 * watts(without)
+    for one in (without.with_twist("linear:-8"), without.with_twist("linear:-16")):
+        assert 0.98 < watts(one.at(mu=0.002)) / watts(one) < 1.0
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
 
 

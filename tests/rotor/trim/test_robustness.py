@@ -2,9 +2,8 @@
 
 import math
 import re
-from dataclasses import fields, replace
+from dataclasses import replace
 
-import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -19,7 +18,7 @@ from rotor.trim.analysis import Analysis
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.validity import MOST_STALLED
-from tests.tools.designs import FIRST, RIGHT, run, share
+from tests.tools.designs import FIRST, RIGHT, run, share, wrong
 
 TRIMMABLE = 0.08
 """C_W/σ up to which every design must trim: the level-flight sweeps of the UH-60A Airloads Program, up to µ 0.37, had
@@ -32,25 +31,10 @@ def blade_loading(design: Design) -> float:
 
 def check(solution: Solution) -> None:
     """Properties of every solution."""
-    assert solution.message.endswith(".")
-    assert "\n" not in solution.message
-    assert "nan" not in solution.message.lower()
-    for caveat in solution.caveats:
-        assert caveat.sentence.endswith(".")
-        assert "\n" not in caveat.sentence
+    assert wrong(solution) == ""
     if solution.converged:
-        assert solution.message == "Trimmed."
         assert solution.residual <= 1e-7
-        for name in (*(field.name for field in fields(solution.disk) if field.repr), "apparent"):
-            values = getattr(solution.disk, name)
-            if name == "unsteady":
-                assert (values is None) == (Analysis(solution).linear.problem.stall is None)
-                continue
-            if values is None and (name == "apparent" or solution.elastic is None):
-                continue
-            assert np.isfinite(values).all(), name
-        for field in fields(solution.controls):
-            assert math.isfinite(getattr(solution.controls, field.name))
+        assert (solution.disk.unsteady is None) == (Analysis(solution).linear.problem.stall is None)
         assert 0.0 < solution.power.main_rotor < 50e6
         if solution.design.preset == "flight":  # The document's torque is not power.
             assert solution.power.shaft == pytest.approx(solution.power.main_rotor, rel=1e-6)
@@ -58,8 +42,6 @@ def check(solution: Solution) -> None:
         assert 0.0 <= solution.reverse_flow_area < 0.1
         assert 0.0 <= solution.stalled_area <= 1.0
         assert solution.figure_of_merit is None or 0.0 < solution.figure_of_merit < 1.0
-    else:
-        assert solution.message.startswith("Not trimmed:")
 
 
 @pytest.mark.slow
@@ -222,7 +204,7 @@ def check_random(count: int, seed: int) -> None:
     assert [(one.kind, one.said, one.asked) for one in outcomes if one.kind not in RIGHT] == []
     plain = sum(one.plain for one in outcomes)
     # A hundred designs have some twenty in plain level flight, of which one is 5 %: a second one is chance.
-    assert (1.0 - share(outcomes, plain=True)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
+    assert (1.0 - share(outcomes)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
     # A free rotor has no equilibrium at many a load, and beyond 25 % of the moment stalled there is no power.
     possible = [one for one in outcomes if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED]
     assert len(possible) > 0.5 * count

@@ -177,14 +177,6 @@ def test_validate_of_any_set_and_its_page(
     assert (found["sets"], [row["set"] for row in found["rows"]]) == ([], ["uh60a-constants"] * 4)
 
 
-def test_what_cannot_be_compared_or_searched_is_refused(refused: Callable[..., str]):
-    assert "set 'xv16' is not known: use one of xv15-hover" in refused("validate", "xv16")
-    inflow = refused("validate", "xv15-hover", "--inflow", "drees")
-    assert "hover inflow 'drees' is not known: use one of annulus" in inflow
-    free = refused("optimise", "--concept", "linear", "--trim", "free-rotor", "--ct-over-sigma", "0.06")
-    assert "takes no power from its shaft" in free
-
-
 @pytest.mark.parametrize(
     "name",
     [

@@ -1,4 +1,4 @@
-"""`python -m rotor reproduce`: pictures and numbers as files."""
+"""`python -m rotor reproduce`: pictures and numbers as files, and what it gives to the trust page."""
 
 import csv
 import json
@@ -8,7 +8,10 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.validation.thesis.catalogue import DRAWINGS, ENTRIES, find_entry
+from rotor.validation.thesis.catalogue import DRAWINGS, ENTRIES, find_entry, trust_sets
+from rotor.validation.thesis.report import Report
+from rotor.validation.trust import trust_rows
+from tests.shipped_rows import still_true
 
 THESIS = {
     *(f"{chapter}.{k}" for chapter, last in ((2, 9), (3, 15), (4, 13), (5, 10)) for k in range(1, last + 1)),
@@ -52,14 +55,14 @@ def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path
     assert all(one["statement"] in said for one in results)
 
 
-@pytest.mark.parametrize(
-    ("flags", "words"),
-    [
-        (["--processes", "0"], ["0 processes"]),
-        (["--figure", "9.9"], ["9.9", "3.11"]),
-        (["--figure", "2.1"], ["figure 2.1 is a drawing in the thesis (stream tube in hover)"]),
-    ],
-)
-def test_bad_flags_are_one_line(flags: list[str], words: list[str], tmp_path: Path, refused: Callable[..., str]):
-    line = refused("reproduce", str(tmp_path), *flags)
-    assert all(word in line for word in words)
+@pytest.mark.slow
+def test_rows_and_verdicts_of_the_trust_page_are_reproduced(report: Callable[[str], Report]):
+    """Verdicts on the thesis' statements; what is only captioned has no row."""
+    shipped = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
+    *sets, statements = trust_sets(report(entry.number) for entry in ENTRIES if not entry.slow)
+    for one in sets:
+        for row in one.rows:
+            still_true(row)
+    assert {row.what for row in statements.rows} == shipped.keys()  # None that is slow is checkable.
+    for row in statements.rows:
+        assert shipped[row.what] == row.shown, row.what
