@@ -1,6 +1,5 @@
-"""An actuator over a flight: the tip twist that each leg wants, what the actuator reaches, and the power it takes."""
+"""An actuator over a flight: the tip twist of least power that it reaches on each leg, and the power it takes."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -10,7 +9,7 @@ import numpy as np
 from rotor.actuator.catalogue import engines_of
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.optimum import best_swings
-from rotor.actuator.verdict import MIN_TWIST, Verdict
+from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.support.arrays import Array
@@ -42,10 +41,6 @@ def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
     return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 
-UNLIMITED_TWIST = math.radians(20.0)
-"""Either way, by segment [rad]: more than any optimum asks for."""
-
-
 @dataclass(frozen=True, eq=False)
 class ActuatorFlight:
     """An actuator over the legs of a flight. It holds no solutions and can be pickled.
@@ -57,8 +52,6 @@ class ActuatorFlight:
     legs: tuple[FlightLeg, ...]
     jig: TwistLaw
     """Twist of the blade with no voltage (a tube at rest)."""
-    wanted: Array
-    """Twist of least power on each leg by the same blade and actuator, were its range without end."""
     reached: Array
     """Twist of least power on each leg within the actuator's range."""
     reach: tuple[float, float]
@@ -113,7 +106,7 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
             except RuntimeError as error:
                 raise RuntimeError(f"{leg.name}: {error}") from None
     flown = [distinct[design] for design in flights]
-    wanted, swings = [one.wanted for one in flown], [one.swings for one in flown]
+    swings = [one.swings for one in flown]
     power_of = {
         "fixed": np.array([one.fixed.power.total for one in flown]),
         "built": np.array([one.built.power.total for one in flown]),
@@ -130,7 +123,6 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     return ActuatorFlight(
         legs=tuple(legs),
         jig=jig,
-        wanted=(np.array(wanted) - undriven) @ shapes,
         reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),
         swings=tuple(swings),
@@ -145,12 +137,11 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
 
 
 class _Flown(NamedTuple):
-    """A leg: trims with the fixed and the built-in twist and with the actuator's mass, swings wanted and reached."""
+    """A leg: trims with the fixed and the built-in twist and with the actuator's mass, and the swings reached."""
 
     fixed: Solution
     built: Solution
     heavy: Solution
-    wanted: tuple[float, ...]
     swings: tuple[float, ...]
     driven: Design
 
@@ -158,16 +149,12 @@ class _Flown(NamedTuple):
 def _fly_leg(verdict: Verdict, design: Design, jig: TwistLaw, window: Array, last: _Flown | None) -> _Flown:
     """One leg, from the trims of the last one; `window`: range of the swings, (segments, 2)."""
     installed = verdict.installed
-    reach = UNLIMITED_TWIST / np.maximum(np.abs(installed.shapes[:, -1]), MIN_TWIST)
     fixed = solve(replace(design, twist=verdict.baseline.fixed_twist), last and last.fixed).require()
     built = solve(design, last and last.built).require()
-    blade = replace(design, twist=jig)
-    reached = free = best_swings(blade, installed, np.outer(reach, (-1.0, 1.0)), built)
-    if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-        reached = best_swings(blade, installed, window, built)
+    reached = best_swings(replace(design, twist=jig), installed, window, built)
     driven = reached.solutions[0].design
     heavy = solve(with_actuator_mass(driven, installed), last and last.heavy).require()
-    return _Flown(fixed, built, heavy, free.swings[0], reached.swings[0], driven)
+    return _Flown(fixed, built, heavy, reached.swings[0], driven)
 
 
 def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:
