@@ -337,7 +337,8 @@ class Page:
         """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
         state = self.context.state()
         if state is not None and not self.context.held:
-            wanted = self.context.controls.inputs()
+            wanted, carried = self.context.controls.inputs(), state.solution.design.rotor.blade.carried
+            kilograms = carried.aircraft_kg if carried else 0.0
 
             def trims(inputs: Inputs) -> bool:
                 try:
@@ -345,7 +346,7 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(nearest_trim(state.inputs, wanted, trims, self.latest.problem))
+            self.context.set_inputs(nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms))
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""

@@ -165,11 +165,14 @@ _NAMED = {
 """What sentences about a trim that is not found name, by inputs."""
 
 
-def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str = "") -> Inputs:
+def nearest_trim(
+    good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str = "", carried: float = 0.0
+) -> Inputs:
     """The nearest design that trims, on the sliders' steps: with the mass or advance ratio that the sentence names,
     first that which was moved; else the last from one that does trim towards one that does not.
 
-    Sliders that differ move together; where anything else differs it is `good` itself.
+    Sliders that differ move together; where anything else differs it is `good` itself. `carried`: mass of an actuator
+    [kg], which the sentence counts and the slider does not.
     """
     moved = differing(good, wanted)
     told = {names: found.groups() for names, pattern in _NAMED.items() if (found := re.search(pattern, sentence))}
@@ -177,7 +180,8 @@ def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool], 
         there = wanted
         for name, value in zip(names, told[names], strict=True):
             step = slider(name, SI, wanted.aircraft).step
-            steps = math.floor(float(value) / ROWS[name].input_size / step + 1e-6)
+            value = float(value) - (carried if name == "mass_t" else 0.0)
+            steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
             there = replace(there, **{name: round(steps * step, 6)})
         if trims(there):
             return there

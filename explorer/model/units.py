@@ -109,10 +109,10 @@ class Units:
     def in_sliders(self, sentence: str) -> str:
         """A sentence with its masses [kg] in the unit of the slider, never rounded up: more may not trim."""
         digits = 2 if self.mass is TONNE else 0
+        step = self.mass.size / 10.0**digits
 
         def mass(found: re.Match[str]) -> str:
-            size = 10.0**digits
-            return self.mass.text(self.mass.size * math.floor(size * self.mass.of(float(found[1]))) / size, digits)
+            return self.mass.text(step * math.floor(float(found[1]) / step), digits)
 
         return re.sub(r"(\d+) kg\b", mass, sentence)
 

@@ -356,12 +356,11 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
             changes.append(solve(design, bare).require().power.total - bare.power.total)
     start, reach = step.control.start, [math.degrees(end) for end in set_to[0].reach(installed)]
     numbers = (
-        _said(actuator=installed.actuator.name)
+        _said(actuator=installed.actuator.name, sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
         | _said(reach_low=f"{number(reach[0], 1, sign=True)}°", reach_high=f"{number(reach[1], 1, sign=True)}°")
         | _of("power", gross=-twist[start], cost=net[start] - twist[start], here=net[start])
         | _of("power", net_cost=-verdict.net_saving)
-        | _said(sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mass", mass=installed.masses.aircraft)
     )
     lines = ChartLine("twist alone", "a", tuple(twist)), ChartLine("with its mass", "b", tuple(net))

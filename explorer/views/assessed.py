@@ -8,17 +8,9 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import (
-    ActuatedBlade,
-    actuated_blade,
-    against_words,
-    blade_out,
-    doubt_here,
-    fitted,
-    here_problem,
-)
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
 from explorer.views.actuator_words import limit_words, wave_words
-from explorer.views.dial_answer import peak_of
+from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.flight import STATES
 from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -88,10 +80,11 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
 
 def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Each limit that is exceeded, with value and bound: its own, and those that only the best twist would exceed."""
-    broken, on_blade = () if one.verdict is None else one.verdict.broken, one.now.of(fitted)
+    broken = () if one.verdict is None else one.verdict.broken
     reach = one.installed.actuator.range_limits
     own, asked = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
-    peak, room = peak_of(one.now.inputs.twist_per_rev), 0.0 if on_blade is None else on_blade.room
+    peak = peak_of(one.now.inputs.twist_per_rev)
+    room = FittedBlade(one.installed, one.inputs.driven_at(one.installed)).room
     own += [f"twist at n/rev {number(peak, 2)} of {number(room, 2)}°"] if peak > room + 0.005 else []
     return tuple(own), tuple(asked)
 

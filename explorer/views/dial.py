@@ -134,7 +134,7 @@ def view(now: PageState) -> dict[str, Any]:
 def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> DialPart:
     on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if on_blade is None else on_blade.whole
-    settled = now.of(_settled)
+    settled, moving = now.of(_settled), bool(waves) and now.answers.get(now.of(_moved)) is None
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -147,7 +147,7 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         room=0.0 if on_blade is None or not on_blade.whole else round(on_blade.room / on_blade.whole, 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
-        computing=not words and (answer is None or now.of(_waits)),
+        computing=not words and (answer is None or now.of(_waits) or moving),
         settled=settled if isinstance(settled, ModelChanges) else None,
         problem=settled if isinstance(settled, str) else "",
         against="the same without n/rev",

@@ -1,5 +1,6 @@
 """One value of the actuator as set: every number on the screen of Actuate, by its quantity, is the same."""
 
+import json
 import math
 import re
 from collections import defaultdict
@@ -11,7 +12,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from explorer.export.contents import on_board
 from explorer.export.figures import actuator_section
+from explorer.export.provenance import provenance_lines
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
 from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
@@ -42,6 +45,7 @@ from rotor.actuator import (
 from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.design import Harmonic
 from rotor.design.active_twist import read_harmonics
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
@@ -105,7 +109,7 @@ def balance_here(now: PageState) -> dict[str, str]:
 
 
 def screen(now: PageState) -> dict[str, list[str]]:
-    """Every number with a unit of all panels of Actuate and of the power card, by its quantity."""
+    """Every number with a unit of all panels of Actuate, of the power card and of exports, by its quantity."""
     found: dict[str, list[str]] = defaultdict(list)
 
     def read(quantity: str, pattern: str, text: str) -> None:
@@ -140,6 +144,17 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
     read("power over the flight", "(?:needs|saves) # ±", report)
     found["power over the flight"].append(total.lstrip("+−"))
+    read("power here", "(?:needs|saves) # ±", on_board(value, SI)[0])
+    assert now.state is not None
+    design = now.state.solution.design
+    carried = design.rotor.blade.carried
+    assert carried is not None
+    exported = {
+        "CSV": float(re.findall(r"total power ([\d.]+) kW", "\n".join(provenance_lines(now.state.solution)))[0]),
+        "link": 1e-3 * trimmed(with_actuator(now.inputs.design(), carried.spec)).power.total,
+        "design file": 1e-3 * trimmed(design_from_record(json.loads(json.dumps(design.to_dict())))).power.total,
+    }
+    found["power"] += [f"{kilowatts:.0f}" for kilowatts in exported.values()]
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.asked):
