@@ -5,6 +5,7 @@ Above the widgets stands why there is no verdict; below them twist now, reach an
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -87,13 +88,12 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
 
 def _form(now: PageState, one: ActuatedBlade | None) -> dict[str, FormLook]:
     """The widgets; for a rotor that carries no actuator as on the blade that does, and inert."""
-    design, inputs = now.sliders, now.hand.actuator
+    design, inputs, installed = now.sliders, now.hand.actuator, None if one is None else one.installed
     fits = design is None or design.aircraft.key == KNOWN_BLADE
-    try:
-        if one is None and (fits or design is None):
-            return {}
-        installed = inputs.installed(uh60a_rotor(design.preset)) if one is None else one.installed
-    except ValueError:
+    if design is not None and not fits:
+        with suppress(ValueError):
+            installed = inputs.installed(uh60a_rotor(design.preset))
+    if installed is None:
         return {}
     return {"actuator.form": replace(form_look(inputs, installed), inert=now.ui.held or not fits)}
 
