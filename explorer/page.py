@@ -337,6 +337,8 @@ class Page:
         """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
         state = self.context.state()
         if state is not None and not self.context.held:
+            wanted, carried = self.context.controls.inputs(), state.solution.design.rotor.blade.carried
+            kilograms = carried.aircraft_kg if carried else 0.0
 
             def trims(inputs: Inputs) -> bool:
                 try:
@@ -344,7 +346,7 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(nearest_trim(state.inputs, self.context.controls.inputs(), trims))
+            self.context.set_inputs(nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms))
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
@@ -365,9 +367,9 @@ class Page:
         """Leave what moves the page to a presenter, or give it back."""
         context = self.context
         context.held = context.keyboard.held = held
-        for part in (context.controls, self.optimise, self.actuator.controls.form, context.display, lecture):
+        for part in (context.controls, self.optimise, context.display, lecture):
             part.hold(held)
-        self.follower.follow(AT_ONCE.__contains__)
+        self.follower.follow((*AT_ONCE, ACTUATOR).__contains__)
 
     def _blade_grabbed(self, held: bool) -> None:
         """The blade or a handle of its twist curve was taken by the hand, or let go."""

@@ -46,6 +46,12 @@ def told(panel: Panel, now: PageState, **answers: Any) -> PageState:
     return replace(now, answers={**now.answers, **{calls[name]: answer for name, answer in answers.items()}})
 
 
+def worked(panel: Panel, now: PageState) -> PageState:
+    """With what it has the page's own thread compute."""
+    results = {work.key: work.run(lambda: False, lambda: None) for work in panel.works(now)}
+    return replace(now, answers={**now.answers, **results})
+
+
 def done(now: PageState, effects: tuple[Effect, ...]) -> PageState:
     """What effects leave behind: sliders, the hand, widgets of the actuator in whole per cent."""
     for effect in effects:

@@ -6,8 +6,9 @@ Per cent, degrees and volts end here.
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain, pairwise
-from typing import Literal
+from typing import Any, Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.model.units import number
@@ -216,6 +217,24 @@ def verdict_tasks(question: VerdictInputs) -> dict[str, Call]:
     """By actuator: the chosen one first, then all others."""
     ids = dict.fromkeys((question.actuator, *actuators()))
     return {id: Call(lean_verdict, (replace(question, actuator=id),)) for id in ids}
+
+
+def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float) -> dict[str, Any]:
+    """Of `ActuatorInputs`, the voltages of a flight at a place counted in its legs, straight between them, in whole per
+    cent; nothing where it has none.
+
+    Fibres are laid the other way where the voltages of the flight oppose its twists.
+    """
+    if not flight.swings:
+        return {}
+    actuator, shares, volts = installed.actuator, np.asarray(flight.swings), np.asarray(flight.voltages)
+    changes: dict[str, Any] = {}
+    if volts.size:
+        swings, shares = shares, volts / actuator.drive_swing
+        changes["crossed"] = installed.host.kind == "retrofit" and float(np.sum(swings * shares)) < 0.0
+    legs = np.arange(len(shares))
+    drives = [100.0 * actuator.share_of(float(np.interp(leg, legs, share))) for share in shares.T]
+    return {**changes, "drives": (*map(float, map(round, drives)), *AT_REST[len(drives) :])}
 
 
 def flight_of(verdict: Verdict) -> ActuatorFlight:

@@ -11,6 +11,7 @@ it, so the station turns by that angle relative to its neighbours. Sliding a div
 """
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -156,12 +157,34 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
     return answer.power.total if answer.converged and np.isfinite(answer.power.total) else None
 
 
-def nearest_trim(good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool]) -> Inputs:
-    """The last design that trims, from one that does towards one that does not, on the sliders' steps.
+_NAMED = {
+    ("mass_t", "advance_ratio"): r"there is at (\d+) kg and advance ratio (\d\.\d+)",
+    ("mass_t",): r"(?:up to|is|are) (\d+) kg",
+    ("advance_ratio",): r"advance ratio (\d\.\d+) at this mass",
+}
+"""What sentences about a trim that is not found name, by inputs."""
 
-    Sliders that differ move together; where anything else differs it is `good` itself.
+
+def nearest_trim(
+    good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str = "", carried: float = 0.0
+) -> Inputs:
+    """The nearest design that trims, on the sliders' steps: with the mass or advance ratio that the sentence names,
+    first that which was moved; else the last from one that does trim towards one that does not.
+
+    Sliders that differ move together; where anything else differs it is `good` itself. `carried`: mass of an actuator
+    [kg], which the sentence counts and the slider does not.
     """
     moved = differing(good, wanted)
+    told = {names: found.groups() for names, pattern in _NAMED.items() if (found := re.search(pattern, sentence))}
+    for names in sorted(told, key=lambda names: moved.isdisjoint(names)):
+        there = wanted
+        for name, value in zip(names, told[names], strict=True):
+            step = slider(name, SI, wanted.aircraft).step
+            value = float(value) - (carried if name == "mass_t" else 0.0)
+            steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
+            there = replace(there, **{name: round(steps * step, 6)})
+        if trims(there):
+            return there
     if not moved or not all(isinstance(getattr(good, name), float) and name in SLIDERS for name in moved):
         return good
 

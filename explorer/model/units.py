@@ -1,6 +1,7 @@
 """The units of the page: SI, or aviation units. Everything inside the program is SI."""
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -25,12 +26,15 @@ def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
 
 
 def adding(values: Sequence[float], digits: int = 0) -> list[float]:
-    """Values rounded so that they add up to their rounded sum: those with the largest remainder are rounded up."""
+    """Values rounded so that they add up to their rounded sum: what is then left goes where it makes the least error,
+    and only where there is nothing else to what rounds to zero."""
     scaled = [10.0**digits * value for value in values]
-    whole = [math.floor(value) for value in scaled]
+    whole = [round(value) for value in scaled]
     left = round(sum(scaled)) - sum(whole)
-    for k in sorted(range(len(whole)), key=lambda k: whole[k] - scaled[k])[:left]:
-        whole[k] += 1
+    step = 1 if left > 0 else -1
+    for _ in range(abs(left)):
+        k = min(range(len(whole)), key=lambda k: (abs(scaled[k]) < 0.5, abs(whole[k] + step - scaled[k])))
+        whole[k] += step
     return [value / 10.0**digits for value in whole]
 
 
@@ -101,6 +105,16 @@ class Units:
     def other_watts(self, value: float) -> str:
         """A power [W] in the other unit, with hundredths where the main one is the watt."""
         return self.power[1].text(value, 2 if self.power[0] is WATT else 0)
+
+    def in_sliders(self, sentence: str) -> str:
+        """A sentence with its masses [kg] in the unit of the slider, never rounded up: more may not trim."""
+        digits = 2 if self.mass is TONNE else 0
+        step = self.mass.size / 10.0**digits
+
+        def mass(found: re.Match[str]) -> str:
+            return self.mass.text(step * math.floor(float(found[1]) / step), digits)
+
+        return re.sub(r"(\d+) kg\b", mass, sentence)
 
     def in_words(self, row: Quantity, value: float) -> str:
         """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""

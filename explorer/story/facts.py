@@ -6,11 +6,12 @@ Nothing is stored: all of it is computed, in a worker process or when a file is 
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 
+from explorer.model.actuator_inputs import ActuatorInputs, schedule_at
 from explorer.model.inputs import Inputs
 from explorer.model.units import Units, number
 from explorer.story.steps import (
@@ -23,8 +24,9 @@ from explorer.story.steps import (
     on_one_line,
     speed_words,
 )
+from explorer.text.readout import digits_of
 from rotor import Solution, doubt, make_design, solve, vibration_front
-from rotor.actuator import try_actuator
+from rotor.actuator import FlightLeg, fly, try_actuator
 from rotor.actuator.verdict import net_band_words
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import Harmonic
@@ -56,7 +58,7 @@ class Number:
         value = self.value
         match self.kind:
             case "power" | "change":
-                text = units.watts(value, sign=self.kind == "change")
+                text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
             case "percent" | "fine" | "signed":
                 digits = 2 if self.kind == "fine" else 0 if abs(value) >= 0.095 or (100.0 * value) % 1.0 == 0.0 else 1
                 text = f"{number(100.0 * value, digits, sign=self.kind == 'signed')} %"
@@ -107,6 +109,10 @@ class ControlStop:
     against: Inputs | None
     dots: tuple[tuple[float, float], ...]
     """Where it is on the chart."""
+    actuator: ActuatorInputs | None = None
+    """What is set of the actuator there, in Actuate."""
+    numbers: Mapping[str, Number] = field(default_factory=dict[str, Number])
+    """Large numbers of this place alone."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +127,12 @@ class StepFacts:
 
     def words(self, units: Units) -> dict[str, str]:
         """The numbers as they are written."""
-        return {name: number.words(units) for name, number in self.numbers.items()}
+        return words_of(self.numbers, units)
+
+
+def words_of(numbers: Mapping[str, Number], units: Units) -> dict[str, str]:
+    """As they are written."""
+    return {name: number.words(units) for name, number in numbers.items()}
 
 
 def facts_of(step: LectureStep) -> StepFacts:
@@ -334,25 +345,34 @@ def _rounded(wave: Harmonic) -> Harmonic:
 
 
 def _piezoelectric_ply(step: LectureStep) -> StepFacts:
-    flight = _Sweep(step)
-    verdict = try_actuator(ACTUATOR, make_design())
-    best = [linear_optimum(_BUILT, mu, None).rate_deg for mu in SPEEDS]
-    span = 1.0 - flight.b[0].design.rotor.blade.root_cutout
-    wanted = tuple((rate - best[0]) * span for rate in best)
-    reach = math.degrees(verdict.attainable)
+    """By schedule at each speed: what twist alone changes, and what the aircraft needs with all of the actuator."""
+    flight, verdict = _Sweep(step), try_actuator(ACTUATOR, make_design())
+    installed = verdict.installed
+    flown = fly(verdict, [FlightLeg(speed_words(mu), mu) for mu in SPEEDS])
+    set_to = [ActuatorInputs(ACTUATOR, **schedule_at(flown, installed, k)) for k in range(len(SPEEDS))]
+    net, twist = list[float](), list[float]()
+    for bare, actuator in zip(flight.b, set_to, strict=True):
+        carrying = actuator.apply(bare.design)
+        twisted = replace(bare.design, twist=carrying.twist)
+        for changes, design in ((net, carrying), (twist, twisted)):
+            changes.append(solve(design, bare).require().power.total - bare.power.total)
+    start, reach = step.control.start, [math.degrees(end) for end in set_to[0].reach(installed)]
     numbers = (
-        _said(actuator=verdict.installed.actuator.name)
-        | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1])
-        | _of("angle", required=math.degrees(verdict.required), attainable=reach)
-        | _of("power", gross=verdict.gross_saving, net_cost=-verdict.net_saving)
-        | _of("change", net=-verdict.net_saving)
-        | _said(sure=net_band_words(verdict).rpartition(": ")[2])
-        | _of("mass", mass=verdict.installed.masses.aircraft)
+        _said(actuator=installed.actuator.name, sure=net_band_words(verdict).rpartition(": ")[2])
+        | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
+        | _said(reach_low=f"{number(reach[0], 1, sign=True)}°", reach_high=f"{number(reach[1], 1, sign=True)}°")
+        | _of("power", gross=-twist[start], cost=net[start] - twist[start], here=net[start])
+        | _of("power", net_cost=-verdict.net_saving)
+        | _of("mass", mass=installed.masses.aircraft)
     )
-    none, level = (0.0,) * len(SPEEDS), (reach,) * len(SPEEDS)
-    lines = ChartLine("reach", "limit", level), ChartLine("wanted", "b", wanted)
-    chart = StepChart("advance ratio", "change of twist [°]", "angle", SPEEDS, "mu", lines, (none, level))
-    return flight.facts(numbers, verdict.net_saving, chart, level, wanted)
+    lines = ChartLine("twist alone", "a", tuple(twist)), ChartLine("with its mass", "b", tuple(net))
+    chart = StepChart("advance ratio", "extra power", "power", SPEEDS, "mu", lines)
+    facts = flight.facts(numbers, verdict.net_saving, chart, twist, net)
+    stops = [
+        replace(stop, actuator=one, numbers=_said(tip=f"{number(math.degrees(one.tip(installed)), 2, sign=True)}°"))
+        for stop, one in zip(facts.stops, set_to, strict=True)
+    ]
+    return replace(facts, stops=tuple(stops))
 
 
 _FINDERS: dict[str, Callable[[LectureStep], StepFacts]] = {

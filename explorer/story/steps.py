@@ -14,7 +14,7 @@ from explorer.model.inputs import TWISTS, Inputs, ViewState
 from explorer.model.undo import differing
 from explorer.model.units import Units, degrees, number
 from explorer.picture.camera_views import CameraShot
-from explorer.text.readout import PART_TITLES
+from explorer.text.readout import PART_TITLES, digits_of
 from rotor import Solution, hub_loads
 
 MOVED = frozenset({"law", *TWISTS})
@@ -121,7 +121,7 @@ def compared_quantities(b: Solution, a: Solution, units: Units) -> dict[str, str
     before, after = a.power, b.power
 
     def power(watts: float, sign: bool = False) -> str:
-        return on_one_line(units.watts(watts, sign=sign))
+        return on_one_line(units.watts(watts, digits_of(watts, units) if sign else 0, sign=sign))
 
     def percent(share: float, digits: int = 0, sign: bool = False) -> str:
         return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"

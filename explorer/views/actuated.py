@@ -18,11 +18,11 @@ from explorer.model.actuator_inputs import (
     verdict_inputs_of,
     verdict_tasks,
 )
-from explorer.views.dial_answer import HARMONICS, FittedBlade, bending
+from explorer.views.dial_answer import HARMONICS, FittedBlade
 from explorer.views.page_state import OpenPanels, PageState, PanelWork
 from explorer.views.work import doubt_work
 from explorer.workers.call import Call
-from rotor import Design, Solution
+from rotor import Design, Solution, solve
 from rotor.actuator import (
     ActuatorFlight,
     EffectInFlight,
@@ -30,8 +30,10 @@ from rotor.actuator import (
     InstalledActuator,
     OtherStroke,
     Verdict,
+    bending,
     effect,
     other_stroke,
+    pitching,
     powers,
 )
 from rotor.actuator.verdict import Against
@@ -58,7 +60,7 @@ def actuated_blade(now: PageState) -> "ActuatedBlade | None":
 def problem(now: PageState) -> str:
     """Why there is no solution, or no such actuator; empty where there are both."""
     found = now.of(_built)
-    return now.problem or (found if isinstance(found, str) else "")
+    return now.units.in_sliders(now.problem) or (found if isinstance(found, str) else "")
 
 
 def _built(now: PageState) -> "ActuatedBlade | str":
@@ -145,13 +147,13 @@ class ActuatedBlade:
     @property
     def here(self) -> PowerChange | None:
         """In this flight: the power on the page, its drive included, less that of the blade that changes count from."""
-        trims = self.now.of(trims_here)
-        if trims is None:
+        trims, drive = self.now.of(trims_here), self.now.of(drive_here)
+        if trims is None or drive is None:
             return None
         flown, other = trims
         task = self.now.of(doubt_here)
         doubt = None if task is None else self.now.answers.get(task.key)
-        change = flown.power.total - other.power.total + drive_here(self.now)
+        change = flown.power.total - other.power.total + drive
         return PowerChange(change, None if doubt is None else doubt.change_band)
 
     @property
@@ -210,15 +212,35 @@ def effect_asked(now: PageState) -> Call | None:
     return None if trims is None else Call(effect, (bending(trims[0].design), bending(trims[1].design)))
 
 
-def drive_here(now: PageState) -> float:
-    """Power that the drive takes in this flight [W]: held, as heat at n/rev, and what pitch links then put in."""
-    trims = now.of(trims_here)
+def still_work(now: PageState) -> PanelWork | None:
+    """The trim of what the page shows without twist at n/rev, which the dial compares with; None without a trim."""
+    if now.state is None or now.problem:
+        return None
+    flown = now.state.solution
+    still = replace(flown.design, active_twist=None)
+    return PanelWork(
+        "still", (still,), lambda superseded, tell: flown if flown.design == still else solve(still, flown), soon=True
+    )
+
+
+def per_rev_here(now: PageState) -> tuple[float, float] | None:
+    """What twist at n/rev alone adds to what the page shows [W]: all of it, and the part that its drive takes, as heat
+    and as work on the blade; None where that is not known."""
+    work, waves = now.of(still_work), now.inputs.twist_per_rev
+    if not waves or now.state is None:
+        return 0.0, 0.0
+    flown, still = now.state.solution, None if work is None else now.answers.get(work.key)
+    if still is None or not still.converged:
+        return None
+    drive = heat_here(now) + pitching(flown) - pitching(still)
+    return flown.power.total - still.power.total + drive, drive
+
+
+def drive_here(now: PageState) -> float | None:
+    """Power that the drive takes in this flight [W]: held, and at n/rev; None where that is not known."""
     verdict = one.verdict if (one := actuated_blade(now)) is not None and now.hand.actuator.driven else None
-    held = 0.0 if verdict is None else verdict.drive.hold_power
-    if trims is None or not now.inputs.twist_per_rev:
-        return held
-    flown, other = (0.0 if trim.elastic is None else trim.elastic.control_power for trim in trims)
-    return held + heat_here(now) + flown - other
+    per_rev = now.of(per_rev_here)
+    return None if per_rev is None else per_rev[1] + (0.0 if verdict is None else verdict.drive.hold_power)
 
 
 def heat_here(now: PageState) -> float:
@@ -243,14 +265,14 @@ def parts_asked(now: PageState) -> Call | None:
 
 def parts_here(now: PageState) -> tuple[tuple[str, float], ...]:
     """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is `ActuatedBlade.here`."""
-    found, trims = now.answers.get(now.of(parts_asked)), now.of(trims_here)
-    if not isinstance(found, tuple) or trims is None:
+    found, trims, drive = now.answers.get(now.of(parts_asked)), now.of(trims_here), now.of(drive_here)
+    if not isinstance(found, tuple) or trims is None or drive is None:
         return ()
     bare, twisted, stiff = cast("tuple[float, float, float]", found)
     flown, other = (trim.power.total for trim in trims)
     blades = (("blade", other - bare),) if now.hand.actuator.against == "best-fixed" else ()
     stiffness = (("stiffness", twisted - stiff),) if twisted != stiff else ()
-    return (*blades, ("gross", bare - twisted), *stiffness, ("mass", stiff - flown), ("drive", 0.0 - drive_here(now)))
+    return (*blades, ("gross", bare - twisted), *stiffness, ("mass", stiff - flown), ("drive", 0.0 - drive))
 
 
 def here_problem(now: PageState) -> str:

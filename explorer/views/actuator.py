@@ -5,12 +5,13 @@ Above the widgets stands why there is no verdict; below them twist now, reach an
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs
 from explorer.views import actuator_words as words
-from explorer.views.actuated import actuated_blade, in_actuate, problem
+from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate, problem
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.catalogue import actuators
@@ -43,17 +44,17 @@ def asks(now: PageState) -> tuple[Questions, ...]:
 def view(now: PageState) -> dict[str, Any]:
     """Texts of the rail; where there is no such design, why, all else as it was."""
     one, state, inputs = actuated_blade(now), now.state, now.hand.actuator
+    form = _form(now, one)
     if one is None or state is None or now.problem:
-        return {"actuator.verdict": words.problem_panel(problem(now))} | _form_elsewhere(now)
+        return {"actuator.verdict": words.problem_panel(problem(now))} | form
     installed, verdict = one.installed, one.verdict
     return {
-        "actuator.form": form_look(inputs, installed),
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
-        "actuator.now": words.now_panel(inputs, installed),
+        "actuator.now": words.now_panel(inputs, installed, now.inputs.twist_per_rev),
         "actuator.numbers": words.fit_panel(installed, verdict),
         "actuator.limits": words.limits_panel(verdict),
-    }
+    } | form
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,8 @@ class FormLook:
 
     seen: Mapping[str, bool]
     labels: Mapping[str, str]
+    inert: bool = False
+    """Whether nobody may move them: no actuator fits this rotor, or a presenter holds the page."""
 
 
 def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
@@ -83,15 +86,16 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
     )
 
 
-def _form_elsewhere(now: PageState) -> dict[str, FormLook]:
-    """The widgets as on the blade that carries actuators, where another rotor is on the sliders."""
-    design, inputs = now.sliders, now.hand.actuator
-    if design is None or design.aircraft.key == KNOWN_BLADE:
+def _form(now: PageState, one: ActuatedBlade | None) -> dict[str, FormLook]:
+    """The widgets; for a rotor that carries no actuator as on the blade that does, and inert."""
+    design, inputs, installed = now.sliders, now.hand.actuator, None if one is None else one.installed
+    fits = design is None or design.aircraft.key == KNOWN_BLADE
+    if design is not None and not fits:
+        with suppress(ValueError):
+            installed = inputs.installed(uh60a_rotor(design.preset))
+    if installed is None:
         return {}
-    try:
-        return {"actuator.form": form_look(inputs, inputs.installed(uh60a_rotor(design.preset)))}
-    except ValueError:
-        return {}
+    return {"actuator.form": replace(form_look(inputs, installed), inert=now.ui.held or not fits)}
 
 
 def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:

@@ -1,6 +1,7 @@
 """Words, numbers and the drawn section of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from explorer.picture.lifted_picture import drive_colour
 from explorer.text.readout import mass_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
 from rotor.actuator.verdict import Verdict
+from rotor.design import Harmonic
 from rotor.support.markup import Markup, tag
 from rotor.support.units import typographic
 
@@ -33,11 +35,17 @@ def voltage_bar(actuator: Actuator) -> Markup:
     return tag("div.rx.rx-scale", colours, tag("div.rx-ticks", ticks), data_explorer="voltage-bar")
 
 
-def now_panel(inputs: ActuatorInputs, installed: InstalledActuator) -> Markup:
+def wave_words(waves: Sequence[Harmonic]) -> str:
+    """Active twist as `3/rev 0.75°`; empty where there is none."""
+    return ", ".join(f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in waves)
+
+
+def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, waves: Sequence[Harmonic] = ()) -> Markup:
     """What the sliders make of the blade at this moment."""
     tip = math.degrees(inputs.tip(installed))
     drives = " · ".join(inputs.drive_text(installed, k) for k in range(len(installed.shapes)))
-    words = f"tip twist at {drives}" if inputs.driven else "tip twist, at rest"
+    words = f"tip twist at {drives}" if inputs.driven or waves else "tip twist, at rest"
+    words += f", with {wave_words(waves)}" if waves else ""
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
     return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP), data_explorer="actuator-now")
 

@@ -9,7 +9,8 @@ from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
-from explorer.views.actuator_words import limit_words
+from explorer.views.actuator_words import limit_words, wave_words
+from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.flight import STATES
 from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -39,8 +40,8 @@ def _title(one: ActuatedBlade) -> str:
     installed, inputs, state = one.installed, one.inputs, STATES[one.now.hand.state]
     shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
     driven = f"{state} at {shares} % of its {installed.actuator.drive_noun}"
-    waves = [f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in one.now.inputs.twist_per_rev]
-    return ", ".join((one.name, f"{installed.count}{' a side' if installed.actuator.on_skin else ''}", driven, *waves))
+    sides, waves = " a side" if installed.actuator.on_skin else "", wave_words(one.now.inputs.twist_per_rev)
+    return ", ".join(filter(None, (one.name, f"{installed.count}{sides}", driven, waves)))
 
 
 def _vibration(one: ActuatedBlade) -> str:
@@ -58,7 +59,8 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
     state, tip = STATES[one.now.hand.state], _angle(one.inputs.tip(one.installed))
-    moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}"
+    waves = wave_words(one.now.inputs.twist_per_rev)
+    moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}{waves and f', with {waves},'}"
     if one.here is not None:
         moves += f" and {needs_words(-one.here.power, one.here.band, units)} here"
     moves += "."
@@ -81,6 +83,9 @@ def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
     broken = () if one.verdict is None else one.verdict.broken
     reach = one.installed.actuator.range_limits
     own, asked = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
+    peak = peak_of(one.now.inputs.twist_per_rev)
+    room = FittedBlade(one.installed, one.inputs.driven_at(one.installed)).room
+    own += [f"twist at n/rev {number(peak, 2)} of {number(room, 2)}°"] if peak > room + 0.005 else []
     return tuple(own), tuple(asked)
 
 

@@ -15,12 +15,12 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import effect_asked, fitted, heat_here, in_actuate
-from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, bending, dial_answer, front_dots
-from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, Questions, SetGrabbed
+from explorer.views.actuated import effect_asked, fitted, heat_here, in_actuate, per_rev_here, still_work
+from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
+from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Questions, SetGrabbed
 from explorer.workers.call import Call
 from rotor import Design
-from rotor.actuator import EffectInFlight, Programme, effect, programmes, steady_room
+from rotor.actuator import EffectInFlight, Programme, effect, programmes
 from rotor.design import Harmonic
 from rotor.optimisation.vibration import with_harmonics
 from rotor.support.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
@@ -58,8 +58,8 @@ def _asked(now: PageState) -> tuple[Call, ...]:
 
 
 def _flown(now: PageState) -> Design | None:
-    """What the page shows, with blades that bend; None where there is nothing."""
-    return None if now.state is None or now.problem else bending(now.state.solution.design)
+    """What the page shows; None where there is nothing."""
+    return None if now.state is None or now.problem else now.state.solution.design
 
 
 def _moved(now: PageState) -> Call | None:
@@ -71,15 +71,21 @@ def _moved(now: PageState) -> Call | None:
 
 
 def _settled(now: PageState) -> ModelChanges | str | None:
-    """What n/rev twist alone changes, as trimmed: nothing without it. Why that is not known, or None on its way."""
-    call, unit = now.of(_moved), now.units.power[0]
-    if now.of(_flown) is None or not now.inputs.twist_per_rev:
+    """What n/rev twist alone changes, as trimmed: power here, that of the other inflow models and vibration once they
+    are known. Why that is not known, or None on its way."""
+    known, found, unit = now.of(per_rev_here), now.answers.get(now.of(_moved)), now.units.power[0]
+    if not now.inputs.twist_per_rev:
         return ModelChanges((0.0,), (0.0,))
-    found = now.answers.get(call)
-    if not isinstance(found, EffectInFlight):
-        return found
-    powers = tuple(unit.of(power + heat_here(now)) for power in found.power)
-    return ModelChanges(powers, tuple(round(change, 2) for change in found.index))
+    if known is None or isinstance(found, str):
+        return found if isinstance(found, str) else None
+    others, index = (found.power[1:], found.index) if isinstance(found, EffectInFlight) else ((), ())
+    powers = known[0], *(power + heat_here(now) for power in others)
+    return ModelChanges(tuple(map(unit.of, powers)), tuple(round(change, 2) for change in index))
+
+
+def works(now: PageState) -> tuple[PanelWork, ...]:
+    work = now.of(still_work)
+    return () if work is None else (work,)
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
@@ -128,7 +134,7 @@ def view(now: PageState) -> dict[str, Any]:
 def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> DialPart:
     on_blade, waves, unit = now.of(fitted), now.inputs.twist_per_rev, now.units.power[0]
     whole = 0.0 if on_blade is None else on_blade.whole
-    settled = now.of(_settled)
+    settled, moving = now.of(_settled), bool(waves) and now.answers.get(now.of(_moved)) is None
     reason = why_no_hub_loads(design)
     words = reason.sentence if reason is not None else answer if isinstance(answer, str) else ""
     speed = design.condition.advance_ratio * design.rotor.tip_speed
@@ -138,13 +144,13 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
         reach=reach,
         whole=round(whole, 4),
-        room=0.0 if on_blade is None else round(steady_room(on_blade.installed, on_blade.volts), 4),
+        room=0.0 if on_blade is None or not on_blade.whole else round(on_blade.room / on_blade.whole, 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
-        computing=not words and (answer is None or now.of(_waits)),
+        computing=not words and (answer is None or now.of(_waits) or moving),
         settled=settled if isinstance(settled, ModelChanges) else None,
         problem=settled if isinstance(settled, str) else "",
-        against="the same without n/rev, blades bending",
+        against="the same without n/rev",
         where="in hover" if design.hovering else f"at {now.units.speed[0].text(speed)}",
         unit=unit.symbol,
         per_watt=unit.of(1.0),
@@ -195,7 +201,7 @@ def take_dot(now: PageState, number_of: int) -> tuple[Effect, ...]:
     return (MoveSliders(replace(now.inputs, twist_per_rev=twist), by_hand=False),)
 
 
-DIAL = Panel(view, in_actuate, asks, presses={"dial": move_dot, "dial_front": take_dot})
+DIAL = Panel(view, in_actuate, asks, works, presses={"dial": move_dot, "dial_front": take_dot})
 
 
 def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:

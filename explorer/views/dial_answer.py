@@ -9,10 +9,9 @@ import numpy as np
 
 from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
-from rotor.actuator import InstalledActuator, tip_amplitude
-from rotor.aero.bending import can_bend
+from rotor.actuator import InstalledActuator, bending, steady_room, tip_amplitude
 from rotor.design import Harmonic
-from rotor.optimisation.vibration import front_twists
+from rotor.optimisation.vibration import front_twists, with_power_of
 from rotor.support.arrays import Array
 from rotor.trim.hub_loads import index_gains
 
@@ -35,6 +34,11 @@ class FittedBlade:
         return math.degrees(tip_amplitude(self.installed))
 
     @property
+    def room(self) -> float:
+        """Of `whole`, what steady drive leaves for n/rev [°]."""
+        return self.whole * steady_room(self.installed, self.volts)
+
+    @property
     def losses(self) -> list[float]:
         """Heat in the plies of all blades for 1° at each harmonic of the dial [W]."""
         if not self.whole:
@@ -43,9 +47,11 @@ class FittedBlade:
         return [blades * kind.harmonic_loss(self.installed, n, 1.0 / self.whole) for n in HARMONICS]
 
 
-def bending(design: Design) -> Design:
-    """The design with blades that bend where they can, since vibration needs it, and without pitch at n/rev."""
-    return replace(design, pitch_per_rev=(), models=replace(design.models, bending=can_bend(design.rotor)))
+def peak_of(waves: Sequence[Harmonic]) -> float:
+    """Largest twist of all harmonics together over a turn [°]."""
+    psi = np.radians(np.arange(0.0, 360.0, 5.0))
+    twist = sum((wave.amplitude * np.cos(wave.per_rev * psi - wave.phase) for wave in waves), np.zeros(len(psi)))
+    return math.degrees(float(np.abs(twist).max()))
 
 
 @dataclass(frozen=True)
@@ -79,12 +85,14 @@ class DialAnswer:
 
 
 def dial_answer(design: Design, losses: Sequence[float], reach: float) -> DialAnswer:
-    """The answer for a design with the actuator on board; its active twist counts for its shape alone.
+    """The answer for a design with the actuator on board; its active twist counts for its shape alone. Power is that of
+    its own blades, vibration that of blades that bend.
 
     losses: of the drive for 1° at each harmonic [W]. reach: largest amplitude of the front's harmonics [°]; at 0 there
     is no front. ValueError or RuntimeError with a sentence.
     """
-    matrix, degree = t_matrix(design, HARMONICS), math.radians(1.0)
+    matrix, degree = t_matrix(bending(design), HARMONICS), math.radians(1.0)
+    matrix = matrix if design == bending(design) else with_power_of(matrix, design)
     power, index = float(matrix.base[-1]), matrix.response(()).index
     second = matrix.second.copy()
     second[-1] += np.diag(2.0 * np.repeat(losses, 2) / degree**2)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import AT_REST, ActuatorState, HandSettings
+from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule_at
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, fuel_words, pair_words
@@ -24,6 +24,8 @@ BY_HAND: Mapping[str, Any] = {"flown": None, "stopped": False}
 """What of `HandSettings` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
 POINTS_PER_LEG = 2
 """Points of the curve for each leg of the flight; every `POINTS_PER_LEG`-th is a leg with a name."""
+_SAME_PLACE = 0.02
+"""Places of the bar less apart are one: advance ratios have three decimals."""
 _MIN_HEIGHT_DEG = 1.5
 """Least height of the chart either way [°]: with little twist the curves do not fill it."""
 
@@ -218,31 +220,24 @@ def after_flight(hand: HandSettings) -> SetHand:
 
 
 def follow_flight(now: PageState) -> tuple[Effect, ...]:
-    """Voltages of a flight that has come meanwhile."""
-    one = None if now.hand.stopped else _on_stage(now)
-    come = one is not None and isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
-    drives = _driven(now, now.hand.flown) if come else {}
+    """Voltages of a flight that has come meanwhile, and of the place to which an undo or another control has flown."""
+    one, flown = _on_stage(now), now.hand.flown
+    if one is None or flown is None or now.hand.stopped:
+        return ()
+    there = position_of(one.legs, now.inputs.advance_ratio)
+    if abs(there - flown) > _SAME_PLACE:
+        return (SetHand({"flown": there}, _driven(now, there)),)
+    come = isinstance(one.flight, ActuatorFlight) and one.flight is not _last(now)
+    drives = _driven(now, flown) if come else {}
     return (SetHand(actuator=drives),) if drives else ()
 
 
 def _driven(now: PageState, x: float | None) -> dict[str, Any]:
-    """Voltages as the last flight has them there; nothing where none is known.
-
-    Fibres are laid the other way where the voltages of the flight oppose its twists.
-    """
+    """Voltages as the last flight has them there; nothing where none is known."""
     if (one := actuated_blade(now)) is None or x is None:
         return {}
     flight = one.flight if isinstance(one.flight, ActuatorFlight) else _last(now)
-    if flight is None or not flight.swings:
-        return {}
-    actuator, shares, volts = one.installed.actuator, np.asarray(flight.swings), np.asarray(flight.voltages)
-    changes: dict[str, Any] = {}
-    if volts.size:
-        wanted, shares = shares, volts / actuator.drive_swing
-        changes["crossed"] = one.installed.host.kind == "retrofit" and float(np.sum(wanted * shares)) < 0.0
-    legs = np.arange(len(shares))
-    drives = [100.0 * actuator.share_of(float(np.interp(POINTS_PER_LEG * x, legs, share))) for share in shares.T]
-    return {**changes, "drives": (*drives, *AT_REST[len(drives) :])}
+    return {} if flight is None else schedule_at(flight, one.installed, POINTS_PER_LEG * x)
 
 
 FLIGHT = Panel(

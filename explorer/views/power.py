@@ -27,16 +27,16 @@ the disk may be stalled without weight.
 
 def power_card(now: PageState) -> dict[str, Any]:
     """The numbers of the last trim; without one now they stay, greyed, beside the sentence that says why."""
-    state = now.state
+    state, problem = now.state, now.units.in_sliders(now.problem)
     if state is None:
-        card = PowerPart(status=Status("problem", "no trim", now.problem))
+        card = PowerPart(status=Status("problem", "no trim", problem))
     else:
         band = _band(now)
         sure = Sureness() if band is None else card_words(band, now.units)
         card = replace(_numbers(state, now.units), **_change(state, band, now.units), **vars(sure))
     if now.problem:
-        problem = f"{now.problem.rstrip('.')}. Greyed: last converged solution."
-        card = replace(card, problem=problem, status=Status("problem", "no trim", now.problem))
+        greyed = f"{problem.rstrip('.')}. Greyed: last converged solution."
+        card = replace(card, problem=greyed, status=Status("problem", "no trim", problem))
     return {"power": card}
 
 

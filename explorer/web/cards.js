@@ -7,6 +7,7 @@
   RX.paint('power', power => {
     const card = part('power'), {problem, moved, status, parts} = power;
     card.toggleAttribute('data-faded', Boolean(problem));
+    page.toggleAttribute('data-refused', Boolean(problem));
     const widths = parts.map(({share}) => Math.max(share, 0));
     const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
     const bars = widths.map((width, k) =>

@@ -184,7 +184,7 @@
   }
   // Amplitude that steady voltage and the other harmonics leave to the chosen one.
   const within = ({room, whole, harmonics}) => Math.max(room * whole - peak(harmonics.filter(n => n !== chosen)), 0);
-  const beyond = dial => dial.whole && wave(chosen)[0] > within(dial) + .005;
+  const beyond = ({room, whole, harmonics}) => whole && peak(harmonics) > room * whole + .005;
   function dialSvg(size) {
     const dial = RX.shown('dial'), matrix = RX.state.dial_matrix;
     const places = placing(size), {reach, middle, scale, spot} = places;

@@ -5,7 +5,7 @@
   const card = part('fly'), earns = part('earns');
   const WHOLE = 14000, SEND = 70, LATER = SEND + 80;  // [ms] A played flight; between two messages; after the last.
   const degrees = value => `${Common.signed(value, 2)}°`;
-  let at = 0, scrubbed = false, moved = -Infinity, playing = 0, release = null;
+  let at = 0, scrubbed = false, moved = -Infinity, settled = 0, playing = 0, release = null;
 
   const last = () => RX.shown('flight').legs.length - 1;
   const between = (values, x) => {
@@ -20,6 +20,8 @@
     moved = performance.now();
     mark();
     flown.send(at);
+    clearTimeout(settled);  // An undo may have come meanwhile.
+    settled = setTimeout(() => { if (RX.state.flight) RX.again('flight'); }, 950);
   }
   function stop() {
     if (!playing) return;

@@ -1,16 +1,12 @@
-"""An actuator over a flight: the tip twist that each leg wants, what the actuator reaches, and the power it takes."""
+"""An actuator over a flight: the tip twist of least power that it reaches on each leg."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from rotor.actuator.catalogue import engines_of
-from rotor.actuator.installation import with_actuator_mass
-from rotor.actuator.optimum import best_swings
-from rotor.actuator.verdict import MIN_TWIST, Verdict
+from rotor.actuator.optimum import TwistOptimum, best_swings
+from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.support.arrays import Array
@@ -42,48 +38,27 @@ def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
     return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 
-UNLIMITED_TWIST = math.radians(20.0)
-"""Either way, by segment [rad]: more than any optimum asks for."""
-
-
 @dataclass(frozen=True, eq=False)
 class ActuatorFlight:
     """An actuator over the legs of a flight. It holds no solutions and can be pickled.
 
     Twists are what the actuator adds at the tip in flight (`InstalledActuator.tip`), less that with no voltage (a tube
-    at rest) [rad]. Powers are of all rotors [W]. Arrays are (legs,).
+    at rest) [rad].
     """
 
     legs: tuple[FlightLeg, ...]
     jig: TwistLaw
     """Twist of the blade with no voltage (a tube at rest)."""
-    wanted: Array
-    """Twist of least power on each leg by the same blade and actuator, were its range without end."""
     reached: Array
-    """Twist of least power on each leg within the actuator's range."""
+    """Twist of least power on each leg within the actuator's range, (legs,)."""
     reach: tuple[float, float]
     """Both ends of the range."""
     swings: tuple[tuple[float, ...], ...]
     """By leg and segment, as a share of the whole range."""
     voltages: tuple[tuple[float, ...], ...]
     """By leg and segment [V]; each empty for actuators without voltage."""
-    power_fixed: Array
-    """Best fixed blade of the verdict, without the actuator."""
-    power_built: Array
-    """Twist as built, without the actuator."""
-    power_with: Array
-    """Driven, with the actuator's stiffness, mass and drive."""
-    reference_power: Array
-    """Power of the blade that the verdict counts from: one of the first two."""
-    fuel_saving: Array | None
-    """[kg/s]; None where the engines have no source."""
     designs: tuple[Design, ...]
     """The driven blade on each leg, without the actuator's mass."""
-
-    @property
-    def net_saving(self) -> Array:
-        """Saving less the cost of stiffness, mass and drive [W]."""
-        return self.reference_power - self.power_with
 
 
 def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFlight:
@@ -104,70 +79,28 @@ def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFl
     jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = installed.shapes[:, -1]
     flights = [leg.of(pair.design) for leg in legs]
-    distinct: dict[Design, _Flown] = {}
-    last: _Flown | None = None
+    found: dict[Design, TwistOptimum] = {}
+    near: Solution | None = None
     for leg, design in zip(legs, flights, strict=True):
-        if design not in distinct:
+        if design not in found:
             try:
-                distinct[design] = last = _fly_leg(verdict, design, jig, window, last)
+                near = solve(design, near).require()
+                found[design] = best_swings(replace(design, twist=jig), installed, window, near)
             except RuntimeError as error:
                 raise RuntimeError(f"{leg.name}: {error}") from None
-    flown = [distinct[design] for design in flights]
-    wanted, swings = [one.wanted for one in flown], [one.swings for one in flown]
-    power_of = {
-        "fixed": np.array([one.fixed.power.total for one in flown]),
-        "built": np.array([one.built.power.total for one in flown]),
-        "with": np.array([one.heavy.power.total for one in flown]) + verdict.drive.hold_power,
-    }
-    counted = power_of["built" if verdict.against == "same-blade" else "fixed"]
+    flown = [found[design] for design in flights]
+    swings = [one.swings[0] for one in flown]
     ends = np.sort((window - undriven[:, None]) * shapes[:, None], axis=1).sum(axis=0)
     volts = (np.array(swings) - undriven) / per_unit
-    engines = engines_of(pair.design.aircraft)
-    saved = None
-    if engines is not None:
-        pairs = zip(counted, power_of["with"], strict=True)
-        saved = np.array([engines.flow(before) - engines.flow(after) for before, after in pairs])
     return ActuatorFlight(
         legs=tuple(legs),
         jig=jig,
-        wanted=(np.array(wanted) - undriven) @ shapes,
         reached=(np.array(swings) - undriven) @ shapes,
         reach=(float(ends[0]), float(ends[1])),
         swings=tuple(swings),
         voltages=tuple(tuple(voltages) if verdict.voltages else () for voltages in volts.tolist()),
-        power_fixed=power_of["fixed"],
-        power_built=power_of["built"],
-        power_with=power_of["with"],
-        reference_power=counted,
-        fuel_saving=saved,
-        designs=tuple(one.driven for one in flown),
+        designs=tuple(one.solutions[0].design for one in flown),
     )
-
-
-class _Flown(NamedTuple):
-    """A leg: trims with the fixed and the built-in twist and with the actuator's mass, swings wanted and reached."""
-
-    fixed: Solution
-    built: Solution
-    heavy: Solution
-    wanted: tuple[float, ...]
-    swings: tuple[float, ...]
-    driven: Design
-
-
-def _fly_leg(verdict: Verdict, design: Design, jig: TwistLaw, window: Array, last: _Flown | None) -> _Flown:
-    """One leg, from the trims of the last one; `window`: range of the swings, (segments, 2)."""
-    installed = verdict.installed
-    reach = UNLIMITED_TWIST / np.maximum(np.abs(installed.shapes[:, -1]), MIN_TWIST)
-    fixed = solve(replace(design, twist=verdict.baseline.fixed_twist), last and last.fixed).require()
-    built = solve(design, last and last.built).require()
-    blade = replace(design, twist=jig)
-    reached = free = best_swings(blade, installed, np.outer(reach, (-1.0, 1.0)), built)
-    if np.any(np.clip(free.swings[0], *window.T) != free.swings[0]):
-        reached = best_swings(blade, installed, window, built)
-    driven = reached.solutions[0].design
-    heavy = solve(with_actuator_mass(driven, installed), last and last.heavy).require()
-    return _Flown(fixed, built, heavy, free.swings[0], reached.swings[0], driven)
 
 
 def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:

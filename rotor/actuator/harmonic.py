@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rotor.actuator.kind import InstalledActuator
+from rotor.aero.bending import can_bend
 from rotor.design.design import Design
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.no_hub_loads import why_no_hub_loads
@@ -37,6 +38,11 @@ def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
     return max(min(room), 0.0)
 
 
+def bending(design: Design) -> Design:
+    """The design with blades that bend where they can, since vibration needs it, and without pitch at n/rev."""
+    return replace(design, pitch_per_rev=(), models=replace(design.models, bending=can_bend(design.rotor)))
+
+
 @dataclass(frozen=True)
 class EffectInFlight:
     """How an actuator changes power and vibration in one flight condition, compared with another blade.
@@ -47,29 +53,31 @@ class EffectInFlight:
     power: tuple[float, ...]
     """[W]"""
     index: tuple[float, ...]
-    """Change of the vibration index [%]; empty where there are no hub loads, as of blades that do not bend."""
+    """Change of the vibration index [%], of blades that bend; empty where there are no hub loads."""
 
 
 def effect(design: Design, reference: Design) -> EffectInFlight:
-    """Change of power and of vibration from `reference` to `design`, both in its flight and with its models.
+    """Change of power and of vibration from `reference` to `design`, both in its flight and with its models; vibration
+    is that of blades that bend.
 
     `design`: with the actuator's mass and stiffness on board (`with_actuator_mass`). RuntimeError where it does not
     trim with its own inflow model.
     """
     power, index = list[float](), list[float]()
-    shaken = design.models.bending and why_no_hub_loads(design) is None
+    shaken = why_no_hub_loads(bending(design)) is None
     for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
-        flown = replace(design, models=replace(design.models, inflow=inflow))
-        trims = analyse(flown), analyse(replace(reference, models=flown.models))
-        one, other = (trim.solution for trim in trims)
+        pair = [replace(one, models=replace(design.models, inflow=inflow)) for one in (design, reference)]
+        trims = [analyse(one) for one in pair]
         if inflow == design.models.inflow:
-            one.require()
-            other.require()
-        if one.converged and other.converged:
-            power.append(one.power.total + _pitching(one) - other.power.total - _pitching(other))
-            if shaken:
-                here, there = (hub_index(trim.adjoint) for trim in trims)
-                index.append(100.0 * (here / there - 1.0))
+            for trim in trims:
+                trim.solution.require()
+        if all(trim.solution.converged for trim in trims):
+            here, there = (trim.solution.power.total + pitching(trim.solution) for trim in trims)
+            power.append(here - there)
+        bent = trims if design.models.bending else [analyse(bending(one)) for one in pair if shaken]
+        if shaken and all(trim.solution.converged for trim in bent):
+            here, there = (hub_index(trim.adjoint) for trim in bent)
+            index.append(100.0 * (here / there - 1.0))
     return EffectInFlight(tuple(power), tuple(index))
 
 
@@ -79,6 +87,6 @@ def powers(designs: Sequence[Design]) -> tuple[float, ...]:
     return tuple(known[design] for design in designs)
 
 
-def _pitching(solution: Solution) -> float:
+def pitching(solution: Solution) -> float:
     """Power that pitch links and plies put into an elastic blade [W]."""
     return solution.elastic.control_power if solution.elastic is not None else 0.0

@@ -137,27 +137,41 @@ def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix
     """
     require_design(design)
     check_index(design, Objective("vibration", (WeightedCondition(design.condition),)), Limits())
-    waves = read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics")
+    return _matrix(design, read_harmonics([(n, 1.0, 0.0) for n in harmonics], "harmonics"))
+
+
+def with_power_of(matrix: TMatrix, design: Design) -> TMatrix:
+    """The matrix with the power of another design, such as one whose blades do not bend, which has no hub loads."""
+    other = _matrix(design, tuple(Harmonic(n, STEP, 0.0) for n in matrix.harmonics))
+    rows = {name: getattr(matrix, name).copy() for name in ("base", "slopes", "second")}
+    for name, values in rows.items():
+        values[-1] = getattr(other, name)[-1]
+    return replace(matrix, **rows)
+
+
+def _matrix(design: Design, waves: tuple[Harmonic, ...]) -> TMatrix:
+    """By two orders; of a blade that does not bend, of power alone."""
     shaped = with_harmonics(design, waves)
-    base = analyse(replace(design, active_twist=None))
-    numbers = tuple(wave.per_rev for wave in waves)
-    matrix = TMatrix(
-        base.solution, numbers, *_measured(base, shaped), np.zeros((2 * len(LOADS) + 1, 2 * len(numbers), 1))
-    )
-    second = np.zeros((*matrix.slopes.shape, matrix.slopes.shape[1]))
-    steps = [with_harmonics(shaped, matrix.twist(step)) for step in STEP * np.eye(matrix.slopes.shape[1])]
-    for k, moved in enumerate(analyse_many(steps, [base.solution] * len(steps))):
-        second[:, :, k] = (_measured(moved, shaped)[1] - matrix.slopes) / STEP
+    trim = analyse(replace(design, active_twist=None))
+    base, slopes = _measured(trim, shaped)
+    second = np.zeros((*slopes.shape, slopes.shape[1]))
+    matrix = TMatrix(trim.solution, tuple(wave.per_rev for wave in waves), base, slopes, second)
+    steps = [with_harmonics(shaped, matrix.twist(step)) for step in STEP * np.eye(slopes.shape[1])]
+    for k, moved in enumerate(analyse_many(steps, [trim.solution] * len(steps))):
+        second[:, :, k] = (_measured(moved, shaped)[1] - slopes) / STEP
     return replace(matrix, second=0.5 * (second + second.transpose(0, 2, 1)))
 
 
 def _measured(trim: Analysis, shaped: Design) -> tuple[Array, Array]:
-    """Loads and power of a trim, (11,), and their slopes by the active twist of `shaped`, (11, 2 H)."""
+    """Loads, of a blade that bends, and power of a trim, (11,) or (1,), and their slopes by the active twist of
+    `shaped`, (…, 2 H)."""
     adjoint, solution = trim.adjoint, trim.solution
     problem, point = adjoint.problem, adjoint.point
     structure, torsion, disk = point.system.structure, problem.torsion, problem.disk
-    loads, values = terms_and_loads(adjoint)
-    both = loads.stacked(adjoint.total_terms)
+    both, values = adjoint.total_terms, np.zeros(0)
+    if problem.bending is not None:
+        loads, values = terms_and_loads(adjoint)
+        both = loads.stacked(both)
     with one_blas_thread():
         matrix, by_state = jacobian(point, both)
         by_measure = both.slopes(point.z, point.q, structure.first_state)[0]
@@ -182,7 +196,7 @@ def _measured(trim: Analysis, shaped: Design) -> tuple[Array, Array]:
         states = np.linalg.solve(matrix, np.stack(moved, axis=1))
     slopes = by_measure @ np.stack(direct, axis=1) - by_state @ states
     watts = solution.design.power_unit * tail_gain(solution)
-    units = np.append(np.repeat(load_units(problem.design), 2), watts)[:, None]
+    units = np.append(np.repeat(load_units(problem.design), 2)[: values.size], watts)[:, None]
     return np.append(values.ravel(), solution.power.total), slopes * units
 
 

@@ -33,7 +33,7 @@ from explorer.text.readout import balance
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
-from explorer.views.page_state import SetHand
+from explorer.views.page_state import OpenPanels, SetHand
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 from rotor.actuator import with_actuator
@@ -333,12 +333,16 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
 def test_where_there_is_no_such_design_the_sentence_stands_alone():
     """All else is as it was; another rotor has the widgets of the blade that carries actuators."""
     now = replace(actuate(INPUTS), problem="No trim at this speed.")
-    assert list(ACTUATOR.view(now)) == ["actuator.verdict"]
+    assert sorted(ACTUATOR.view(now)) == ["actuator.form", "actuator.verdict"]
+    assert not ACTUATOR.view(now)["actuator.form"].inert
     assert "No trim at this speed." in ACTUATOR.view(now)["actuator.verdict"]
     other = actuate(with_rotor(INPUTS, "s61"))
     shown = ACTUATOR.view(other)
     assert sorted(shown) == ["actuator.form", "actuator.verdict"]
     assert "S-61" in shown["actuator.verdict"]
+    assert shown["actuator.form"].inert  # None fits.
+    held = replace(actuate(INPUTS), ui=OpenPanels("actuate", held=True))
+    assert ACTUATOR.view(held)["actuator.form"].inert
     assert ACTUATOR.asks(other) == ()
 
 

@@ -1,5 +1,6 @@
 """One value of the actuator as set: every number on the screen of Actuate, by its quantity, is the same."""
 
+import json
 import math
 import re
 from collections import defaultdict
@@ -9,8 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
+from explorer.export.contents import on_board
 from explorer.export.figures import actuator_section
+from explorer.export.provenance import provenance_lines
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
 from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
@@ -26,13 +30,28 @@ from explorer.views.page_state import PageState, SetHand
 from explorer.views.power import POWER
 from explorer.workers.call import Call
 from rotor import Design, Solution, doubt
-from rotor.actuator import FlightLeg, effect, fly, try_actuator, with_actuator
+from rotor.actuator import (
+    FlightLeg,
+    HostBlade,
+    default_placement,
+    effect,
+    find_actuator,
+    fly,
+    install,
+    tip_amplitude,
+    try_actuator,
+    with_actuator,
+)
 from rotor.actuator.verdict import Against, Verdict, judge
+from rotor.design import Harmonic
+from rotor.design.active_twist import read_harmonics
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.doubt import change_decimals
 from rotor.trim.solve import solve
-from tests.actuate import actuate, asked, done, solved, told
+from tests.actuate import actuate, asked, done, solved, told, worked
 
 INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
 DRIVEN = (77.0,) * MOST_SEGMENTS
@@ -51,17 +70,21 @@ def trimmed(design: Design) -> Solution:
 
 
 def answered(
-    against: Against, drives: tuple[float, ...], state: ActuatorState = "set", id: str = "MFC_P1"
+    against: Against,
+    drives: tuple[float, ...],
+    state: ActuatorState = "set",
+    id: str = "MFC_P1",
+    inputs: Inputs = INPUTS,
 ) -> PageState:
     """The page in a state of the actuator once all that the value waits for is known."""
-    now = actuate(INPUTS, actuator=ActuatorInputs(id, against=against, drives=drives))
+    now = actuate(inputs, actuator=ActuatorInputs(id, against=against, drives=drives))
     for name in ("lean_verdict", "flight_of"):
         now = told(ACTUATOR, now, **{name: run(asked(ACTUATOR, now)[name])})
     now = solved(done(now, FLIGHT.presses["state"](now, state)))
     now = told(ACTUATOR_CARD, now, other_stroke=run(asked(ACTUATOR_CARD, now)["other_stroke"]))
-    now = told(DIAL, now, effect=run(asked(DIAL, now)["effect"]))
-    doubts = {task.key: task.run(lambda: False, lambda: None) for task in ACTUATOR_CARD.works(now)}
-    now = replace(now, answers={**now.answers, **doubts})
+    effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
+    now = replace(now, answers={**now.answers, **effects})
+    now = worked(ACTUATOR_CARD, worked(DIAL, now))
     flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
     return replace(now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers)
 
@@ -87,7 +110,7 @@ def balance_here(now: PageState) -> dict[str, str]:
 
 
 def screen(now: PageState) -> dict[str, list[str]]:
-    """Every number with a unit of all panels of Actuate and of the power card, by its quantity."""
+    """Every number with a unit of all panels of Actuate, of the power card and of exports, by its quantity."""
     found: dict[str, list[str]] = defaultdict(list)
 
     def read(quantity: str, pattern: str, text: str) -> None:
@@ -122,6 +145,17 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
     read("power over the flight", ", it (?:needs|saves) # ±", report)
     found["power over the flight"].append(total.lstrip("+−"))
+    read("power here", "(?:needs|saves) # ±", on_board(value, SI)[0])
+    assert now.state is not None
+    design = now.state.solution.design
+    carried = design.rotor.blade.carried
+    assert carried is not None
+    exported = {
+        "CSV": float(re.findall(r"total power ([\d.]+) kW", "\n".join(provenance_lines(now.state.solution)))[0]),
+        "link": 1e-3 * trimmed(with_actuator(now.inputs.design(), carried.spec)).power.total,
+        "design file": 1e-3 * trimmed(design_from_record(json.loads(json.dumps(design.to_dict())))).power.total,
+    }
+    found["power"] += [f"{kilowatts:.0f}" for kilowatts in exported.values()]
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.asked):
@@ -200,6 +234,42 @@ def test_every_number_on_the_screen_is_that_of_rotor(id: str, against: Against, 
     assert f", {states[state]} at " in card(now).title
 
 
+def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
+    """Card less card at rest is the dial's reading, which lies inside its band; its drive is in the balance. A twist
+    that the voltage leaves no room for is a limit exceeded."""
+    waves = read_harmonics("3:0.75:60", "test")
+    rest, run_at = (
+        answered("same-blade", DRIVEN, inputs=replace(INPUTS, twist_per_rev=twist)) for twist in ((), waves)
+    )
+    before, after = known(rest)[0].here, known(run_at)[0].here
+    dials = [DIAL.view(now)["dial"].settled for now in (rest, run_at)]
+    assert before is not None
+    assert after is not None
+    assert (dials[0].power, dials[0].index) == ((0.0,), (0.0,))
+    assert 1e-3 * (after.power - before.power) == pytest.approx(dials[1].power[0], abs=2e-3)
+    assert len(dials[1].power) == len(dials[1].index) > 3
+    assert_allclose(dials[1].power[0], 1e-3 * _alone(waves), atol=2e-3)
+    drive = [float(balance_here(now)["drive"].replace("−", "-")) for now in (rest, run_at)]
+    assert drive[1] > drive[0]
+    assert (card(rest).over[-1][:5], card(run_at).over[-1]) == (card(rest).over[-1][:5], "twist at n/rev 0.75 of 0.30°")
+    assert ", 3/rev 0.75°" in card(run_at).title
+    assert ", with 3/rev 0.75°" in ACTUATOR.view(run_at)["actuator.now"]
+
+
+def _alone(waves: tuple[Harmonic, ...]) -> float:
+    """What the waves add [W], by `rotor` alone."""
+    design = with_actuator(DESIGN, "MFC_P1,drive=77")
+    flown, still = trimmed(with_harmonics(design, waves)), trimmed(design)
+    installed = find_actuator("MFC_P1"), default_placement(), HostBlade(), design.rotor
+    on_blade = install(*installed)
+    share = waves[0].amplitude / tip_amplitude(on_blade)
+    heat = 4.0 * on_blade.actuator.harmonic_loss(on_blade, 3, 1.0) * share**2
+    assert flown.elastic is not None
+    assert still.elastic is not None
+    work = flown.elastic.control_power - still.elastic.control_power
+    return flown.power.total - still.power.total + heat + work
+
+
 def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
     """At no voltage, and against the same blade, only mass and stiffness change power and vibration."""
     same = answered("same-blade", (0.0,) * MOST_SEGMENTS)
@@ -245,5 +315,5 @@ def test_full_voltage_is_the_reach_and_trims_make_that_twist():
 
 def test_rounded_parts_add_up():
     assert adding([58.37, 8.76, 11.67, 53.3]) == [58.0, 9.0, 12.0, 53.0]
-    assert adding([-4.73, 0.38, 22.08, 0.0]) == [-5.0, 1.0, 22.0, 0.0]
+    assert adding([-4.73, 0.38, 22.08, 0.0]) == [-4.0, 0.0, 22.0, 0.0]  # Not 1 for 0.38.
     assert adding([0.04, 0.04, 0.04], 1) == [0.1, 0.0, 0.0]

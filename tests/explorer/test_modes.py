@@ -103,7 +103,7 @@ def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
                 await right(visitor, page, mode, look)
             await follower.until(lambda: design_of(led) == design_of(leader))
         await presenter.close()
-        await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"))
+        await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"), 10.0)
         await follower.press("speed", 0.3)  # The page is the follower's.
         await follower.until(lambda: led.context.controls.inputs().advance_ratio == 0.3)
         await right(follower, led)
@@ -117,7 +117,7 @@ def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
 
 
 def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(app: App):
-    """Mode, view, design and voltage; the steps of the lecture fly without voltage."""
+    """Mode, view, design and voltage; the steps of the lecture have a voltage of their own."""
 
     async def visit() -> None:
         visitor = await arrived(app.address)
@@ -142,7 +142,7 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         before = page._views.on_screen()
         assert (before.mode, before.look, before.hand.actuator.drives) == ("actuate", "disk", DRIVEN)
         await to_the_last_step(visitor)
-        assert not page.actuator.inputs().driven
+        assert page.actuator.inputs().drives != DRIVEN
         await visitor.press("lecture", "end")
         await visitor.until(lambda: page._views.on_screen() == before)
         await right(visitor, page, "actuate", "disk")

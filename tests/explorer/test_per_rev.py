@@ -17,10 +17,11 @@ from explorer.text.design_words import twist_name, wave_words
 from explorer.text.status import validated
 from explorer.text.why import why
 from explorer.views.dial import front_chart, validation_words, with_wave
-from explorer.views.dial_answer import DialAnswer, FittedBlade, FrontDot, bending, dial_answer, front_dots
+from explorer.views.dial_answer import DialAnswer, FittedBlade, FrontDot, dial_answer, front_dots
 from explorer.widgets.twist_curve import flown_band, shown_twist
 from rotor.actuator import (
     HostBlade,
+    bending,
     default_placement,
     effect,
     find_actuator,
@@ -144,8 +145,15 @@ def test_what_is_foreseen_is_what_a_trim_gives(answer: DialNumbers):
     assert_allclose(seen[0], power + lost(WAVES), atol=0.25)
     assert_allclose(seen[1], index, atol=8.0)
     assert_allclose(foreseen(answer, ()), 0.0, atol=1e-3)  # To the digits that are sent.
-    with pytest.raises(ValueError, match="bend"):
-        dial_answer(with_harmonics(make_design(mu=0.3), WAVES), LOSSES, 1.0)
+
+
+def test_power_is_that_of_the_blades_of_the_design_and_vibration_that_of_blades_that_bend(answer: DialNumbers):
+    rigid = dial_answer(with_harmonics(STEADY, WAVES), LOSSES, 0.0).numbers
+    rest, moved = (solve(with_harmonics(STEADY, waves)).require().power.total for waves in ((), WAVES))
+    lost = sum(LOSSES[one.per_rev - 2] * math.degrees(one.amplitude) ** 2 for one in WAVES)
+    assert_allclose(0.01 * rigid.power * foreseen(rigid, WAVES)[0], moved - rest + lost, atol=0.0025 * rest)
+    assert_allclose(rigid.power, rest, rtol=1e-5)
+    assert foreseen(rigid, WAVES)[1] == foreseen(answer, WAVES)[1]
 
 
 def test_the_front_is_near_its_trims(whole: list[DialAnswer], answer: DialNumbers):

@@ -1,5 +1,7 @@
 """What a step of each slider is worth, against differences of whole trims."""
 
+import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -14,7 +16,7 @@ from explorer.model.sliders import (
     slider,
     twist_sensitivities,
 )
-from explorer.model.units import AVIATION, SI
+from explorer.model.units import AVIATION, SI, UNITS
 from explorer.views.worth import step_bands, worth_row
 from rotor import doubt
 from rotor.trim.analysis import Analysis, power_gradient
@@ -131,3 +133,21 @@ def test_the_nearest_design_that_trims_lies_a_step_before_the_end():
     assert len(asked) <= 6
     other = replace(good, rotor="r22", mass_t=0.6)
     assert nearest_trim(good, other, lambda _: True) == good
+
+
+def test_the_nearest_design_that_trims_has_what_its_sentence_names():
+    """By the solver's own sentence: less mass, though the altitude was moved; in the slider's unit and on its steps."""
+    good = Inputs(advance_ratio=0.3, mass_t=10.0)
+    wanted = replace(good, altitude_m=3000.0)
+    sentence = solve(wanted.design()).message
+    found = re.search(r"(\d+) kg at this speed", sentence)
+    assert found
+    nearest = nearest_trim(good, wanted, lambda inputs: solve(inputs.design()).converged, sentence)
+    assert (nearest.altitude_m, nearest.advance_ratio) == (3000.0, 0.3)
+    assert 0.0 <= 1e-3 * float(found[1]) - nearest.mass_t < slider("mass_t", SI).step
+    assert f"{math.floor(0.1 * float(found[1])) / 100.0:.2f} t at this speed" in SI.in_sliders(sentence)
+    assert "lb at this speed" in UNITS["Aviation"].in_sliders(sentence)
+    both = nearest_trim(
+        good, wanted, lambda _: True, "The last trim found on the way there is at 9431 kg and advance ratio 0.279."
+    )
+    assert (both.mass_t, both.advance_ratio) == pytest.approx((9.4, 0.275))

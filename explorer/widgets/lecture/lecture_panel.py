@@ -10,13 +10,14 @@ from typing import Any
 
 import viser
 
+from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import OWN, Inputs, preset_inflow
 from explorer.model.session_state import ScreenState, SessionState, same_but_flight
 from explorer.model.units import UNITS
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
-from explorer.story.facts import StepFacts, facts_at
+from explorer.story.facts import StepFacts, facts_at, words_of
 from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
 from explorer.text.glossary import hint
@@ -116,7 +117,7 @@ class LecturePanel:
         self._stage()
         inputs, self._against = self._designs()
         view, look = view_of(wanted, self._context.display.view), "actuator" if wanted.mode == "actuate" else "3d"
-        self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look))
+        self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look, self._hand()))
         if wanted.mode == "explore":
             self._camera.aim_with(lambda aspect: wanted.shot.fit(self._camera.radius, aspect), eased=True)
 
@@ -207,7 +208,14 @@ class LecturePanel:
         """The design where the control is."""
         if self.place is not None:
             inputs, self._against = self._designs()
-            self._screen.put(replace(self._screen.on_screen(), inputs=inputs, against=self._against))
+            screen = replace(self._screen.on_screen(), inputs=inputs, against=self._against, hand=self._hand())
+            self._screen.put(screen)
+
+    def _hand(self) -> HandSettings:
+        """What the control sets of the actuator."""
+        facts = None if self.place is None else self._facts(self.place.step)
+        actuator = None if facts is None or self.place is None else facts.stops[self.place.stop].actuator
+        return HandSettings() if actuator is None else HandSettings(actuator)
 
     def _designs(self) -> tuple[Inputs, Inputs | None]:
         """B where the control is, and A beside it."""
@@ -241,7 +249,8 @@ class LecturePanel:
         guessed = place.guess is not None
         values = dict[str, str]()
         if guessed and state is not None and facts is not None:
-            values = {**facts.words(units), **compared_quantities(state.solution, state.reference, units)}
+            compared = compared_quantities(state.solution, state.reference, units)
+            values = {**facts.words(units), **compared, **words_of(facts.stops[place.stop].numbers, units)}
         figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],

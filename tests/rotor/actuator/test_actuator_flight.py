@@ -45,23 +45,20 @@ def test_the_legs_of_the_verdict_save_what_the_verdict_says(kind: str, id: str):
     """Both find the least power within one range; the flight may drive the first condition too, which a jig does as
     well for a new blade, but for the shape of the plies."""
     judged, both = verdict(kind, id), fly(verdict(kind, id), (LEGS[0], LEGS[2]))
-    mean = float(both.net_saving.mean())
-    assert mean >= judged.net_saving - 1.0
-    assert_allclose(mean, judged.net_saving, rtol=1e-6 if kind == "retrofit" else 0.01)
-    assert judged.fuel_saving is not None
-    assert_allclose(both.fuel_saving.mean(), judged.fuel_saving, rtol=0.01)
+    loaded = [solve(with_actuator_mass(design, judged.installed)).require().power.total for design in both.designs]
+    saving = judged.reference_power - float(np.mean(loaded)) - judged.drive.hold_power
+    assert saving >= judged.net_saving - 1.0
+    assert_allclose(saving, judged.net_saving, rtol=1e-5 if kind == "retrofit" else 0.01)
 
 
 @pytest.mark.parametrize("kind", ["retrofit", "new"])
-def test_what_is_wanted_is_reached_within_the_range_and_cut_at_its_end(kind: str):
+def test_the_range_is_that_of_the_beam_and_no_twist_lies_beyond_it(kind: str):
     flight = flown(kind)
     low, high = flight.reach
-    inside = (low <= flight.wanted) & (flight.wanted <= high)
-    assert_allclose(flight.reached[inside], flight.wanted[inside], atol=math.radians(0.03))
-    ends = np.where(flight.wanted < flight.reach[0], *flight.reach)
-    assert_allclose(flight.reached[~inside], ends[~inside], atol=1e-6)
-    assert not inside.all()
-    assert_allclose(flight.reach[1] - flight.reach[0], abs(verdict(kind).installed.shapes[0, -1]), rtol=1e-9)
+    assert np.all((low - 1e-6 < flight.reached) & (flight.reached < high + 1e-6))
+    assert [design.condition.climb_speed for design in flight.designs] == [0.0, 5.0, 0.0]
+    assert np.ptp(flight.reached) > 0.5 * (high - low)  # The legs ask for different twists.
+    assert_allclose(high - low, abs(verdict(kind).installed.shapes[0, -1]), rtol=1e-9)
 
 
 def test_voltages_make_the_reached_twist():
@@ -72,20 +69,6 @@ def test_voltages_make_the_reached_twist():
     flight = fly(judged, legs)
     for volts, twist in zip(flight.voltages, flight.reached, strict=True):
         assert_allclose(judged.installed.tip(np.array(volts) / 2000.0), twist, atol=1e-9)
-
-
-def test_the_powers_are_those_of_trims():
-    judged, flight = verdict(), flown()
-    for k, leg in enumerate(LEGS):
-        heavy = solve(with_actuator_mass(flight.designs[k], judged.installed)).require().power.total
-        assert_allclose(flight.power_with[k], heavy + judged.drive.hold_power, rtol=1e-6)
-        fixed = replace(leg.of(judged.baseline.pair.design), twist=judged.baseline.fixed_twist)
-        assert_allclose(flight.power_fixed[k], solve(fixed).require().power.total, rtol=1e-6)
-    assert flight.designs[1].condition.climb_speed == 5.0
-    # A climb at 5 m/s takes m g V_c more than level flight, and a little for the tail rotor.
-    level = fly(judged, (FlightLeg("level", 0.15),)).power_fixed[0]
-    extra = judged.baseline.pair.design.condition.weight * 5.0
-    assert 0.9 < (flight.power_fixed[1] - level) / extra < 1.15
 
 
 def test_no_solution_is_carried_along():
