@@ -187,6 +187,7 @@ def test_nose_down_in_the_second_quadrant_at_high_speed():
 def test_two_modes_suffice(patch: Patch):
     """Power within 0.03 %, the tip within 0.1° and within 0.03° in the mean of six modes."""
     few = solve(design(0.35)).require()
+    assert few.shown  # Read with its own modes.
     patch("rotor.aero.problem.TORSION_MODES", 6)
     many = solve(design(0.35)).require()
     assert few.power.total != many.power.total
