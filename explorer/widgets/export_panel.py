@@ -1,5 +1,6 @@
 """The Export folder: picture, report, tables, design file and the shape of the blade."""
 
+import io
 import json
 import logging
 import threading
@@ -9,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from viser.transforms import SO3
 
 from explorer.charts.plots import PowerCurves
@@ -131,7 +133,9 @@ class ExportPanel:
             driven=self._driven(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
-        return report_html(report, stage, self._curves).encode()
+        pixels = Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675))
+        pixels.save(rotor := io.BytesIO(), "WEBP", quality=85)
+        return report_html(report, stage, self._curves, rotor.getvalue()).encode()
 
     def _save(self, what: str, ending: str, make: Callable[[SessionState], bytes]) -> None:
         """Make a file and send it, unless another is under way."""
