@@ -6,6 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -133,9 +134,10 @@ class ExportPanel:
             driven=self._driven(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
-        pixels = Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675))
-        pixels.save(rotor := io.BytesIO(), "WEBP", quality=85)
-        return report_html(report, stage, self._curves, rotor.getvalue()).encode()
+        rotor = io.BytesIO()
+        with suppress(ValueError):  # A browser that cannot draw, or has left, still gets its report.
+            Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675)).save(rotor, "WEBP", quality=85)
+        return report_html(report, stage, self._curves, rotor.getvalue() or None).encode()
 
     def _save(self, what: str, ending: str, make: Callable[[SessionState], bytes]) -> None:
         """Make a file and send it, unless another is under way."""

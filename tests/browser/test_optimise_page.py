@@ -153,7 +153,7 @@ def gap(words: str) -> float:
 @pytest.mark.slow
 def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Watched, Session]):
     watched, session = page
-    watched.choose("Concept", "Two segments, free break")
+    watched.choose("Concept", "Two segments, free break point")
     watched.section("Map")
     press(watched, "Compute map")
     watched.reads("map-least", r"Least [\d\s.]+ kW at")
