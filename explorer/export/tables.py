@@ -138,8 +138,8 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         if rest := named[MOST_ROWS:]:
             sizes.append((f"{len(rest)} smaller causes", math.hypot(*(size for _, size in rest))))
         # No line ends between a number and its unit.
-        words = [f"± {unit.text(size, decimals(unit.of(size)))}".replace(" ", "\u00a0") for _, size in sizes]
-        return _table(title, zip([name for name, _ in sizes], words, strict=True))
+        bands = [f"± {unit.text(size, decimals(unit.of(size)))}".replace(" ", "\u00a0") for _, size in sizes]
+        return _table(title, zip([name for name, _ in sizes], bands, strict=True))
 
     power = causes("Uncertainty of power", "Power", lambda row: row.power)
     if not band.change_words:

@@ -143,7 +143,9 @@ class MapTask:
                 ]
                 known.update(zip(cells, self._least(begun, history), strict=True))
                 tell(len(known) / (finest + 1) ** 2)
-            tell(MapLevel(*(tuple(tuple(known[row, column][k] for column in every) for row in every) for k in (0, 1))))
+            grid = [[known[row, column] for column in every] for row in every]
+            powers = tuple(tuple(power for power, _ in cells) for cells in grid)
+            tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid)))
         return True
 
     def _least(
