@@ -66,7 +66,7 @@ class ExportPanel:
             ):
                 button = context.gui.add_button(name, color="gray", hint=hint("export"))
                 button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))
-            self._shape = context.gui.add_dropdown("Shape of picture", _PICTURES)
+            self._shape = context.gui.add_dropdown("Shape of picture", _PICTURES, hint=hint("picture_shape"))
             self._state = context.gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
