@@ -419,4 +419,5 @@ class Page:
         self.optimise.withdraw()
         self.actuator.perform(SetHand(BY_HAND, {"drives": AT_REST}))
         self.optimise.rival.begin(None)
+        self.context.display.turn(ViewState.azimuth_deg)
         self.context.controls.set_inputs(opening)

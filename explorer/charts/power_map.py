@@ -13,6 +13,7 @@ from explorer.colours import NOW, colour_map, css
 from explorer.model.units import Units, number
 from explorer.picture.disk_image import encode_png
 from explorer.workers.solver import MapTask
+from rotor import Design
 from rotor.design import TwistLaw
 from rotor.optimisation import Concept, Parameter, nearest
 from rotor.optimisation.descent import BAND
@@ -31,7 +32,7 @@ _COLOURS, _LINE, _EDGE = 200, 201, 202
 _THICKER = ((0, 0, 0), (0, 1, 1), (0, 1, 0))
 """A pixel more below and to the right."""
 _NEAR = 1e-3
-"""Twist [rad] within which a design is a point of the map."""
+"""Twist [rad] within which a design is one of the concept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +40,8 @@ class PowerMap:
     task: MapTask
     powers: Array
     """[W], (rows along y, columns along x); NaN where a design does not trim."""
+    values: tuple[tuple[tuple[float, ...], ...], ...]
+    """All parameters of each point."""
 
     @property
     def parameters(self) -> tuple[Parameter, Parameter]:
@@ -48,9 +51,26 @@ class PowerMap:
     @property
     def least(self) -> tuple[float, float, float]:
         """Place (0…1 along x and y) and power [W] of the best grid point."""
-        row, column = np.unravel_index(np.nanargmin(self.powers), self.powers.shape)
+        row, column = self._best
         n = len(self.powers) - 1
-        return float(column) / n, float(row) / n, float(self.powers[row, column])
+        return column / n, row / n, float(self.powers[row, column])
+
+    @property
+    def best(self) -> tuple[float, ...]:
+        """All parameters of the best grid point."""
+        row, column = self._best
+        return self.values[row][column]
+
+    @property
+    def _best(self) -> tuple[int, int]:
+        row, column = np.unravel_index(np.nanargmin(self.powers), self.powers.shape)
+        return int(row), int(column)
+
+    def at(self, x: float, y: float) -> Design:
+        """The design at a place, its other parameters those of the nearest grid point."""
+        n = len(self.powers) - 1
+        task, values = self.task, self.values[round(y * n)][round(x * n)]
+        return task.concept.apply(task.design, task.place(x, y, values))
 
 
 def default_axes(concept: Concept) -> tuple[int, int]:
@@ -64,36 +84,40 @@ def default_axes(concept: Concept) -> tuple[int, int]:
 
 
 @lru_cache(maxsize=8)
-def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[tuple[float, float], bool]:
-    """Where a twist, or the nearest of the concept, lies on a map, 0…1, and whether it lies in its plane."""
+def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[float, float] | None:
+    """Where a twist lies on a map, 0…1; None where it is not one of the concept's."""
     task = drawn.task
-    values, on_map = nearest(task.concept, twist), list(task.values)
-    for axis in task.axes:
-        on_map[axis] = values[axis]
-    r = np.linspace(0.15, 1.0, 40)
-    exact = float(np.abs(task.concept.twist(on_map)(r) - twist(r)).max()) < _NEAR
+    values, r = nearest(task.concept, twist), np.linspace(0.15, 1.0, 40)
+    if float(np.abs(task.concept.twist(values)(r) - twist(r)).max()) > _NEAR:
+        return None
     x, y = (
         (values[axis] - parameter.low) / (parameter.high - parameter.low)
         for axis, parameter in zip(task.axes, drawn.parameters, strict=True)
     )
-    return (x, y), exact
+    return x, y
+
+
+def rail_name(parameter: Parameter) -> str:
+    """Its name, as on its slider."""
+    return parameter.short or parameter.title
 
 
 def least_words(drawn: PowerMap, units: Units) -> str:
-    """The best grid point, and the parameters that the map holds."""
+    """The best grid point with all its parameters, and whether the map ends there."""
 
     def at(parameter: Parameter, value: float) -> str:
-        return f"{number(parameter.shown(value), 1 if parameter.angular else 2)} {parameter.shown_unit}"
+        shown = number(parameter.shown(value), 1 if parameter.angular else 2)
+        return f"{rail_name(parameter)} {shown} {parameter.shown_unit}"
 
-    *place, power = drawn.least
-    best = [at(p, p.low + part * (p.high - p.low)) for p, part in zip(drawn.parameters, place, strict=True)]
-    held = [
-        f"{p.title} {at(p, value)}"
-        for k, (p, value) in enumerate(zip(drawn.task.concept.parameters, drawn.task.values, strict=True))
-        if k not in drawn.task.axes
+    every = drawn.task.concept.parameters
+    best = ", ".join(at(*one) for one in zip(every, drawn.best, strict=True))
+    ends = [
+        at(p, p.low + part * (p.high - p.low))
+        for p, part in zip(drawn.parameters, drawn.least[:2], strict=True)
+        if part in (0.0, 1.0)
     ]
-    fixed = f" Fixed: {', '.join(held)}." if held else ""
-    return f"Least {units.watts(power, 1)} at {', '.join(best)}.{fixed}"
+    beyond = f" Less power lies beyond the bound of {' and '.join(ends)}." if ends else ""
+    return f"Least {units.watts(drawn.least[2], 1)} at {best}.{beyond}"
 
 
 def refined(powers: Array, wide: int, high: int) -> Array:
@@ -132,24 +156,15 @@ def _picture(drawn: PowerMap) -> bytes:
 
 
 def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
-    """SVG of a map. `twist`: on the sliders; its mark is hollow where it does not lie in the plane of the map."""
+    """SVG of a map. `twist`: on the sliders; it has a mark where it is one of the concept's."""
     across, up = drawn.parameters
     x, y, _ = drawn.least
     marks = [_star(_LEFT + x * _WIDE, _TOP + (1.0 - y) * _HIGH)]
-    if twist is not None:
-        (x, y), exact = place_on(drawn, twist)
-        if 0.0 <= x <= 1.0 and 0.0 <= y <= 1.0:
-            marks.append(
-                tag(
-                    "circle",
-                    cx=round(_LEFT + x * _WIDE, 1),
-                    cy=round(_TOP + (1.0 - y) * _HIGH, 1),
-                    r=4.5,
-                    fill=NOW if exact else "none",
-                    stroke="#fff" if exact else NOW,
-                    stroke_width=1.8,
-                )
-            )
+    place = None if twist is None else place_on(drawn, twist)
+    if place is not None and all(0.0 <= part <= 1.0 for part in place):
+        cx, cy = _LEFT + place[0] * _WIDE, _TOP + (1.0 - place[1]) * _HIGH
+        look = {"fill": "none", "stroke": NOW, "stroke_width": 2.4}
+        marks.append(tag("circle", cx=round(cx, 1), cy=round(cy, 1), r=4.5, **look))
     image = svg.image(_LEFT, _TOP, _WIDE, _HIGH, _picture(drawn))
     return tag(
         "svg",
@@ -159,7 +174,7 @@ def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
         viewBox="0 0 300 266",
         width="100%",
         role="img",
-        aria_label=f"Power over {across.title} and {up.title}",
+        aria_label=f"Power over {rail_name(across)} and {rail_name(up)}",
     )
 
 

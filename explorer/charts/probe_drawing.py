@@ -270,15 +270,9 @@ def _table(probe: Probe) -> Markup:
         ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
         ("probe_cd", "C_d", number(probe.cd, 4)),
         ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
-        ("probe_cm", "C_m", "–" if probe.cm is None else number(probe.cm, 3)),
         ("probe_section", "Section", sections_of(probe.section)),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
-    if probe.unsteady is not None:
-        entries += (
-            ("probe_separation", "Separation", f"{number(probe.unsteady.separation, 2)} c"),
-            ("probe_vortex", "Vortex C_n", number(probe.unsteady.vortex, 3)),
-        )
     cells = [
         tag("div.rx-line", tag("span.rx-dim", with_indices(name)), tag("span.rx-num", value), title=tip(key))
         for key, name, value in entries

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 import msgspec
 
-from explorer.colours import RIM, DiskInk, colour_map, css
+from explorer.colours import RIM, DiskInk, Rgb, colour_map, css
 from explorer.model.units import SI, Units
 from explorer.picture import disk_image
 from explorer.picture.fields import Field
@@ -207,20 +207,24 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
     )
 
 
-def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
-    """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
+def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:
+    """The marked regions that the disk has: title, colour of the outline, and whether it is dashed."""
     drawn, grid, ink = DrawnSolution(solution), polar_grid(solution.disk, 80, 240), DiskInk()
     codes = region_codes(drawn, grid, ALL_MARKS, 0.02)
-    entries: list[tuple[str, Markup]] = []
-    for region, title, colour, dashes in (
-        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, None),
-        (MarkedRegion.STALLED, "stall", ink.stall, None),
-        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, "4 3"),
-    ):
-        if codes is not None and (codes == region).any():
-            swatch = tag("path", d="M0,4h14", stroke=css(colour), stroke_width=3, stroke_dasharray=dashes)
-            entries.append((title, swatch))
-    return entries
+    regions = (
+        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, False),
+        (MarkedRegion.STALLED, "stall", ink.stall, False),
+        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, True),
+    )
+    return [mark[1:] for mark in regions if codes is not None and (codes == mark[0]).any()]
+
+
+def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
+    """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
+    return [
+        (title, tag("path", d="M0,4h14", stroke=css(ink), stroke_width=3, stroke_dasharray="4 3" if dashed else None))
+        for title, ink, dashed in key_marks(solution)
+    ]
 
 
 _CHART_HEIGHT = 94.0

@@ -1,5 +1,6 @@
 """Figures of the report: power over speed, twist, disks with their scales, charts along the blade, and the actuator."""
 
+import base64
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -29,7 +30,9 @@ PIXELS = 480
 AZIMUTHS = {0: "#0ca678", 90: "#e8590c", 180: "#1c7ed6", 270: "#9c36b5"}
 """Azimuths of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
 _BAR = 200.0
-_LETTERS = 10.0
+_LETTERS = 13.0
+_CHART = 390.0, 260.0
+"""[px] of a chart: two stand beside each other on paper, and their text is as large as that of a table."""
 _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0
 """[px] of the balance: its width, a row, and the room for names and numbers beside the bars."""
 
@@ -76,7 +79,7 @@ def _charts(charts: Sequence[Chart]) -> Markup:
 
 def figure(chart: Chart) -> Markup:
     """A chart with its title, as HTML."""
-    return tag("figure.chart", tag("figcaption", tag("b", chart.title)), svg(chart, inline=True))
+    return tag("figure.chart", tag("figcaption", tag("b", chart.title)), svg(chart, inline=True, size=_CHART))
 
 
 def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
@@ -119,19 +122,28 @@ def _smooth(values: Array) -> tuple[Array, Array]:
     return line, PchipInterpolator(mu[known], values[known])(line)
 
 
+def front(report: DesignReport, rotor: bytes | None) -> Markup:
+    """The first design for the first page of a print: its rotor, a WebP that the page drew, and its disk."""
+    field = fields_of(report)[0]
+    seen = None if rotor is None else f"data:image/webp;base64,{base64.b64encode(rotor).decode()}"
+    picture = None if seen is None else tag("img", src=seen, alt="The rotor in trim")
+    return tag("div.front", picture, _disk(report, report.entries[0], field, "front-bar"))
+
+
+def _disk(report: DesignReport, entry: ReportEntry, field: Field, name: str) -> Markup:
+    """A field over the disk above its scale. `name`: of the scale, unique."""
+    colour_range, label = report.colour_range(field), f"{field.title} over the disk"
+    drawn = disk_drawing(entry.solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)
+    box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
+    disk = tag("svg", drawn, viewBox=box, role="img", aria_label=label)
+    return tag("figure", disk, bar(field, colour_range, name))
+
+
 def disks(report: DesignReport, entry: ReportEntry, k: int) -> Markup:
     """The fields over the disk, each with its scale, and the key of the marked regions."""
     solution = entry.solution
-    drawings: list[Markup] = []
-    keys: dict[str, Markup] = {}
-    box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
-    for n, field in enumerate(fields_of(report)):
-        colour_range, label = report.colour_range(field), f"{field.title} over the disk"
-        drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)
-        disk = tag("svg", drawn, viewBox=box, role="img", aria_label=label)
-        drawings.append(tag("figure", disk, bar(field, colour_range, f"bar-{k}-{n}")))
-        keys.update(key_entries(solution))
-    key = [tag("span", tag("svg", swatch, width=14, height=8), f" {title}") for title, swatch in keys.items()]
+    drawings = [_disk(report, entry, field, f"bar-{k}-{n}") for n, field in enumerate(fields_of(report))]
+    key = [tag("span", tag("svg", swatch, width=14, height=8), f" {title}") for title, swatch in key_entries(solution)]
     several = " Colours are the same for all designs." if len(report.shown) > 1 else ""
     seen = tag("span.dim", f"From above, nose up, advancing side right.{several}")
     return group(tag("h3", "Over the disk"), tag("div.disks", drawings), tag("p.key", key, seen))

@@ -14,10 +14,11 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.contents import DesignReport, ReportEntry, colours_of, on_board
+from explorer.export.contents import DesignReport, ReportEntry, colours_of, line_words, on_board
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
+from explorer.model.units import number
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
@@ -27,13 +28,19 @@ from rotor import Solution, load_design, solve
 from rotor.support.markup import Markup, group, tag
 from rotor.support.terminal import OneLineParser, command_words, run_command
 from rotor.support.user_input import write_whole
+from rotor.trim.doubt import decimals
 
 
-def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None) -> str:
-    """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept."""
+def report_html(
+    report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None, rotor: bytes | None = None
+) -> str:
+    """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept;
+    `rotor`: the first design as the page drew it, a WebP for paper."""
     several = len(report.shown) > 1
-    title = f"{len(report.shown)} designs compared" if several else title_words(report.entries[0].solution.design)
+    first = report.entries[0].solution
+    title = f"{len(report.shown)} designs compared" if several else title_words(first.design)
     overview = [
+        figures.front(report, rotor),
         _glance(report),
         _stage(report, stage),
         tables.comparison(report),
@@ -46,6 +53,7 @@ def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
         "report.html",
         {
             "title": title,
+            "line": title if several else line_words(first, report.units, report.driven),
             "program": PROGRAM,
             "policy": web.policy(),
             "styles": web.styles("report.css"),
@@ -76,6 +84,8 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
         for name, value in values.items()
     ]
     total = tag("b", report.units.watts(power.total), data_report="total-power")
+    band = report.units.power[0].of(tables.power_band(report, entry).band)
+    total += tag("span", f" ± {number(band, decimals(band))}")
     small = tag("span.dim", report.units.other_watts(power.total))
     return tag(
         "article.card",

@@ -25,22 +25,22 @@ Row = tuple[Content, Content]
 
 
 def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
-    """Change of total power against the reference, where the flight condition is the same."""
+    """Change of total power against the reference, where the flight condition is the same; none for one design."""
     reference = report.reference
     if report.comparable(entry) and entry is report.entries[0] and report.driven is not None:
         words, _, kind = on_board(report.driven, report.units)
         return tag("span.change", words, class_=kind or None, data_report="on-board")
     if report.is_reference(entry):
-        return tag("span.change.dim", "reference")
+        return tag("span.change.dim", "reference") if len(report.all) > 1 else Markup()
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
-    words = _band(report, entry).saving_words or f"{number(change, 1, sign=True)} %"
+    words = power_band(report, entry).saving_words or f"{number(change, 1, sign=True)} %"
     return tag("span.change", words, class_=kind)
 
 
-def _band(report: DesignReport, entry: ReportEntry) -> Doubt:
+def power_band(report: DesignReport, entry: ReportEntry) -> Doubt:
     """How sure power is, and its change from the reference."""
     solution, other = entry.solution, report.reference.solution
     free = "free-rotor" in {one.design.models.trim for one in (solution, other)}
@@ -86,7 +86,7 @@ def comparison(report: DesignReport) -> Markup:
     return tag(
         "section.comparison",
         tag("h2", "Side by side" if len(report.all) > 1 else "Power"),
-        tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"width:{width}px")),
+        tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"--wide:{width}px")),
         tag("p.note", note) if elsewhere else None,
         tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.") if report.driven else None,
     )
@@ -128,7 +128,7 @@ def trim(solution: Solution) -> Markup:
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     """How sure power is, and its change from the reference, each above its causes."""
-    band, unit = _band(report, entry), report.units.power[0]
+    band, unit = power_band(report, entry), report.units.power[0]
 
     def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
         """The largest, and the rest as one: their squares add up to that of the first row."""
@@ -137,7 +137,9 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         sizes = [(words, math.hypot(*(size for _, size in named))), *named[:MOST_ROWS]]
         if rest := named[MOST_ROWS:]:
             sizes.append((f"{len(rest)} smaller causes", math.hypot(*(size for _, size in rest))))
-        return _table(title, [(name, f"± {unit.text(size, decimals(unit.of(size)))}") for name, size in sizes])
+        # No line ends between a number and its unit.
+        bands = [f"± {unit.text(size, decimals(unit.of(size)))}".replace(" ", "\u00a0") for _, size in sizes]
+        return _table(title, zip([name for name, _ in sizes], bands, strict=True))
 
     power = causes("Uncertainty of power", "Power", lambda row: row.power)
     if band.sureness is None:
@@ -174,8 +176,11 @@ def blade(design: Design) -> Markup:
     """Twist, zero at 0.75 R, chord and section at given stations."""
     shape = design.rotor.blade
     stations = [shape.root_cutout, *(r for r in STATIONS if r > shape.root_cutout)]
-    angles, chords = np.degrees(design.twist(np.array(stations))), shape.chord(stations)
+    angles = np.degrees(design.twist(np.array(stations)))
     places = [shape.section_at(r) for r in stations]
+    ratios = [tuple(shape.installed(name).chord_ratio for name in place[:2]) for place in places]
+    shares = [inner + place[2] * (outer - inner) for place, (inner, outer) in zip(places, ratios, strict=True)]
+    chords = shape.chord(stations) * np.array(shares)  # Of the section itself, as in the STL.
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [
         _row("Built-in twist [°]", [number(angle, 2, sign=True) for angle in angles]),

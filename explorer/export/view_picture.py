@@ -1,89 +1,114 @@
-"""The view of the page as a picture, with title, flight, power and the scale of its disk."""
+"""A picture for a slide: the scene, its line above, and below it the scale of its disk, its marks and its source."""
 
 import io
 import json
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-import numpy as np
+from numpy import uint8
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 from PIL.PngImagePlugin import PngInfo
 
+from explorer.charts.svg import key_marks
 from explorer.colours import colour_map
-from explorer.export.contents import on_board
+from explorer.export.provenance import PROGRAM, versions
 from explorer.model.units import Units
+from explorer.picture.camera_views import Covered
 from explorer.picture.fields import Field
-from explorer.text.design_words import flight_words, title_words
-from explorer.text.readout import fineness
-from explorer.views.actuated import ActuatedBlade
+from explorer.text.design_words import flight_words
 from rotor import Solution
 from rotor.support.chart import bar_ticks
 
 Ink = tuple[int, int, int]
 _NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
 _INK, _DIM, _OVERLAY = (24, 33, 47), (95, 107, 128), (141, 152, 170)
-_KINDS = {"more": ((194, 65, 12), (255, 146, 43)), "less": ((11, 122, 94), (56, 217, 169))}
-"""Of power, light and dark."""
-_SKY = (243, 246, 250), (25, 31, 41)
-"""Behind the view of the page, light and dark."""
-_STRIP = 112
-"""[px] above the view of the page, and below it."""
-_WIDTH = 500
-"""[px] of the scale."""
+HEIGHT = 1080
+"""[px]"""
+SHAPES = {"16:9": 1920, "4:3": 1440}
+"""Widths [px] by name."""
+CARDS = Covered(140 / HEIGHT, 118 / HEIGHT)
+"""What the line above the scene and the key below it cover."""
+_EDGE, _WIDTH = 40, 420
+"""[px] of the margin, and of the scale."""
+Label = tuple[str, float, float]
+"""Words, and where they stand: fractions of the width from the left and of the height from above."""
 
 
 def view_png(
-    scene: NDArray[np.uint8],
+    scene: NDArray[uint8],
     solution: Solution,
     scale: tuple[Field, tuple[float, float]] | None,
+    line: str,
     units: Units,
     dark: bool,
-    driven: ActuatedBlade | None = None,
+    labels: Sequence[Label] = (),
+    transparent: bool = False,
 ) -> bytes:
-    """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
-    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk.
-    `driven`: the actuator that twists the blade. The file says the numbers of the design under `Design`."""
+    """A picture for a slide as a PNG of the size of `scene` (rows, columns, 4), red to alpha of 0…255.
+
+    Above: `line` and the flight. Below: the marks of the disk, its `scale` (a quantity with the ends of its colours;
+    None: no disk is in sight) and the source. The file says the numbers of the design under `Design`.
+    """
     rows, columns = scene.shape[:2]
-    below = 0 if scale is None else _STRIP
-    picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
-    drawn = Image.fromarray(scene)
-    picture.paste(_SKY[dark], (0, _STRIP, columns, _STRIP + rows))
-    picture.paste(drawn, (0, _STRIP), drawn)
+    ground = (0, 0, 0, 0) if transparent else (*(_NIGHT if dark else (255, 255, 255)), 255)
+    picture = Image.new("RGBA", (columns, rows), ground)
+    picture.alpha_composite(Image.fromarray(scene))
     draw = ImageDraw.Draw(picture)
     ink, dim = (_PALE, _OVERLAY) if dark else (_INK, _DIM)
 
     def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
 
-    write(40, 52, title_words(solution.design), 32, ink)
-    write(40, 90, flight_words(solution.design, units), 22, dim)
-    if driven is not None:
-        *words, kind = on_board(driven, units)
-        write(columns - 40, 98, " ".join(filter(None, words)), 22, _KINDS[kind][dark] if kind else dim, "rs")
-    write(
-        columns - 40,
-        72 if driven is None else 62,
-        units.watts(solution.power.total, fineness(solution.power, units)),
-        52,
-        ink,
-        "rs",
-    )
+    height = 38
+    while len(lines := _wrapped(line, height, columns - 2 * _EDGE)) > 2:
+        height -= 2
+    for k, words in enumerate(lines):
+        write(_EDGE, 56 + (k - len(lines) + 1) * 1.1 * height + 42 * (len(lines) - 1), words, height, ink)
+    write(_EDGE, 96 if len(lines) == 1 else 134, flight_words(solution.design, units), 24, dim)
+    font = ImageFont.truetype(font_path(), 24)
+    for words, x, y in labels:
+        half = font.getlength(words) / 2 + 8
+        x = min(max(x * columns, half + 8), columns - half - 8)
+        draw.rounded_rectangle((x - half, y * rows - 17, x + half, y * rows + 17), 6, (*ground[:3], 225))
+        write(x, y * rows, words, 24, ink, "mm")
+    below = rows - 48
+    source = f"{PROGRAM} {versions()[PROGRAM].partition(' ')[0]}, a model, not a measurement"
+    write(columns - _EDGE, below + 28, source, 20, dim, "rs")
     if scale is not None:
         field, ends = scale
-        x, y = columns // 2 - _WIDTH // 2, _STRIP + rows + 50
         colours = colour_map(field.colours, 256)[None, :, :3]
-        picture.paste(Image.fromarray(colours).resize((_WIDTH, 12)), (x, y))
+        picture.paste(Image.fromarray(colours).resize((_WIDTH, 14)), (_EDGE, below - 14))
+        write(_EDGE, below - 24, field.label, 24, ink)
         for percent, words in bar_ticks(*ends):
-            write(x + 0.01 * _WIDTH * float(percent), y + 30, words, 16, dim, "ms")
-        write(x + _WIDTH // 2, y - 8, field.label, 18, ink, "ms")
+            write(_EDGE + 0.01 * _WIDTH * float(percent), below + 28, words, 22, dim, "ms")
+        right = columns - _EDGE
+        for title, colour, dashed in reversed(key_marks(solution)):
+            write(right, below - 24, title, 24, ink, "rs")
+            right -= round(font.getlength(title)) + 12
+            for left in (right - 34, right - 14) if dashed else (right - 34, right - 24, right - 14):
+                draw.line((left, below - 32, left + 14, below - 32), colour, 5)
+            right -= 64
     numbers = PngInfo()
     numbers.add_itxt("Design", json.dumps(solution.design.to_dict(), ensure_ascii=False))
     out = io.BytesIO()
     picture.save(out, "PNG", pnginfo=numbers)
     return out.getvalue()
+
+
+def _wrapped(words: str, height: float, room: float) -> list[str]:
+    """As few lines as stay within `room` [px] at this height of type."""
+    font, lines = ImageFont.truetype(font_path(), height), [""]
+    for word in words.split(" "):
+        longer = f"{lines[-1]} {word}".strip()
+        if font.getlength(longer) > room and lines[-1]:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
 
 
 @cache

@@ -109,26 +109,45 @@ def fit(
     azimuth: float = 0.0,
     tilt: float = _USUAL_TILT,
     cover: Covered = USUAL_COVER,
+    towards: Array | None = None,
 ) -> Camera:
     """The camera of a view, as close as its subject, words included, allows between the cards.
 
     `aspect`: canvas width over height. `azimuth`: ψ [rad] of the reference blade, for "blade". `tilt`: of the shaft
-    [rad]. `cover`: what cards hide of the canvas. In "disk" and "top" the nose is up and the advancing side right; in
-    "side" the nose is right.
+    [rad]. `cover`: what cards hide of the canvas. `towards`: a unit vector, to a viewer who stands elsewhere. In "disk"
+    and "top" the nose is up and the advancing side right; in "side" the nose is right.
     """
     if view == "blade":
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
-    elif view == "3d":
+    elif view == "3d" and towards is None:
         backward = direction(_STAND[0], _STAND[1] + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
         return _standing(size(radius), aspect, backward, cover)
     else:
         psi = np.linspace(0.0, 2.0 * math.pi, 73)  # The rim with the words round it.
         points = 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
-        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION[view])
-        if view == "side":  # The airframe, coning and tilt need height where the disk has none.
+        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION.get(view, 0.0))
+        if view in ("side", "3d"):  # The airframe, coning and tilt need height where the disk has none.
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
             points = np.concatenate((points, radius * np.array(more)))
-    return between_cards(framed(points, backward, aspect / cover.free), cover)
+    return between_cards(framed(points, backward if towards is None else towards, aspect / cover.free), cover)
+
+
+def seen_at(camera: Camera, points: Array, aspect: float) -> Array:
+    """Where points (n, 3) [m] stand in a picture of this width over height, (n, 2): fractions from the left and from
+    above; outside 0…1 they are not in it."""
+    right, down, forward = camera_axes(camera)
+    away = points - camera.position
+    sight = 2.0 * math.tan(FIELD_OF_VIEW / 2.0) * (away @ forward)
+    return 0.5 + np.stack((away @ right / (aspect * sight), away @ down / sight), axis=1)
+
+
+def camera_axes(camera: Camera) -> tuple[Array, Array, Array]:
+    """Right, down and forward of an upright camera, unit vectors."""
+    forward = camera.look_at - camera.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    return right, np.cross(forward, right), forward
 
 
 def _standing(size: float, aspect: float, backward: Array, cover: Covered) -> Camera:

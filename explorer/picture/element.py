@@ -43,16 +43,6 @@ class SectionBlend:
     parts: tuple[tuple[Section, float], ...]
     """The sections that take part, with their shares."""
 
-    def moment(self, alpha: float, mach: float) -> float | None:
-        """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
-        total = 0.0
-        for section, share in self.parts:
-            moment = section.table.moment(alpha - section.incidence_offset, mach)
-            if moment is None:
-                return None
-            total += share * float(moment)
-        return total
-
     def stall_angles(self, mach: float) -> tuple[float, float]:
         """Negative and positive stall angle [rad] about the blade's reference line."""
         ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.parts]
@@ -73,8 +63,6 @@ class UnsteadyProbe:
 
     separation: float
     """f″, over the chord."""
-    vortex: float
-    """C_n of the vortex [-]."""
     loop: Array
     """α [rad] and C_l at the azimuths of the disk, NaN in reverse flow, (2, azimuths)."""
 
@@ -111,8 +99,6 @@ class Probe:
     """Where the section data are read: the same, unless compressibility is switched off."""
     cl: float
     cd: float
-    cm: float | None
-    """About the quarter chord, nose-up positive; None where the section data have no moment."""
     lift: float
     """Normal to the flow, tip and root loss taken off [N/m]."""
     drag: float
@@ -174,9 +160,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
     alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
     chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.parts)
-    cm, unsteady = section.moment(alpha, table_mach), disk.unsteady
-    if cm is not None and unsteady is not None:
-        cm += at.held(unsteady.moment)
+    unsteady = disk.unsteady
     idle = u_t < 0.0 and not design.models.reverse_flow
     return Probe(
         r=r,
@@ -195,7 +179,6 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         table_mach=table_mach,
         cl=at.held(disk.cl),
         cd=at.held(disk.cd),
-        cm=None if idle else cm,
         lift=thrust * math.cos(phi) + pull * math.sin(phi),
         drag=pull * math.cos(phi) - thrust * math.sin(phi),
         thrust=thrust,
@@ -214,7 +197,7 @@ def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) ->
     for k, psi in enumerate(disk.psi.tolist()):
         there = _GridPoint(disk, r, psi)
         loop[:, k] = (there.held(disk.alpha), there.held(disk.cl)) if there.reaching(disk.u_t) > 0.0 else math.nan
-    return UnsteadyProbe(at.held(unsteady.separation), at.held(unsteady.vortex), loop)
+    return UnsteadyProbe(at.held(unsteady.separation), loop)
 
 
 def outline(section: SectionBlend) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 
 from explorer.picture.actuator_drawings import DRAWINGS, RING, SIDES, BladePart, Span, side_line, stations
 from explorer.picture.blade_mesh import Mesh, section_ring
-from explorer.picture.camera_views import Camera, framed
+from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, framed, seen_at
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator
@@ -245,10 +245,20 @@ def lifted_pose(radius: float) -> Pose:
 
 
 def fit_lifted(radius: float, aspect: float) -> Camera:
-    """The nearest view of the lifted blade: root at the far left, tip at the near right, the helicopter beyond."""
+    """The nearest view of the lifted blade: root at the far left, tip at the near right, the helicopter beyond.
+
+    The two are in the middle of the height, and no part of the blade is below it.
+    """
     pose = lifted_pose(radius)
-    ends = (radius * (r - ORIGIN_R) for r in (0.03, 1.02))
+    ends = [radius * (r - ORIGIN_R) for r in (0.03, 1.02)]
     box = np.array(
         [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
     )
-    return framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)
+    camera = framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)
+    blade = rotate(pose.wxyz, radius * np.array([[x / radius, -0.15, 0.0] for x in ends])) + pose.position
+    craft = radius * np.array([[1.3, 0.0, 0.45], [-1.0, 0.0, 0.15], [0.4, 0.0, -0.5]])
+    top, low = float(seen_at(camera, craft, aspect)[:, 1].min()), float(seen_at(camera, blade, aspect)[:, 1].max())
+    # Turned up: a camera that rose would move the blade, which is near, and hardly the helicopter.
+    sight = math.dist(camera.position, camera.look_at)
+    up = min(0.5 - 0.5 * (top + low), _MARGIN - low) * 2.0 * sight * math.tan(FIELD_OF_VIEW / 2.0)
+    return Camera(camera.position, camera.look_at + up * _view()[1])

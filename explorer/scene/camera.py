@@ -5,7 +5,9 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import cast
 
+import numpy as np
 import viser
 
 from explorer.hosting.browser import call
@@ -99,10 +101,19 @@ class FittedCamera:
         if self._view not in (None, "blade") and self._following and not self._held:
             self._aim()
 
-    @property
-    def covered(self) -> tuple[float, float]:
-        """Fractions of the canvas that cards cover from above and from below."""
-        return self._cover.above, self._cover.below
+    def composed(self, aspect: float, cover: Covered) -> Camera:
+        """Framed anew for a picture of this width over height: from where the user looks, if they turned the view."""
+        camera, towards = self._client.camera, None
+        if not self._following:
+            towards = camera.position - camera.look_at
+            towards /= np.linalg.norm(towards)
+        if self._view is not None:
+            return fit(self._view, self.radius, aspect, self._azimuth, self._tilt, cover, towards)
+        subject = cast(Callable[[float], Camera], self.subject)(aspect / cover.free)
+        if towards is not None:
+            distance = np.linalg.norm(subject.position - subject.look_at)
+            subject = Camera(subject.look_at + distance * towards, subject.look_at)
+        return between_cards(subject, cover)
 
     def leave_free(self, above: float, below: float) -> None:
         """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""

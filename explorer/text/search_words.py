@@ -99,22 +99,15 @@ def _range(parameter: Parameter, band: ParameterBand) -> str:
 def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     best = optimum.best
     assert best is not None
-    bands = {band.parameter: band for band in optimum.band}
     rows, notes = list[Content](), [optimum.message]
-    if bands:
-        rows.append(tag("tr.rx-dim.rx-small", tag("td.rx-num", "range within 0.1 % of the least power", colspan=4)))
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
-        band, digits = bands.get(parameter.name), 1 if parameter.angular else 2
-        reach = ""
-        if band is not None:
-            reach = f"{number(parameter.shown(band.low), digits)} … {number(parameter.shown(band.high), digits)}"
+        digits = 1 if parameter.angular else 2
         rows.append(
             tag(
                 "tr",
                 tag("td", parameter.title),
                 tag("td.rx-num", number(parameter.shown(value), digits)),
                 tag("td.rx-dim.rx-unit", parameter.shown_unit),
-                tag("td.rx-num.rx-dim", reach),
             )
         )
     ranges = {band.parameter: band for band in optimum.doubt_band}

@@ -52,7 +52,6 @@
   });
 
   // What a step up of a slider changes, with its sign, and an arrow from the thumb the way that saves power.
-  const WORD = 40;  // [px]
   function arrow({way, size}, place) {
     // The track lies between the label and the number.
     const slider = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root');
@@ -63,12 +62,7 @@
     const own = place.getBoundingClientRect();
     const [from, width] = track?.width ? [track.left - own.left, track.width] : [76, 166], thumb = from + at * width;
     const length = Math.min(8 + 36 * size, Math.max(6, (up ? own.width - thumb : thumb - from) - 8));
-    // The word stands before the head, or behind the thumb where the head is near the end.
-    const head = up ? thumb + length + 8 : thumb - length - 8;
-    const ahead = up ? head + WORD < own.width : head - WORD > from;
-    const left = ahead ? (up ? head : head - WORD) : (up ? thumb - WORD - 6 : thumb + 6);
-    return `<i data-way="${way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i>
-      <em style="left:${left}px;width:${WORD}px;text-align:${up === ahead ? 'left' : 'right'}">saves</em>`;
+    return `<i data-way="${way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i>`;
   }
   // With every answer, as the strip has it, a thumb may stand elsewhere.
   RX.paint(['worth', 'strip'], worths => {

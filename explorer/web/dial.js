@@ -325,8 +325,9 @@
       Object.assign(canvas, {field: fieldOf(), scheme});
     }
     write(round, dialSvg(size));
-    write(key, matrix ? COLOUR_KEY + [dial.computing ? '' : 'P, V: least power, vibration', 'lines: power',
-      dial.whole ? 'ring: reach' : ''].filter(Boolean).map(words => `<span>${words}</span>`).join(' · ') : '');
+    const drawn = matrix ? [dial.computing ? '' : 'P, V: least power, vibration', 'lines: power'] : [];
+    const words = [...drawn, dial.whole ? 'dashed ring: reach' : ''].filter(Boolean);
+    write(key, (matrix ? COLOUR_KEY : '') + words.map(each => `<span>${each}</span>`).join(' · '));
     write(read, readout());
     drawFront(front, frontWidth, frontHeight);
     if (again) place.querySelector(again)?.focus({preventScroll: true});

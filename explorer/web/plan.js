@@ -223,7 +223,8 @@
     if (reversed(spot)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.map(([name, title, decimals, of]) => {
       const bad = name === 'margin' && value.margin < 0 ? 'rxf-bad' : '';
-      return `<dt>${title}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
+      const words = title.replace('_l', '<sub>l</sub>');
+      return `<dt>${words}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
     }).join('') + own;
   }
   const card = spot => `<div class="rxf-head">
@@ -265,7 +266,8 @@
     /** @type {any[]} */
     const series = [line(upper, 'stall', 1.3, '3 3'), line(lower, 'stall', 1.3, '3 3')];
     if (tables.before) series.push(line(onCircle(tables.before), 'pinned', 1.7, '6 3'));
-    series.push(line(alpha, 'blade', 2.1));
+    const [lowest, highest] = chart.y.range;  // Beside reverse flow α leaves the axes.
+    series.push(line(alpha.map(angle => angle < lowest || angle > highest ? null : angle), 'blade', 2.1));
     const here = pointer && !reversed({r: circle, psi: pointer.psi}) ? [pointer.psi] : [];
     for (const psi of here)
       series.push({kind: 'points', x: here, y: [at(tables.alpha, {r: circle, psi})], colour: 'var(--rx-blade)'});

@@ -1,20 +1,28 @@
 """The Export folder: picture, report, tables, design file and the shape of the blade."""
 
+import io
 import json
 import logging
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from viser.transforms import SO3
 
 from explorer.charts.plots import PowerCurves
 from explorer.export.blade import blade_stl
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry, line_words
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
-from explorer.export.view_picture import view_png
+from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, view_png
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
+from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, camera_axes, seen_at
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
@@ -29,8 +37,7 @@ from rotor.support.markup import tag
 _log = logging.getLogger(__name__)
 _PATIENCE = 90.0
 """[s] for the page to draw; browsers that draw in software take some."""
-_WIDTH = 1920
-"""[px] of a picture of the view."""
+_PICTURES = tuple(f"{shape}{ground}" for shape in SHAPES for ground in ("", ", transparent"))
 
 
 class ExportPanel:
@@ -59,6 +66,7 @@ class ExportPanel:
             ):
                 button = context.gui.add_button(name, color="gray", hint=hint("export"))
                 button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))
+            self._shape = context.gui.add_dropdown("Shape of picture", _PICTURES, hint=hint("picture_shape"))
             self._state = context.gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
@@ -79,21 +87,28 @@ class ExportPanel:
         return tables_zip(state.solution, reference, curve, state.view.azimuth_deg)
 
     def _picture(self, state: SessionState) -> bytes:
-        """The scene as the page's camera sees it between its cards, with title, flight, power and scale."""
-        client, view = self._context.client, state.view
-        height = round(_WIDTH / client.camera.aspect)
-        self._actuator.blade.show_leaders(False)  # They lead to labels, which are not in the scene.
+        """The scene framed anew for the picture's shape, the same from a window of any size."""
+        shape, _, ground = self._shape.value.partition(", ")
+        scene, camera = self._render(SHAPES[shape])
+        words = self._actuator.blade.labels
+        places = seen_at(camera, np.array([at for _, at in words]), SHAPES[shape] / HEIGHT) if words else ()
+        labels = [(text, float(x), float(y)) for (text, _), (x, y) in zip(words, places, strict=True)]
+        units, dark = self._context.units, state.view.dark
+        line = line_words(state.solution, units, self._driven())
+        return view_png(scene, state.solution, self._scene.scale, line, units, dark, labels, bool(ground))
+
+    def _render(self, width: int) -> tuple[NDArray[np.uint8], Camera]:
+        """The scene, (HEIGHT, width, 4), as a camera sees it that is aimed for this alone."""
+        camera = self._scene.camera.composed(width / HEIGHT, CARDS)
+        turn = SO3.from_matrix(np.stack(camera_axes(camera), axis=1)).wxyz
+        seen = {"wxyz": turn, "position": camera.position, "fov": FIELD_OF_VIEW}
         try:
-            pixels = client.get_render(height, _WIDTH, transport_format="png", timeout=_PATIENCE)
-            if pixels.shape[:2] != (height, _WIDTH):
+            pixels = self._context.client.get_render(HEIGHT, width, **seen, transport_format="png", timeout=_PATIENCE)
+            if pixels.shape[:2] != (HEIGHT, width):
                 raise RuntimeError("The picture has another size.")
         except RuntimeError as error:  # The browser has left, or cannot draw.
             raise ValueError(f"The page sent no picture ({error}): press again.") from None
-        finally:
-            self._actuator.blade.show_leaders(True)
-        above, below = self._scene.camera.covered
-        seen = pixels[round(above * height) : height - round(below * height)]
-        return view_png(seen, state.solution, self._scene.scale, self._context.units, view.dark, self._driven())
+        return pixels, camera
 
     def _report(self, state: SessionState) -> bytes:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
@@ -119,7 +134,10 @@ class ExportPanel:
             driven=self._driven(),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
-        return report_html(report, stage, self._curves).encode()
+        rotor = io.BytesIO()
+        with suppress(ValueError):  # A browser that cannot draw, or has left, still gets its report.
+            Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675)).save(rotor, "WEBP", quality=85)
+        return report_html(report, stage, self._curves, rotor.getvalue() or None).encode()
 
     def _save(self, what: str, ending: str, make: Callable[[SessionState], bytes]) -> None:
         """Make a file and send it, unless another is under way."""

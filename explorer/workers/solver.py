@@ -3,9 +3,10 @@
 Tasks are values that can be pickled. Nothing here imports viser.
 """
 
+import math
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
@@ -18,12 +19,13 @@ from rotor.optimisation import (
     Search,
     at_condition,
     evaluate_objective,
-    evaluate_objectives,
     run_plan,
     run_search,
 )
+from rotor.optimisation.descent import descend_together
 from rotor.optimisation.doubt import saving_doubt
-from rotor.study.point import WarmStarts
+from rotor.optimisation.evaluator import Evaluator, TrimHistory
+from rotor.optimisation.limits import Limits
 from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
 from rotor.trim import analyse, power_gradient
 from rotor.trim.doubt import Doubt
@@ -104,9 +106,13 @@ class SearchTask:
         return optimum
 
 
+_UNSEEN = 5e-5
+"""Fall of power, as a part of it, that a map does not show: half a digit of its least."""
+
+
 @dataclass(frozen=True)
 class MapTask:
-    """Power over two parameters of a concept, the others held: on a coarse grid, then on finer ones."""
+    """Power over two parameters of a concept, least over its others: on a coarse grid, then on finer ones."""
 
     design: Design
     concept: Concept
@@ -114,52 +120,73 @@ class MapTask:
     axes: tuple[int, int]
     """Which parameters run along x and y."""
     values: tuple[float, ...]
-    """All parameters; those of the axes are replaced."""
-    steps: tuple[int, ...] = (8, 16, 32)
+    """All parameters: at the first point, the others start from these."""
+    steps: tuple[int, ...] = (8, 16)
     """Intervals along each axis, each a multiple of the one before."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
-        """Reports a `MapLevel` for each grid; True when all were done."""
-        known: dict[tuple[int, int], float | None] = {}
-        near = [WarmStarts({"x": (0.0, 1.0), "y": (0.0, 1.0)}) for _ in self.objective.conditions]
-        finest = self.steps[-1]
+        """Reports the part done, 0…1, after each row, and a `MapLevel` for each grid; True when all were done."""
+        known: dict[tuple[int, int], tuple[float | None, tuple[float, ...]]] = {}
+        history, finest = TrimHistory(), self.steps[-1]
         for steps in self.steps:
-            stride = finest // steps
-            for row in range(0, finest + 1, stride):
+            every = range(0, finest + 1, finest // steps)
+            for row in every:
+                cells = [(row, column) for column in every if (row, column) not in known]
                 if stop():
                     return False
-                cells = [(row, column) for column in range(0, finest + 1, stride) if (row, column) not in known]
-                places = [{"x": column / finest, "y": row / finest} for row, column in cells]
-                legs = list(zip(near, self.objective.conditions, strict=True))
-                starts = [
-                    [warm.guess(place, hovering=leg.flight.advance_ratio == 0.0) for warm, leg in legs]
-                    for place in places
+                # From the nearest point that is known: the least there is near the least here.
+                near = [min(known, key=lambda at, c=cell: math.dist(at, c), default=None) for cell in cells]
+                places = [(column / finest, row / finest) for row, column in cells]
+                begun = [
+                    self.place(*place, self.values if at is None else known[at][1])
+                    for place, at in zip(places, near, strict=True)
                 ]
-                points = evaluate_objectives(
-                    self.objective, [self.at(**place) for place in places], starts, gradient=False
-                )
-                for cell, place, point in zip(cells, places, points, strict=True):
-                    known[cell] = point.power
-                    for warm, trim in zip(near, point.solutions, strict=False):
-                        warm.keep(place, trim)
-            every = range(0, finest + 1, stride)
-            tell(MapLevel(tuple(tuple(known[row, column] for column in every) for row in every)))
+                known.update(zip(cells, self._least(begun, history), strict=True))
+                tell(len(known) / (finest + 1) ** 2)
+            grid = [[known[row, column] for column in every] for row in every]
+            powers = tuple(tuple(power for power, _ in cells) for cells in grid)
+            tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid)))
         return True
 
-    def at(self, x: float, y: float) -> Design:
-        """The design at a point of the map, 0…1 along each axis."""
-        values = list(self.values)
+    def _least(
+        self, begun: Sequence[tuple[float, ...]], history: TrimHistory
+    ) -> list[tuple[float | None, tuple[float, ...]]]:
+        """Least power [W] with the parameters that have it, those of the axes as given."""
+        if not begun:
+            return []
+        free = [k for k in range(len(self.values)) if k not in self.axes]
+        searches: list[Evaluator] = []
+        for values in begun:
+            held = {self.concept.parameters[axis].name: values[axis] for axis in self.axes}
+            concept = replace(self.concept, fixed=(*self.concept.fixed, *held.items()))
+            searches.append(Evaluator(self.design, concept, self.objective, Limits(), 0, None, None, history))
+        starts = [one.scaled([values[k] for k in free]) for one, values in zip(searches, begun, strict=True)]
+        ends = descend_together(searches, starts, _UNSEEN)
+        found: list[tuple[float | None, tuple[float, ...]]] = []
+        for one, end, values in zip(searches, ends, begun, strict=True):
+            all_values = list(values)
+            for k, value in zip(free, one.values(end.x), strict=True):
+                all_values[k] = value
+            found.append((end.power, tuple(all_values)))
+        return found
+
+    def place(self, x: float, y: float, values: Sequence[float]) -> tuple[float, ...]:
+        """The parameters at a point of the map, 0…1 along each axis, with the others of `values`."""
+        placed = list(values)
         for axis, part in zip(self.axes, (x, y), strict=True):
             parameter = self.concept.parameters[axis]
-            values[axis] = parameter.low + part * (parameter.high - parameter.low)
-        return self.concept.apply(self.design, values)
+            placed[axis] = parameter.low + part * (parameter.high - parameter.low)
+        return tuple(placed)
 
 
 @dataclass(frozen=True)
 class MapLevel:
-    """Powers [W] on a square grid, rows along y from low to high; None where a design does not trim."""
+    """A square grid, rows along y from low to high."""
 
     powers: tuple[tuple[float | None, ...], ...]
+    """[W]; None where a design does not trim."""
+    values: tuple[tuple[tuple[float, ...], ...], ...]
+    """All parameters of each point."""
 
 
 @dataclass(frozen=True)

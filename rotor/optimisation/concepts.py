@@ -63,12 +63,12 @@ AIRFOIL_BREAKS = (0.4814, 0.8385)
 """Middles of the UH-60A's blends from SC1095 to SC1094 R8 and back, r/R (assets/uh60a.toml)."""
 
 TWO_SEGMENT_FREE = Concept(
-    "two-segment-free", "Two segments, free break", "Two straight segments with a free break point.",
+    "two-segment-free", "Two segments, free break point", "Two straight segments with a free break point.",
     PiecewiseLinearTwist,
     (
         _rate("inboard", Handle("tilt", 0.0, 0.585), (1.0, 0.0), -14.0, "two_inner"),
         _rate("outboard", Handle("tilt", 0.585, 1.0), (0.0, 1.0), -8.0, "two_outer"),
-        _break("division", "Division", (0.25, 0.92), 2, 0.5, "Break point"),
+        _break("division", "Break point", (0.25, 0.92), 2, 0.5, "Break point"),
     ),
     "two",
 )  # fmt: skip
@@ -78,20 +78,20 @@ TWO_AIRFOILS = Concept(
     # The document's own order is in a chapter that we do not have. The tip needs the later drag rise of the SC1095;
     # inboard, slow on the retreating side, the blade needs the greater lift of the SC1094 R8. Swapped, the best blade
     # takes 4 kW more in hover, 29 kW at µ 0.2 (division 0.5, lifting line, 8322 kg).
-    "SC1094 R8 inboard for lift at low speed, SC1095 outboard for its later drag rise; they change at the division.",
+    "SC1094 R8 inboard for lift at low speed, SC1095 outboard for its later drag rise; they change at the break point.",
     PiecewiseLinearTwist,
     TWO_SEGMENT_FREE.every,
     airfoils=("sc1094r8", "sc1095"),
 )
 THREE_SEGMENT_FREE = Concept(
-    "three-segment-free", "Three segments, free breaks", "Three straight segments with free breaks.",
+    "three-segment-free", "Three segments, free break points", "Three straight segments with free break points.",
     PiecewiseLinearTwist,
     (
         _rate("inboard", Handle("tilt", 0.0, 0.42), (1.0, 0.0, 0.0), -16.0, "three_inner"),
         _rate("middle", Handle("tilt", 0.42, 0.805), (0.0, 1.0, 0.0), -12.0, "three_middle"),
         _rate("outboard", Handle("tilt", 0.805, 1.0), (0.0, 0.0, 1.0), -6.0, "three_outer"),
-        _break("inner_break", "Inboard break", (0.2, 0.64), 3, 0.4, "Break 1"),
-        _break("outer_break", "Outboard break", (0.66, 0.95), 3, 0.75, "Break 2"),
+        _break("inner_break", "Inboard break point", (0.2, 0.64), 3, 0.4, "Break 1"),
+        _break("outer_break", "Outboard break point", (0.66, 0.95), 3, 0.75, "Break 2"),
     ),
     "three",
 )  # fmt: skip

@@ -20,9 +20,10 @@ import numpy as np
 import scipy
 
 from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
-from rotor.optimisation.objective import ObjectiveValue, Quantity
+from rotor.optimisation.objective import ObjectiveValue, Quantity, evaluate_objectives
 from rotor.optimisation.results import ParameterBand
 from rotor.support.arrays import Array
+from rotor.trim.newton import SolverOptions
 
 BAND = 1e-3
 """Relative rise of the objective that defines the band of each parameter."""
@@ -250,6 +251,43 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
             reach = max(reach, 2.0 * length)
         centre = min(centre, trial, key=lambda point: point.rank)
     return Descent(centre if centre.feasible else None, converged=centre.feasible and reach < _LEAST_REACH)
+
+
+_TOGETHER, _RECENT = 8, 60
+"""Rounds of `descend_together`, and how many of the last trims its models are made of."""
+
+
+def descend_together(searches: Sequence[Evaluator], starts: Sequence[Array], tolerance: float) -> list[Evaluation]:
+    """Where each search, of one objective and one history, is least near its start; each round is trimmed at once.
+
+    A descent ends where the model foresees no fall by `tolerance`, a part of the objective, or nothing trims.
+    """
+    at, reach = dict(enumerate(starts)), [_FIRST_REACH] * len(searches)
+    ends: dict[int, Evaluation] = {}
+    for _ in range(_TOGETHER):
+        designs = [searches[k].concept.apply(searches[k].design, searches[k].values(x)) for k, x in at.items()]
+        begin = [searches[k].starts_for(design) for k, design in zip(at, designs, strict=True)]
+        moves, options = len(starts[0]) > 0, SolverOptions(remedy=False)
+        every = evaluate_objectives(searches[0].objective, designs, begin, gradient=moves, options=options)
+        for k, design, found in zip(at, designs, every, strict=True):
+            searches[k].trimmed.add(design.rotor, design.twist(searches[k].r), found)
+        further: dict[int, Array] = {}
+        for k, x in at.items():
+            trial = searches[k](x)
+            before, ends[k] = ends.get(k), min(ends.get(k, trial), trial, key=lambda point: point.rank)
+            centre = ends[k]
+            if centre is before:
+                reach[k] *= 0.3
+            if centre.power is None or not len(x):
+                continue
+            model = LocalModel(searches[k], centre.blade, searches[k].trimmed.all[-_RECENT:])
+            step = model.least(centre.x, reach[k])
+            if centre.cost - model.cost(step) > tolerance * centre.cost:
+                further[k] = step
+        if not further:
+            break
+        at = further
+    return [ends[k] for k in range(len(searches))]
 
 
 _BAND_TOLERANCE = 0.02

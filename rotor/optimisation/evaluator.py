@@ -119,7 +119,7 @@ class Evaluator:
     ) -> None:
         """trimmed: in earlier searches with this objective; the blades of this one are added."""
         self.design, self.concept, self.objective, self.limits = design, concept, objective, limits
-        self.low, self.high = np.array(limits.bounds_of(concept)).T
+        self.low, self.high = np.array(limits.bounds_of(concept)).reshape(-1, 2).T
         self.span = self.high - self.low
         self.largest = limits.largest(len(objective.conditions))
         """The largest of what the limits hold beside, [%]."""

@@ -13,6 +13,7 @@ import numpy as np
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, Span, Values, dash_lengths, scaled
 from rotor.support.markup import Attribute, Content, Markup, group, plain, tag
 
+Place = tuple[float, float]
 _WIDE, _HIGH, _SIZE = 640.0, 320.0, 12.0
 """Size of the drawing and of its text."""
 _LETTER = 0.5 * _SIZE
@@ -21,7 +22,6 @@ _NAMESPACE = "http://www.w3.org/2000/svg"
 _OWN_COLOURS = "svg{color:#1c2429}@media(prefers-color-scheme:dark){svg{color:#dfe5e9}}"
 """Style of a chart in a file of its own; in a page it would reach the page's other drawings."""
 
-Place = tuple[float, float]
 _BARE = Axis()
 
 
@@ -47,13 +47,17 @@ class _Axes:
         return [(self.x(a), self.y(b)) for a, b in zip(x, y, strict=True)]
 
 
-def svg(chart: Chart, inline: bool = False) -> Markup:
-    """The chart with legend and axes as an SVG file, or `inline` as part of a page."""
+def svg(chart: Chart, inline: bool = False, size: Place = (_WIDE, _HIGH)) -> Markup:
+    """The chart with legend and axes as an SVG file, or `inline` as part of a page.
+
+    `size` [px]: width, and height with a key of one line; text keeps its size, so that it is large in a small chart.
+    """
+    full = size[0]
     y_ticks = chart.ticks("y", 6)
-    key, lines = _key(chart)
+    key, lines = _key(chart, full)
     left = 12.0 + _LETTER * max((len(word) for _, word in y_ticks), default=0) + (0.0 if chart.y.names else 1.5 * _SIZE)
-    top, high = 16.0 + 18.0 * lines, max(_HIGH - 86.0, 21.0 * len(chart.y.names))
-    axes = _Axes(chart, chart.span("x"), chart.span("y"), left, top, _WIDE - left - 16.0, high)
+    top, high = 16.0 + 18.0 * lines, max(size[1] - 86.0, 21.0 * len(chart.y.names))
+    axes = _Axes(chart, chart.span("x"), chart.span("y"), left, top, full - left - 16.0, high)
     bottom, right = top + high, left + axes.wide
     grid: list[str] = []
     words: list[Markup] = []
@@ -76,8 +80,8 @@ def svg(chart: Chart, inline: bool = False) -> Markup:
     )  # fmt: skip
     lines = tag("path", d="".join(grid), fill="none", stroke="currentColor", stroke_opacity=0.14)
     frame = tag("path", d=f"M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}", fill="none", stroke="currentColor")
-    size, text = (_WIDE, bottom + 46.0), tag("g", words, fill="currentColor")
-    return _whole(size, chart.title, inline, lines, frame, text, key, _cut_off(axes, drawn))
+    text = tag("g", words, fill="currentColor")
+    return _whole((full, bottom + 46.0), chart.title, inline, lines, frame, text, key, _cut_off(axes, drawn))
 
 
 def small_svg(chart: Chart) -> Markup:
@@ -181,7 +185,7 @@ def _path(places: Iterable[Place]) -> str:
     return "".join(parts)
 
 
-def _key(chart: Chart) -> tuple[Markup, int]:
+def _key(chart: Chart, full: float) -> tuple[Markup, int]:
     """Swatch and label of each series above the axes, and the number of lines that they take."""
     parts: list[Markup] = []
     x, line = 12.0, 0
@@ -189,7 +193,7 @@ def _key(chart: Chart) -> tuple[Markup, int]:
         if not series.label:
             continue
         wide = 52.0 + _LETTER * len(series.label)
-        if x > 12.0 and x + wide > _WIDE:
+        if x > 12.0 and x + wide > full:
             x, line = 12.0, line + 1
         y = 14.0 + 18.0 * line
         axes = _Axes(Chart("", _BARE, _BARE, ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)

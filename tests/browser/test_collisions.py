@@ -90,7 +90,7 @@ def optimise(watched: Watched) -> States:
     page = watched.page
     watched.mode("optimise")
     yield "before a search", "3d"
-    watched.choose("Concept", "Three segments, free breaks")
+    watched.choose("Concept", "Three segments, free break points")
     begin = page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True)
     begin.click()
     page.locator("[data-explorer=notice]").wait_for(state="visible")

@@ -153,7 +153,7 @@ def gap(words: str) -> float:
 @pytest.mark.slow
 def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Watched, Session]):
     watched, session = page
-    watched.choose("Concept", "Two segments, free break")
+    watched.choose("Concept", "Two segments, free break point")
     watched.section("Map")
     press(watched, "Compute map")
     watched.reads("map-least", r"Least [\d\s.]+ kW at")
@@ -163,9 +163,9 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     assert first is not None
     watched.page.locator("[data-map]").click(position={"x": 80.0, "y": 60.0})
     watched.until(lambda: session.page.context.controls.inputs() != START)
-    (across, up), exact = place_on(first, session.page.context.controls.inputs().design().twist)
-    assert exact
+    place = place_on(first, session.page.context.controls.inputs().design().twist)
+    assert place is not None
     box = watched.box("[data-map]")
-    assert (across, up) == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
+    assert place == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
     watched.until(lambda: power_map.map is not first and not session.page.context.work["map"].under_way)

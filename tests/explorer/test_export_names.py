@@ -13,15 +13,15 @@ import pytest
 from PIL import Image, ImageFont
 
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.contents import DesignReport, ReportEntry, line_words
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
-from explorer.export.view_picture import font_path, view_png
+from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, font_path, view_png
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import SI
 from explorer.text.design_words import LONGEST_TITLE, title_words
-from rotor import Design, Solution, make_design, solve
+from rotor import Design, Solution, doubt, make_design, solve
 
 PLAIN = make_design(inflow="drees", elements=16, azimuths=36)
 SEGMENTS = (
@@ -68,19 +68,27 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
             assert f"twist {design.twist.spec()}" in tables.read(table).decode().splitlines()[0]
 
 
+@pytest.mark.parametrize("width", SHAPES.values())
 @pytest.mark.parametrize("name", DESIGNS)
-def test_words_of_the_picture_meet_neither_each_other_nor_the_view(name: str):
-    """Between title and power no ink stands, nor in the rows beside the view."""
+def test_words_of_the_picture_stay_within_it_above_the_scene(name: str, width: int):
+    """The line, however long, and the flight; a ground that is transparent is nowhere but under words."""
     one = solution(name)
-    scene = np.full((300, 1920, 4), (10, 200, 30, 255), np.uint8)
-    with Image.open(io.BytesIO(view_png(scene, one, None, SI, dark=False))) as picture:
+    scene = np.zeros((HEIGHT, width, 4), np.uint8)
+    line = f"{line_words(one, SI)}: it needs 12 ± 2 kW more (sure) with 132 kg on board, compared with the same blade"
+    with Image.open(io.BytesIO(view_png(scene, one, None, line, SI, False, transparent=True))) as picture:
+        assert picture.size == (width, HEIGHT)
         assert json.loads(picture.text["Design"])["twist"] == one.design.to_dict()["twist"]  # pyright: ignore[reportAttributeAccessIssue]
-        above = np.asarray(picture.convert("L"))[:112]
-    assert (above[-8:] == 255).all()
-    inked = np.flatnonzero((above < 255).any(axis=0))
-    assert inked[0] >= 40
-    assert inked[-1] < 1920 - 39
-    assert np.diff(inked).max() > 100, "room between the words and the power"
+        inked = np.asarray(picture)[..., 3] > 0
+    rows, columns = (np.flatnonzero(inked.any(axis=axis)) for axis in (1, 0))
+    assert rows[0] >= 20
+    assert columns[0] >= 40
+    assert columns[-1] < width - 39
+    assert not inked[round(CARDS.above * HEIGHT) : round((1.0 - CARDS.below) * HEIGHT)].any()
+
+
+def test_the_line_of_the_picture_has_the_power_and_its_band():
+    one = solution("segments")
+    assert line_words(one, SI).endswith(f"needs {one.power.total / 1e3:.0f} ± {doubt(one).band / 1e3:.0f} kW")
 
 
 # The font of the picture's words

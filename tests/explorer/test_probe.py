@@ -107,8 +107,6 @@ def test_loads_are_the_coefficients_times_the_pressure(fast: Solution):
         p = probe(fast, float(disk.r[i]), float(disk.psi[j]))
         pressure = 0.5 * density * p.u**2 * p.chord
         assert_allclose((p.lift, p.drag), (pressure * p.cl, pressure * p.cd), rtol=1e-9, atol=1e-9)
-    thesis = solve(CASES["thesis"]).require()
-    assert probe(thesis, 0.75, 1.0).cm is None  # The document's polar has no moment.
 
 
 def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
@@ -262,11 +260,8 @@ class TestDynamicStall:
         assert_allclose(p.unsteady.loop[0], disk.alpha[12], atol=1e-9)
         assert_allclose(p.unsteady.loop[1], disk.cl[12], atol=1e-12)
 
-    def test_the_drawer_draws_it_and_names_its_parts(self, stalled: Solution):
+    def test_the_drawer_draws_its_turn(self, stalled: Solution):
         p = probe(stalled, 0.6, math.radians(285.0))
         assert "a turn" in [one.label for one in lift_chart(p).series]
-        words = probe_panel(p, stalled)
-        assert "Separation" in words
-        assert "Vortex" in words
         steady = solve(replace(stalled.design, models=replace(stalled.design.models, dynamic_stall=False)))
         assert "a turn" not in [one.label for one in lift_chart(probe(steady, 0.6, 1.0)).series]

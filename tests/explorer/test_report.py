@@ -17,10 +17,11 @@ from explorer import __main__ as command
 from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
 from explorer.charts.svg import key_entries
 from explorer.export import report as document
-from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.blade import blade_mesh
+from explorer.export.contents import DesignReport, ReportEntry, line_words
 from explorer.export.provenance import versions
 from explorer.export.report import report_html
-from explorer.export.tables import doubts, vibration
+from explorer.export.tables import blade, doubts, vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
@@ -121,7 +122,7 @@ class TestReport:
         assert [title for title, _ in tables] == ["Uncertainty of power", "Uncertainty of the change"]
         band, size = doubt(NOW, BASELINE), UNITS[units].power[0].size
         for (_, rows), known in zip(tables, (band.band, band.change_band), strict=True):
-            first, *causes = [float(value) for value in re.findall(r"± ([\d.]+) \w+</td></tr>", rows)]
+            first, *causes = [float(value) for value in re.findall(r"±\s([\d.]+)\s\w+</td></tr>", rows)]
             assert known is not None
             assert first == pytest.approx(known / size, rel=0.06)
             assert math.hypot(*causes) == pytest.approx(first, rel=0.1)
@@ -130,11 +131,30 @@ class TestReport:
     def test_a_blade_as_built_is_compared_with_nothing(self):
         alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", solve(BASELINE.design))], VIEW)
         page = report_html(alone, None, Swept())
-        assert page.count('data-report="total-power"') == page.count("reference</span>") == 1
+        assert page.count('data-report="total-power"') == 1
+        assert "reference</span>" not in page
         assert "Side by side" not in page
         assert "Change of power" not in page
         assert "Uncertainty of the change" not in page
         assert "Uncertainty of power" in page
+
+    def test_the_first_page_of_a_print_has_the_line_the_rotor_and_the_disk(self):
+        alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", NOW)], VIEW)
+        page = report_html(alone, None, Swept(), rotor=b"drawn")
+        assert f"<h1>{line_words(NOW, alone.units)}</h1>" in page
+        front = page[page.index('class="front"') : page.index('class="glance"')]
+        assert "image/webp;base64,ZHJhd24=" in front
+        assert front.count('aria-label="Angle of attack over the disk"') == 1
+
+    def test_chords_are_those_of_the_stl(self):
+        said = re.search(r"Chord \[m\]</td>(.+?)</tr>", blade(NOW.design))
+        drawn = blade_mesh(NOW.design).vertices
+        assert said is not None
+        for r, chord in zip(
+            (0.6, 0.95), np.array(re.findall(r"[\d.]+(?=</td>)", said[1]), float)[[5, 11]], strict=True
+        ):
+            near = drawn[np.abs(drawn[:, 0] - r * NOW.design.rotor.radius) < 0.04]
+            assert np.ptp(near[:, 1]) == pytest.approx(chord, abs=0.004)
 
     def test_aviation_units_are_those_of_the_page(self, report: DesignReport):
         page = report_html(replace(report, view=replace(VIEW, units="Aviation")), None, Swept())

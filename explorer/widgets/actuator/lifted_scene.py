@@ -11,7 +11,9 @@ from explorer.hosting.browser import Bridge, call
 from explorer.parts.stage import SceneLabel
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, LEAD, LEADER, OVERLAY, LiftedPicture, mixed_colour
+from explorer.picture.picture import rotate
 from explorer.scene.overlays import even_colours
+from rotor.support.arrays import Array
 
 NODE = "/lifted"
 """Name of the lifted blade in the scene."""
@@ -49,6 +51,7 @@ class LiftedScene:
             for name, (colour, pixels) in _LINES.items()
         }
         self._held, self._radius = False, 0.0
+        self._labels: list[tuple[str, Array]] = []
         self._leaving: threading.Timer | None = None
 
     def hold(self, radius: float) -> None:
@@ -99,10 +102,13 @@ class LiftedScene:
         call(self._client, "rotorScene.glow", glow)
         labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
         self._bridge.set(lifted_labels=labels)
+        self._labels = [(text, at) for _, text, at in picture.labels]
 
-    def show_leaders(self, seen: bool) -> None:
-        """Lines to the labels, which the page draws."""
-        self._lines["leaders"].visible = seen and self._held
+    @property
+    def labels(self) -> list[tuple[str, Array]]:
+        """Words and their places in the world [m], while the blade is held."""
+        pose = lifted.lifted_pose(self._radius)
+        return [(text, rotate(pose.wxyz, at) + pose.position) for text, at in self._labels] if self._held else []
 
     def release(self, radius: float) -> None:
         """Let the blade fly back; then nothing of it is left."""

@@ -1,15 +1,17 @@
 """The Map section: power over two parameters of the concept; a click on it takes a point."""
 
-import numpy as np
-import viser
+from dataclasses import replace
 
-from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words
+import numpy as np
+
+from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words, rail_name
 from explorer.model.inputs import with_optimum
 from explorer.parts.presses import MapPress
 from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
+from explorer.widgets.elements import WorkButtons
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
-from explorer.workers.solver import MapTask
+from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.optimisation import nearest
 from rotor.optimisation.descent import BAND
@@ -20,8 +22,8 @@ TIME_LIMIT = 120.0
 _URGENCY = 2
 """After searches and schedules."""
 NAME = "map"
-_BEFORE = "Power over two parameters, the others fixed. Click the map to set a point."
-_KEY = f"★ least · ● your design, ○ nearest point to it · white outline: within {100 * BAND:g} % of the least"
+_BEFORE = "Least power over the other parameters, which takes about half a minute. Click the map to set a point."
+_KEY = f"★ least · ○ your design, if it is of this concept · white outline: within {100 * BAND:g} % of the least"
 
 
 class MapPanel:
@@ -35,13 +37,13 @@ class MapPanel:
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._title = gui.add_html("")
-        titles = tuple([parameter.title for parameter in self._search.request().known_concept().parameters])
+        titles = tuple([rail_name(parameter) for parameter in self._search.request().known_concept().parameters])
         self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
         self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
-        self._draw = gui.add_button("Compute map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
+        entries = "map_draw", "stop"
+        self._buttons = WorkButtons(gui, "Compute map", "Stop", entries, self.begin, lambda: self._work.halt(NAME))
         self._state = gui.add_html("")
         self._picture = gui.add_html("")
-        self._draw.on_click(lambda _: self.begin())
         context.bridge.on("map_at", self._take)
 
     def begin(self) -> None:
@@ -58,18 +60,18 @@ class MapPanel:
         """ValueError with one sentence where there is no map."""
         design, request = self._context.inputs().design(), self._search.request()
         concept = request.known_concept()
-        titles = [parameter.title for parameter in concept.parameters]
+        titles = [rail_name(parameter) for parameter in concept.parameters]
         if len(titles) < 2:
             raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
         axes = self._axes(titles)
-        objective = request.wanted(design, self._search.legs)
+        objective = replace(request.wanted(design, self._search.legs), quantity="total")
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         return MapTask(design, concept, objective, axes, values)
 
     def refresh(self, design: Design | None) -> None:
         """Bring the tab into line with the concept. `design`: on the sliders; None when they mean none."""
         concept = self._search.request().known_concept()
-        titles = tuple(parameter.title for parameter in concept.parameters)
+        titles = tuple(rail_name(parameter) for parameter in concept.parameters)
         if titles != self._offered:
             self._offered = titles
             first, second = default_axes(concept)
@@ -78,6 +80,9 @@ class MapPanel:
                 menu.value = titles[axis]
         self._title.content = tag("div.rx.rx-dim.rx-small", f"Concept: {concept.title}")
         self._state.content = tag("div.rx.rx-dim.rx-small", self._line(), data_explorer="map-state")
+        record = self._work[NAME]
+        done = None if record is None else max([r for r in record.reports if isinstance(r, float)], default=0.0)
+        self._buttons.show(done, record is not None and record.under_way)
         drawn = self.map
         if drawn is None:
             return
@@ -85,7 +90,7 @@ class MapPanel:
         seen = drawn, twist, units
         if seen != self._drawn:
             self._drawn = seen
-            across, up = (f"{p.title} [{p.shown_unit}]" for p in drawn.parameters)
+            across, up = (f"{rail_name(p)} [{p.shown_unit}]" for p in drawn.parameters)
             self._picture.content = tag(
                 "div.rx.rx-small",
                 tag("div.rx-line", tag("span", f"↑ {up}"), tag("span", f"{across} →")),
@@ -97,7 +102,7 @@ class MapPanel:
     def _take(self, place: MapPress) -> None:
         """The map was clicked: its design there goes onto the sliders."""
         if self.map is not None and not self._context.held:
-            design = self.map.task.at(place.x, place.y)
+            design = self.map.at(place.x, place.y)
             self._context.set_inputs(with_optimum(self._context.inputs(), design))
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
@@ -113,15 +118,16 @@ class MapPanel:
         record = self._work[NAME]
         if self._refused or record is None:
             return self._refused or _BEFORE
-        line, level = "Computing …", record.reports[-1] if record.reports else None
-        if level is not None:
-            grid = np.array(level.powers, dtype=float)
-            conditions, line = record.task.objective.conditions, "No design on this map has a trim."
+        levels = [report for report in record.reports if isinstance(report, MapLevel)]
+        line = "No design on this map has a trim." if levels else "Computing …"
+        if levels:
+            grid = np.array(levels[-1].powers, dtype=float)
+            conditions = record.task.objective.conditions
             if np.isfinite(grid).any():
                 if self.map is None or self.map.task is not record.task or len(self.map.powers) != len(grid):
-                    self.map = PowerMap(record.task, grid)
+                    self.map = PowerMap(record.task, grid, levels[-1].values)
                 mu = conditions[0].flight.advance_ratio
                 where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"
                 line = f"{len(grid)} × {len(grid)} points, {where}"
-        late = "; time is up." if record.state == "late" else ""
-        return record.sentence or line + late
+        ended = {"late": "; time is up.", "stopped": "; stopped."}.get(record.state, "")
+        return record.sentence or line + ended

@@ -214,9 +214,10 @@ class OptimisePanel:
         self._headline.content = text.headline(run, units)
 
     def _show_ranges(self, design: Design | None) -> None:
-        """How far the best linear twist can move, once the page rests in this mode."""
+        """How far the best linear twist can move, once the page rests where that is what is searched for."""
         task = None
-        if design is not None and self._context.layout.mode == "optimise":
+        linear = self._context.layout.mode == "optimise" and self.request().concept == "linear"
+        if design is not None and linear:
             task = Call(best_linear_twist, (replace(design, twist=_ANY_TWIST),))
         self._best.ask(() if task is None else (task,), _STILL)
         answer = self._best.answer(task)
