@@ -51,6 +51,8 @@ class DesignReport:
     """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
     driven: ActuatedBlade | None = None
     """The actuator on board of the first design."""
+    line: str = ""
+    """That of the page; empty: as the first design says it."""
     when: datetime = field(default_factory=lambda: datetime.now().astimezone())
 
     def __post_init__(self) -> None:

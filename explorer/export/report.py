@@ -21,6 +21,7 @@ from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
+from explorer.text.line import sentence
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
@@ -34,6 +35,7 @@ def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
     several = len(report.shown) > 1
     title = f"{len(report.shown)} designs compared" if several else title_words(report.entries[0].solution.design)
     overview = [
+        tag("p.lead", report.line or _line(report)),
         _glance(report),
         _stage(report, stage),
         tables.comparison(report),
@@ -56,6 +58,13 @@ def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
             "scripts": web.scripts("report.js"),
         },
     )
+
+
+def _line(report: DesignReport) -> str:
+    """Of the first design against the reference."""
+    entry, reference = report.entries[0], report.reference.solution
+    other = reference if report.comparable(entry) else None
+    return sentence(entry.solution, report.units, other, tables.band_of(report, entry))
 
 
 def _glance(report: DesignReport) -> Markup:

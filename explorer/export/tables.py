@@ -36,11 +36,11 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
     kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
-    words = f"{number(change, 1, sign=True)} {_band(report, entry).change_words or '%'}"
+    words = f"{number(change, 1, sign=True)} {band_of(report, entry).change_words or '%'}"
     return tag("span.change", words, class_=kind)
 
 
-def _band(report: DesignReport, entry: ReportEntry) -> Doubt:
+def band_of(report: DesignReport, entry: ReportEntry) -> Doubt:
     """How sure power is, and its change from the reference."""
     solution, other = entry.solution, report.reference.solution
     free = "free-rotor" in {one.design.models.trim for one in (solution, other)}
@@ -128,7 +128,7 @@ def trim(solution: Solution) -> Markup:
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     """How sure power is, and its change from the reference, each above its causes."""
-    band, unit = _band(report, entry), report.units.power[0]
+    band, unit = band_of(report, entry), report.units.power[0]
 
     def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
         """The largest, and the rest as one: their squares add up to that of the first row."""

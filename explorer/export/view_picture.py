@@ -1,7 +1,8 @@
-"""The view of the page as a picture, with title, flight, power and the scale of its disk."""
+"""The view of the page as a picture, with its line and the scale of its disk."""
 
 import io
 import json
+import textwrap
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -13,20 +14,13 @@ from PIL import Image, ImageDraw, ImageFont
 from PIL.PngImagePlugin import PngInfo
 
 from explorer.colours import colour_map
-from explorer.export.contents import on_board
-from explorer.model.units import Units
 from explorer.picture.fields import Field
-from explorer.text.design_words import flight_words, title_words
-from explorer.text.readout import fineness
-from explorer.views.actuated import ActuatedBlade
 from rotor import Solution
 from rotor.support.chart import bar_ticks
 
 Ink = tuple[int, int, int]
 _NIGHT, _PALE = (17, 24, 36), (233, 238, 245)
 _INK, _DIM, _OVERLAY = (24, 33, 47), (95, 107, 128), (141, 152, 170)
-_KINDS = {"more": ((194, 65, 12), (255, 146, 43)), "less": ((11, 122, 94), (56, 217, 169))}
-"""Of power, light and dark."""
 _SKY = (243, 246, 250), (25, 31, 41)
 """Behind the view of the page, light and dark."""
 _STRIP = 112
@@ -36,16 +30,11 @@ _WIDTH = 500
 
 
 def view_png(
-    scene: NDArray[np.uint8],
-    solution: Solution,
-    scale: tuple[Field, tuple[float, float]] | None,
-    units: Units,
-    dark: bool,
-    driven: ActuatedBlade | None = None,
+    scene: NDArray[np.uint8], solution: Solution, scale: tuple[Field, tuple[float, float]] | None, dark: bool, line: str
 ) -> bytes:
-    """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between title, flight and power
-    above it and below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk.
-    `driven`: the actuator that twists the blade. The file says the numbers of the design under `Design`."""
+    """What the page shows as a PNG: `scene` (rows, columns, 4), red to alpha of 0…255, between its `line` above it and
+    below it the `scale` of its disk, a quantity with the ends of its colours; None: there is no disk. The file says the
+    numbers of the design under `Design`."""
     rows, columns = scene.shape[:2]
     below = 0 if scale is None else _STRIP
     picture = Image.new("RGB", (columns, _STRIP + rows + below), _NIGHT if dark else "white")
@@ -58,19 +47,9 @@ def view_png(
     def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
 
-    write(40, 52, title_words(solution.design), 32, ink)
-    write(40, 90, flight_words(solution.design, units), 22, dim)
-    if driven is not None:
-        *words, kind = on_board(driven, units)
-        write(columns - 40, 98, " ".join(filter(None, words)), 22, _KINDS[kind][dark] if kind else dim, "rs")
-    write(
-        columns - 40,
-        72 if driven is None else 62,
-        units.watts(solution.power.total, fineness(solution.power, units)),
-        52,
-        ink,
-        "rs",
-    )
+    rows_of_line = textwrap.wrap(line, max(columns // 14, 20))
+    for k, words in enumerate(rows_of_line):
+        write(40, 62 + 36 * (k - (len(rows_of_line) > 1)), words, 26, ink)
     if scale is not None:
         field, ends = scale
         x, y = columns // 2 - _WIDTH // 2, _STRIP + rows + 50

@@ -2,11 +2,9 @@
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
   const {text, write, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
-  const coloured = kind => kind ? `rxf-${kind}` : '';
 
   RX.paint('power', power => {
-    const card = part('power'), {problem, moved, status, parts} = power;
-    card.toggleAttribute('data-faded', Boolean(problem));
+    const card = part('power'), {parts} = power;
     const widths = parts.map(({share}) => Math.max(share, 0));
     const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
     const bars = widths.map((width, k) =>
@@ -16,47 +14,24 @@
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const spoken = parts.map(one => `${one.name} ${one.value}`);
-    const change = `<div class="rxf-sub rxf-num" ${moved ? '' : 'hidden'}>
-      <span data-explorer="change" class="${coloured(power.kind)}">${text(power.change)}</span> vs.
-      <span data-explorer="against">${text(power.against)}</span></div>`;
-    const problemOrChange = problem
-      ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
-        <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
-      : `<div class="rxf-change"><div class="rxf-since rxf-num">
-        <span data-explorer="moved" class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span>
-        <small data-explorer="sure">${text(moved && power.sure)}</small></div>${change}
-        <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
-    card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
-        <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
-        <small data-explorer="within">${text(power.within)}</small></div>
-      <div class="rxf-sub">total power</div>
-      <div class="rxf-sub" data-explorer="holds"
-        title="How often measured powers lie in this band, for rotors that had no part in its size">${
-          text(power.holds)}</div></div>
-      <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
-      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+    card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
         <div>${bars}${ideal}</div><dl>${key}</dl></div>
-      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
-        data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}">
-        <span>${text(status.words)}</span></button>`;
+      <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
-    if (why) {
-      const room = parseFloat(getComputedStyle(why).minHeight) + 1;
-      why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
-      while (clauses.length > 1 && why.offsetHeight > room) {
-        clauses.pop();
-        why.textContent = `${clauses.join('; ')}.`;
-      }
+    const room = parseFloat(getComputedStyle(why).minHeight) + 1;
+    why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
+    while (clauses.length > 1 && why.offsetHeight > room) {
+      clauses.pop();
+      why.textContent = `${clauses.join('; ')}.`;
     }
-    if (problem) RX.say(problem);
   });
+  RX.paint('line', ({problem}) => part('power').parentElement.toggleAttribute('data-faded', Boolean(problem)));
 
-  // What the actuator moves, costs and gives, in place of the power without its mass; where there is little room, in
-  // one sentence.
-  RX.paint(['assessed', 'power'], (one, power) => {
-    const card = part('verdict'), shown = Boolean(one) && !power?.problem;
+  // What the actuator moves, costs and gives beside the line; where there is little room, in one sentence.
+  RX.paint(['assessed', 'line'], (one, line) => {
+    const card = part('verdict'), shown = Boolean(one) && !line?.problem;
     card.hidden = !shown;
     page.toggleAttribute('data-assessed', shown);
     if (!one || !shown) return;

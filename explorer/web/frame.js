@@ -41,11 +41,11 @@
       for (const name of ['data-lecture', 'data-big']) page.removeAttribute(name);
     },
     // The session has gone: nothing is sent until another begins.
-    forget() { bridge = null; sessions++; delete state.power; },
+    forget() { bridge = null; sessions++; delete state.line; },
     set(parts) {
       Object.assign(state, parts);
       RX.again(.../** @type {(keyof RxState)[]} */ (Object.keys(parts)));
-      if ('power' in parts) window.dispatchEvent(new Event('rx-answered'));
+      if ('line' in parts) window.dispatchEvent(new Event('rx-answered'));
     },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
     send(name, value) {

@@ -36,7 +36,7 @@ def test_one_number_is_seen_and_it_is_of_the_design(visit: Visit, app: App):
     page, server = watched.page, app.sessions[-1].page
     for k, place in enumerate(WALK):
         go(watched, place)
-        page.evaluate("mu => RX.send('speed', mu)", 0.1 + 0.01 * k)
+        page.evaluate("mu => RX.send('slide', ['advance_ratio', mu])", 0.1 + 0.01 * k)
         watched.until(lambda k=k: server.context.controls.inputs().advance_ratio == pytest.approx(0.1 + 0.01 * k))
         if place in ("actuator", "lecture"):
             watched.until(lambda: [name for name, _ in page.evaluate(SEEN)] == ["assessed"])
