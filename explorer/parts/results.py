@@ -70,10 +70,13 @@ class LinePiece:
 
 @dataclass(frozen=True)
 class LinePart:
-    """The sentence on top. `problem`: why there is no trim; the other parts then show the last one."""
+    """The sentence on top. `said`: labels of the sliders whose place it tells. `problem`: why there is no
+    trim; the other parts then show the last one.
+    """
 
     pieces: Sequence[LinePiece]
     status: Status
+    said: Sequence[str] = ()
     problem: str = ""
     held: bool = False
 

@@ -81,13 +81,15 @@ def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]
         return [LinePiece(" with its twist "), control(outer, _form(outer), 0.0, AS_BUILT), *_waves(design)]
-    pieces = [LinePiece(f" with twist {AS_BUILT} and " if built else " with twist ")]
+    pieces = [LinePiece(f" with twist {AS_BUILT} " if built else " with twist ")]
+    last = {one.shown_unit: name for name, one in turns}
     for k, (name, one) in enumerate(turns):
         pieces += [LinePiece(", ")] if k else []
         pieces.append(control(name, _form(name), getattr(inputs, name), sign=built))
         place = one.short.removeprefix("Δ ").lower()
-        unit = one.shown_unit if one.shown_unit == "°" else f"\u00a0{one.shown_unit}"
-        pieces.append(LinePiece(" ".join(filter(None, (unit, place)))))
+        space = "" if one.shown_unit == "°" else "\u00a0"
+        unit = f"{space}{one.shown_unit}" if last[one.shown_unit] == name else ""
+        pieces.append(LinePiece(f"{unit} {place}".rstrip()))
     return pieces + _waves(design)
 
 
@@ -130,7 +132,7 @@ def change_pieces(
     digits = digits_of(change, units) if within is None else decimals(within)
     size = number(abs(unit.of(change)), digits)
     if within is None and not any(digit in size for digit in "123456789"):
-        return [LinePiece(f": the same as {than}", "against")]
+        return [LinePiece(f": no change from {than}", "against")]
     beside = "" if within is None else f" ± {number(within, digits)}"
     word = "" if band is None else sureness(change, band)
     kind: Kind = "" if word == "unclear" else "bad" if change > 0.0 else "good"
@@ -175,4 +177,4 @@ def than_words(design: Design, reference: Design, pinned: bool) -> str:
     if design.rotor.blade.carried is not None:
         return "without it" if reference.twist == design.jig else "the best fixed blade"
     built = reference.twist == design.rotor.builtin_twist
-    return "the blade as built" if built else f"with {twist_name(reference)}"
+    return AS_BUILT if built else f"with {twist_name(reference)}"

@@ -34,15 +34,6 @@ def _reach(one: ActuatedBlade) -> str:
     return "…".join(map(_angle, one.inputs.reach(one.installed))).replace("°…", "…")
 
 
-def _title(one: ActuatedBlade) -> str:
-    """What it is, its state, and its drive as it flies."""
-    installed, inputs, state = one.installed, one.inputs, STATES[one.now.hand.state]
-    shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
-    driven = f"{state} at {shares} % of its {installed.actuator.drive_noun}"
-    waves = [f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in one.now.inputs.twist_per_rev]
-    return ", ".join((one.name, f"{installed.count}{' a side' if installed.actuator.on_skin else ''}", driven, *waves))
-
-
 def _vibration(one: ActuatedBlade) -> str:
     """The change of vibration here: mean and ends over inflow models."""
     if not one.vibration:
@@ -59,8 +50,6 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
     state, tip = STATES[one.now.hand.state], _angle(one.inputs.tip(one.installed))
     moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}"
-    if one.here is not None:
-        moves += f" and {needs_words(-one.here.power, one.here.band, units)} here"
     moves += "."
     if flight is not None:
         moves += f" By schedule it {needs_words(-flight.power, flight.band, units)} over the flight."
@@ -96,17 +85,13 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
     (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
-    both = one.here, one.over_flight
-    here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
+    whole = one.over_flight
     part = AssessedPart(
-        title=_title(one),
         tip=_angle(one.inputs.tip(one.installed)),
         reach=_reach(one),
         mass=total,
         masses=tuple(parts),
-        here=here,
-        kind="" if one.here is None else one.here.kind,
-        flight=flight,
+        flight="" if whole is None else needs_words(-whole.power, whole.band, units),
         vibration=_vibration(one),
         problem=here_problem(now),
         over=over,

@@ -4,8 +4,10 @@ import math
 from dataclasses import replace
 from typing import Any
 
+from explorer.model.inputs import LAWS, TWISTS
 from explorer.model.units import number
 from explorer.parts.results import LinePart, LinePiece, Status
+from explorer.text.design_words import AS_BUILT
 from explorer.text.line import (
     change_pieces,
     control,
@@ -26,6 +28,8 @@ from explorer.views.power import status
 from explorer.views.work import shown_doubt
 from rotor.design.quantity import Slider
 
+_BUILT = [row.slider.label.partition(" [")[0] for row in map(TWISTS.get, LAWS["builtin"].inputs) if row and row.slider]
+"""Labels of the sliders that are all at zero where the twist is as built."""
 _DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
 
 
@@ -40,14 +44,17 @@ def line(now: PageState) -> LinePart:
     one, state, units, problem = _on_board(now), now.state, now.units, now.problem
     pieces = flight_pieces(now.shown, units)
     pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
+    said = tuple(piece.control.label for piece in pieces if piece.control is not None)
+    said += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
     if problem or state is None:
         words = f" has no trim: {problem.rstrip('.')}" if problem else " …"
-        return LinePart((*pieces, LinePiece(words, "problem")), Status("problem", "", problem), problem, now.ui.held)
+        pieces.append(LinePiece(words, "problem"))
+        return LinePart(pieces, Status("problem", "", problem), said, problem, now.ui.held)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
     band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
     pieces += power_pieces(state.solution, units, band, known)
     pieces += _change_here(one) if one is not None else _change(now)
-    return LinePart(tuple(pieces), status(state, units), held=now.ui.held)
+    return LinePart(pieces, status(state, units), said, held=now.ui.held)
 
 
 def _on_board(now: PageState) -> ActuatedBlade | None:

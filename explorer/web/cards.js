@@ -35,7 +35,7 @@
     card.hidden = !shown;
     page.toggleAttribute('data-assessed', shown);
     if (!one || !shown) return;
-    const wait = text(one.problem || 'computing …'), {against, baselines, kind, vibration} = one;
+    const {against, baselines, vibration} = one;
     const column = (name, words, more, title = '') => `<div title="${text(title)}"><h4>${name}</h4>${words}
       <p class="rxf-dim rxf-num">${more}</p></div>`;
     const blades = baselines.map(([name, title]) => `<button data-do="against" data-value="${name}"
@@ -52,22 +52,18 @@
       ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
         feasible: ${text(one.feasible)}</button>`}
       <span class="rxf-dim">${listed('The best twist would take', one.asked)}</span></p>` : '';
-    write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
-        <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
+    write(card, `<header data-explorer="assessed"><div role="group" aria-label="Compared with">
+        <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('result', one.here
-          ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
-          [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
-            .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± is one standard deviation; vibration: mean and range over inflow models, blades bend.')}
+        ${column('over the flight', `<b class="rxf-num">${text(one.flight || '…')}</b>`, text(vibration),
+          'By schedule. ± is one standard deviation; vibration here: mean and range over inflow models, blades bend.')}
       </div>
-      <p class="rxf-pays"><span data-explorer="said">${
-        text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);
+      <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
   });
   // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
   const suppose = paced(place => RX.send('suppose', place), 80);
@@ -94,7 +90,7 @@
     row.ariaLabel = `Vibration: ${sentence || `${index} ${unit}, ${band}${change ? `, ${change}` : ''}. ${title}`}`;
     const numbers = `<span class="rxf-num"><b data-explorer="index">${text(index)}</b> ${text(unit)}</span>
       <span class="rxf-dim rxf-num" data-explorer="index-band">${text(band)}</span>
-      <span class="rxf-num ${coloured(kind)}" data-explorer="index-change"
+      <span class="rxf-num ${kind && `rxf-${kind}`}" data-explorer="index-change"
         ${change ? '' : 'hidden'}>${text(change)}</span>`;
     write(row, `<b>Vibration ${text(at)}</b>${sentence ? `<span class="rxf-dim">${text(sentence)}</span>` : numbers}`);
   });

@@ -308,7 +308,7 @@
     const low = wide.filter(card => !high.includes(card));
     // The verdict, in columns or as a sentence, hides the vibration.
     const flown = page.hasAttribute('data-flight') && (stage.width > 900 ? 156 : 100);
-    const usual = stage.width > 470 ? flown || (state.vibration ? 156 : 126) : state.vibration ? 100 : 70;
+    const usual = stage.width > 470 ? flown || (state.vibration ? 126 : 96) : state.vibration ? 70 : 40;
     const told = small.matches ? null : box('.rxf-power');
     const shift = card => told && card.top >= told.bottom ? usual - (told.bottom - stage.top) : 0;
     const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top + shift(card)));

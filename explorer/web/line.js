@@ -2,7 +2,8 @@
 // The line on top: what is said of the design, and its numbers, which are dragged as their sliders are.
 (() => {
   const {text, clamp, write, closest, paced, drag} = Common, {part} = RX, place = part('line');
-  const SPAN = 480, LATER = 900;  // [px] From one end of a slider to the other; [ms] from the last move to the spoken line.
+  const SPAN = 480;  // [px] from one end of a slider to the other, if its steps are not too fine for that.
+  const LATER = 900;  // [ms] from the last move to the spoken line.
   /** @type {Map<string, RxLineControl>} */
   const controls = new Map();
   let told = 0;
@@ -18,7 +19,7 @@
         title="${text(control.label)}: drag, or arrow keys"`;
       const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${stale ? 'data-stale' : ''}
         ${title && `title="${text(title)}"`}`;
-      return slides ? `<span ${slides}>${text(said)}</span>` : marks ? `<span ${marks}>${text(said)}</span>` : text(said);
+      return slides || marks ? `<span ${slides || marks}>${text(said)}</span>` : text(said);
     }).join('');
     write(place, `${words}${problem
       ? ' <button data-do="nearest" data-explorer="nearest">Nearest that trims</button>' : ''}<button
@@ -26,12 +27,22 @@
       data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}"
       ${status.words ? '' : 'hidden'}>${text(status.words)}</button>`);
     place.toggleAttribute('data-problem', Boolean(problem));
+    markSaid();
     if (focused && !focused.isConnected) {
       const again = place.querySelector(`[data-slide="${focused.dataset.slide}"]`);
       (again ?? place.querySelector('[data-slide]'))?.focus({preventScroll: true});
     }
     if (problem) RX.say(problem);
   });
+
+  // A number that stands here need not stand in the rail too.
+  const fields = '[data-dock-region=right] input[aria-label]:not([type=hidden])';
+  function markSaid() {
+    const said = RX.shown('line')?.said ?? [];
+    for (const field of document.querySelectorAll(fields))
+      field.toggleAttribute('data-said', said.includes((field.ariaLabel ?? '').split(' [')[0]));
+  }
+  RX.paint('worth', markSaid);  // viser may have drawn its fields anew.
 
   // It moves at once; what is said of the design before is grey until the answer comes.
   const sliding = paced((/** @type {[string, number]} */ to) => RX.send('slide', to));
@@ -62,17 +73,17 @@
     };
   });
   place.addEventListener('keydown', event => {
-    const {slide: name} = closest(event, '[data-slide]:not([aria-disabled])')?.dataset ?? {}, control = controls.get(name);
+    const {slide: name} = closest(event, '[data-slide]:not([aria-disabled])')?.dataset ?? {};
+    const control = controls.get(name);
     if (!control) return;
-    const {value, low, high, step} = control;
-    const to = {
-      ArrowUp: value + step, ArrowRight: value + step, ArrowDown: value - step, ArrowLeft: value - step, Home: low, End: high,
-    }[event.key];
+    const {value, low, high, step} = control, up = value + step, down = value - step;
+    const to = {ArrowUp: up, ArrowRight: up, ArrowDown: down, ArrowLeft: down, Home: low, End: high}[event.key];
     if (to === undefined) return;
     event.preventDefault();
     event.stopPropagation();
     slide(name, to);
   });
   // Its height is its own: what stands below begins there.
-  new ResizeObserver(() => document.documentElement.style.setProperty('--rx-said', `${place.offsetHeight}px`)).observe(place);
+  const {style} = document.documentElement;
+  new ResizeObserver(() => style.setProperty('--rx-said', `${place.offsetHeight}px`)).observe(place);
 })();

@@ -95,13 +95,10 @@ interface RxPresses {
 }
 
 interface RxAssessedPart {
-  title: string;
   tip: string;
   reach: string;
   mass: string;
   masses: [string, string][];
-  here: string;
-  kind: '' | 'gain' | 'loss';
   flight: string;
   vibration: string;
   problem: string;
@@ -357,6 +354,7 @@ interface RxStepAnswer {
 interface RxLinePart {
   pieces: RxLinePiece[];
   status: RxStatus;
+  said: string[];
   problem: string;
   held: boolean;
 }

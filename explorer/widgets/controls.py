@@ -265,7 +265,7 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     few = len(names) if len(names) <= _NAMED + 1 else _NAMED
     words = "Fewer" if more else ", ".join((names[0], *following)[:few])
     if not more and few < len(names):
-        words += f" and {len(names) - few} more"
+        words += " and more"
     pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
     return tag("button.rxp-fold", words, **pressed)
 
