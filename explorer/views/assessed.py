@@ -10,7 +10,6 @@ from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
 from explorer.views.actuator_words import limit_words
-from explorer.views.flight import STATES
 from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
 from rotor.actuator.kind import Limit
 from rotor.actuator.limits import limits
@@ -48,9 +47,7 @@ def _vibration(one: ActuatedBlade) -> str:
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    state, tip = STATES[one.now.hand.state], _angle(one.inputs.tip(one.installed))
-    moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}"
-    moves += "."
+    moves = f"{total} on board turn the tip by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
     if flight is not None:
         moves += f" By schedule it {needs_words(-flight.power, flight.band, units)} over the flight."
     mass = None if verdict is None else verdict.mass_allowed

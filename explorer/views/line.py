@@ -47,7 +47,7 @@ def line(now: PageState) -> LinePart:
     said = tuple(piece.control.label for piece in pieces if piece.control is not None)
     said += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
     if problem or state is None:
-        words = f" has no trim: {problem.rstrip('.')}" if problem else " …"
+        words = f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}" if problem else " …"
         pieces.append(LinePiece(words, "problem"))
         return LinePart(pieces, Status("problem", "", problem), said, problem, now.ui.held)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]

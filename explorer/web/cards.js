@@ -44,9 +44,9 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
-    // Where there is little room the limits have no values: those are in the rail.
+    // Where there is little room the line alone names the limits; their values are in the rail.
     const listed = (name, list) => list.length ? `<b>${name}:</b>
-      ${list.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ')}` : '';
+      ${list.map(words => `<span>${text(words)}</span>`).join(' ')}` : '';
     const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
       <span data-over>${listed('Over its limits', one.over)}</span>
       ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
