@@ -12,7 +12,7 @@ from explorer.model.stand import LOAD_TITLES
 from explorer.model.units import Units, number, shown
 from explorer.parts.results import Kind, LineControl, LinePiece
 from explorer.text.design_words import AS_BUILT, twist_name, wave_names
-from explorer.text.readout import digits_of, fineness
+from explorer.text.readout import change_sizes, fineness
 from rotor import Design, Solution
 from rotor.design.quantity import Slider
 from rotor.support.user_input import shorten
@@ -127,20 +127,16 @@ def change_pieces(
     change: float, band: float | None, than: str, units: Units, known: bool = True, note: str = ""
 ) -> list[LinePiece]:
     """By how much [W] that is more or less than `than`, its band, and whether its sign is known."""
-    unit = units.power[0]
-    within = None if band is None else unit.of(band)
-    digits = digits_of(change, units) if within is None else decimals(within)
-    size = number(abs(unit.of(change)), digits)
-    if within is None and not any(digit in size for digit in "123456789"):
+    size, beside = change_sizes(change, band, units)
+    if band is None and not any(digit in size for digit in "123456789"):
         return [LinePiece(f": no change from {than}", "against")]
-    beside = "" if within is None else f" ± {number(within, digits)}"
     word = "" if band is None else sureness(change, band)
     kind: Kind = "" if word == "unclear" else "bad" if change > 0.0 else "good"
     return [
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),
         LinePiece(beside, "sure-band", kind, not known),
-        LinePiece(f" {unit.symbol} {'more' if change > 0.0 else 'less'}", "more", kind),
+        LinePiece(f" {units.power[0].symbol} {'more' if change > 0.0 else 'less'}", "more", kind),
         LinePiece(f" than {than}{note}", "against"),
         *([LinePiece(f", {word}", "sure", "", not known)] if word else []),
     ]

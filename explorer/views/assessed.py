@@ -8,9 +8,9 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
 from explorer.views.actuator_words import limit_words
-from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
+from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
 from rotor.actuator.limits import limits
 from rotor.actuator.verdict import Against
@@ -143,9 +143,4 @@ def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
     return () if other is None else (SetHand(actuator={"plies": other.plies, "chord": other.chord}),)
 
 
-def works(now: PageState) -> tuple[PanelWork, ...]:
-    task = now.of(doubt_here)
-    return () if task is None else (task,)
-
-
-ACTUATOR_CARD = Panel(card, blade_out, asks, works, presses={"against": choose, "feasible": make_feasible})
+ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose, "feasible": make_feasible})
