@@ -108,7 +108,7 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
     """What it needs, with its band; where that is not `known` of this design, it is of the one before."""
     power, unit = solution.power, units.power[0]
     if solution.design.models.trim == "free-rotor":
-        return [LinePiece(" "), LinePiece("needs no power", "total-power")]
+        return [LinePiece(" "), LinePiece("needs no power", "total-power", title=band.sentence if band else "")]
     total = units.watts(abs(power.total), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
     pieces = [
