@@ -15,9 +15,10 @@ import viser
 from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
 from explorer.model.actuator_inputs import AT_REST, ActuatorInputs, inputs_from_spec
-from explorer.model.inputs import Inputs, ViewState, with_optimum
+from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
+from explorer.parts.presses import SlidePress
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
@@ -33,6 +34,7 @@ from explorer.views.dial import DIAL
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
+from explorer.views.line import LINE
 from explorer.views.notice import NOTICE, PROMPT
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed, SetHand
 from explorer.views.panel_updater import PanelUpdater
@@ -65,7 +67,8 @@ from rotor.support.user_input import brief
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
 AT_ONCE = BAR, PROMPT
 """Panels that follow a press before the update that it wakes."""
-PANELS = *AT_ONCE, POWER, VIBRATION, HAND, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+_NUMBER = LINE, POWER, HAND
+PANELS = *AT_ONCE, *_NUMBER, VIBRATION, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
 Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept", "deferred"]
 """What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
@@ -174,6 +177,7 @@ class Page:
         context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
         context.keyboard.bind("reset", partial(self._reset, opening))
+        bridge.on("slide", self._slide)
         bridge.on("default", partial(self._default, opening))
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: camera.come_back())
@@ -289,7 +293,7 @@ class Page:
                 self.file.follow(state)
             case "number":
                 self._learn()
-                follow((POWER, HAND).__contains__)
+                follow(_NUMBER.__contains__)
             case "results":
                 with context.client.atomic():  # Each message by itself would wake the thread that sends.
                     self.optimise.rival.show(state)
@@ -355,10 +359,8 @@ class Page:
 
     def _refresh(self) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
-        inputs, preview, shown, context = self.latest.inputs, self.latest.preview, None, self.context
-        if preview is not None:
-            shown = replace(with_optimum(inputs, preview), advance_ratio=preview.condition.advance_ratio)
-        context.controls.follow(shown)
+        inputs, context = self.latest.inputs, self.context
+        context.controls.follow(None if self.latest.preview is None else self.latest.shown)
         context.controls.refresh(inputs, context.units)
         for refresh in context.refreshing:
             refresh(self.latest.sliders)
@@ -412,6 +414,14 @@ class Page:
             self.context.controls.default(label, opening)
         elif not self.context.held:
             (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(label)
+
+    def _slide(self, to: SlidePress) -> None:
+        """A number of the line, or the dot of power over µ, was moved: its slider moves as if by a hand."""
+        if not self.context.held:
+            forms = (self.context.controls.form, self.context.controls.stand.form, self.actuator.controls.form)
+            for form in forms:
+                if to.name in form:
+                    form.move(to.name, to.place)
 
     def _reset(self, opening: Inputs) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""

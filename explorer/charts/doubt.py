@@ -1,32 +1,18 @@
-"""How sure power, its change and the best twist are: words for the card, and rows of what the doubt consists of."""
+"""How sure power, its change and the best twist are: rows of what the doubt consists of."""
 
 import math
 from collections.abc import Sequence
-from fractions import Fraction
 
 from explorer.model.units import SI, Unit, Units, number
-from explorer.parts.results import Sureness
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import Doubt, OtherModels, banded, decimals
-from rotor.validation import coverage
 
 _SQUARE_METRE = Unit("m²", 1.0)
-_COUNTED = ("no", "one", "two", "three", "four", "five")
 MOST_ROWS = 6
 """What comes after is too small to see."""
 _LEAST_PART = 1e-4
 """A row that is a smaller part of the longest is left out."""
-
-
-def card_words(band: Doubt, units: Units) -> Sureness:
-    """Beside the power, its band; the sentence has that of the change too."""
-    within = units.power[0].of(band.band)
-    if not band.of_total:
-        return Sureness(doubt=band.sentence)
-    part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
-    holds = f"± holds {part} times in {of}"
-    return Sureness(f"± {number(within, decimals(within))}", holds, band.sentence)
 
 
 def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = ()) -> Markup:

@@ -10,15 +10,13 @@ import numpy as np
 from explorer.charts.plots import Range
 from explorer.colours import BASELINE
 from explorer.model.inputs import ViewState
-from explorer.model.units import Units, number, units_of
+from explorer.model.units import Units, units_of
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
-from explorer.text.design_words import title_words
-from explorer.text.readout import fineness, mass_parts, needs_words
+from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import ActuatedBlade, against_words
-from rotor import Solution, doubt
+from rotor import Solution
 from rotor.actuator import Verdict
-from rotor.trim.doubt import decimals
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
 """Colours of the designs in charts and badges, in turn."""
@@ -53,6 +51,8 @@ class DesignReport:
     """The verdict on the actuator chosen for the first design, or why there is none; empty where none was chosen."""
     driven: ActuatedBlade | None = None
     """The actuator on board of the first design."""
+    line: str = ""
+    """That of the page; empty: as the first design says it."""
     when: datetime = field(default_factory=lambda: datetime.now().astimezone())
 
     def __post_init__(self) -> None:
@@ -105,17 +105,6 @@ def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
         return "", f"with {mass} on board", ""
     against = f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
     return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
-
-
-def line_words(solution: Solution, units: Units, driven: ActuatedBlade | None = None) -> str:
-    """The design and its power with its band in one line; with an actuator on board, what that changes."""
-    unit, band = units.power[0], doubt(solution).band
-    power = number(unit.of(solution.power.total), fineness(solution.power, units))
-    line = (
-        f"{title_words(solution.design)} needs {power} ± {number(unit.of(band), decimals(unit.of(band)))} {unit.symbol}"
-    )
-    words = () if driven is None else on_board(driven, units)[:2]
-    return ": it ".join((line, " ".join(words))) if words and words[0] else line
 
 
 def colours_of(report: DesignReport) -> list[str]:

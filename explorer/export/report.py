@@ -14,7 +14,7 @@ from explorer import web
 from explorer.charts.plots import PowerCurves
 from explorer.colours import PARTS
 from explorer.export import figures, tables
-from explorer.export.contents import DesignReport, ReportEntry, colours_of, line_words, on_board
+from explorer.export.contents import DesignReport, ReportEntry, colours_of, on_board
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import PROGRAM, versions
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
@@ -22,6 +22,7 @@ from explorer.model.units import number
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
+from explorer.text.line import sentence
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
@@ -53,7 +54,7 @@ def report_html(
         "report.html",
         {
             "title": title,
-            "line": title if several else line_words(first, report.units, report.driven),
+            "line": title if several else report.line or _line(report),
             "program": PROGRAM,
             "policy": web.policy(),
             "styles": web.styles("report.css"),
@@ -64,6 +65,13 @@ def report_html(
             "scripts": web.scripts("report.js"),
         },
     )
+
+
+def _line(report: DesignReport) -> str:
+    """Of the first design against the reference."""
+    entry, reference = report.entries[0], report.reference.solution
+    other = reference if report.comparable(entry) else None
+    return sentence(entry.solution, report.units, other, tables.power_band(report, entry))
 
 
 def _glance(report: DesignReport) -> Markup:

@@ -16,10 +16,8 @@ from PIL.PngImagePlugin import PngInfo
 from explorer.charts.svg import key_marks
 from explorer.colours import colour_map
 from explorer.export.provenance import PROGRAM, versions
-from explorer.model.units import Units
 from explorer.picture.camera_views import Covered
 from explorer.picture.fields import Field
-from explorer.text.design_words import flight_words
 from rotor import Solution
 from rotor.support.chart import bar_ticks
 
@@ -43,14 +41,13 @@ def view_png(
     solution: Solution,
     scale: tuple[Field, tuple[float, float]] | None,
     line: str,
-    units: Units,
     dark: bool,
     labels: Sequence[Label] = (),
     transparent: bool = False,
 ) -> bytes:
     """A picture for a slide as a PNG of the size of `scene` (rows, columns, 4), red to alpha of 0…255.
 
-    Above: `line` and the flight. Below: the marks of the disk, its `scale` (a quantity with the ends of its colours;
+    Above: `line`. Below: the marks of the disk, its `scale` (a quantity with the ends of its colours;
     None: no disk is in sight) and the source. The file says the numbers of the design under `Design`.
     """
     rows, columns = scene.shape[:2]
@@ -67,8 +64,7 @@ def view_png(
     while len(lines := _wrapped(line, height, columns - 2 * _EDGE)) > 2:
         height -= 2
     for k, words in enumerate(lines):
-        write(_EDGE, 56 + (k - len(lines) + 1) * 1.1 * height + 42 * (len(lines) - 1), words, height, ink)
-    write(_EDGE, 96 if len(lines) == 1 else 134, flight_words(solution.design, units), 24, dim)
+        write(_EDGE, 64 + k * 1.2 * height, words, height, ink)
     font = ImageFont.truetype(font_path(), 24)
     for words, x, y in labels:
         half = font.getlength(words) / 2 + 8

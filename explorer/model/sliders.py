@@ -23,6 +23,7 @@ from explorer.model.inputs import FLIGHT, LAWS, ROWS, Inputs, mass_range
 from explorer.model.undo import differing
 from explorer.model.units import AVIATION, POUND, SI, Units, form_of, meant, number
 from rotor import Aircraft, Solution, solve
+from rotor.design.quantities import STAND
 from rotor.design.quantity import Slider
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS
@@ -71,6 +72,21 @@ def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
         return in_si.low, in_si.high
     low, high = meant(row, in_aviation.low, AVIATION), meant(row, in_aviation.high, AVIATION)
     return min(in_si.low, low), max(in_si.high, high)
+
+
+STAND_SLIDERS = {row.input: row.slider for row in STAND.values() if row.slider}
+"""Those of a test, by the field of `StandInputs`, or by what is given."""
+
+
+def stand_slider(name: str, inputs: Inputs) -> Slider:
+    """The slider of a load for this rotor at its speed: thrust to a loading of 0.2 at sea level, in round numbers."""
+    form = STAND_SLIDERS[name]
+    if name != "thrust_n":
+        return form
+    rotor = inputs.aircraft.rotor
+    most = 0.2 * rotor.solidity * 1.225 * rotor.disk_area * inputs.tip_speed**2
+    step = 10.0 ** (len(str(int(most))) - 3)
+    return replace(form, high=step * (most // step + 1.0), step=step)
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ class Parts(TypedDict, total=False):
     idle: int
     inset: results.InsetPart
     lecture: frame.LecturePart | None
+    line: results.LinePart
     lifted_labels: Sequence[stage.SceneLabel]
     notice: frame.NoticePart | None
     plan: stage.PlanPart | None

@@ -114,22 +114,19 @@ class EarnsPart:
 
 @dataclass(frozen=True)
 class AssessedPart:
-    """The actuator as set, in words: what it moves, costs and gives, here and over the flight.
+    """The actuator as set, in words: what it moves and costs, and gives over the flight.
 
-    `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `kind`: of `here`. `over`:
+    `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `over`:
     limits that are exceeded, `asked`: those that only the best twist would exceed; `feasible`: what a press changes so
     that it can be built. `baselines`: name and title of
     each blade that changes may count from; `against`: the name of the one that they do. `sentence`: all of it. `pays`:
     words, and every second one a number with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
     """
 
-    title: str
     tip: str
     reach: str
     mass: str
     masses: tuple[tuple[str, str], ...]
-    here: str
-    kind: Sign
     flight: str
     vibration: str
     problem: str

@@ -25,6 +25,12 @@ class SectionPress(_Fields):
     """[°]"""
 
 
+class SlidePress(_Fields):
+    name: _Label
+    place: Annotated[float, Meta(ge=-1e7, le=1e7)]
+    """On the slider of this name, in the unit shown."""
+
+
 class SupposePress(_Fields):
     tip: _Amplitude
     """Change of twist at the tip [°]."""
@@ -79,10 +85,11 @@ PRESSES: dict[str, Any] = {
     **dict.fromkeys(("along", "hold"), bool),
     **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
-    **dict.fromkeys(("grab_at", "twist_by_hand", "speed"), _Radius),
+    **dict.fromkeys(("grab_at", "twist_by_hand"), _Radius),
     **dict.fromkeys(("difference", "more"), _Switch),
     "ride": Literal["off"] | SectionPress | None,
     "section": SectionPress,
+    "slide": SlidePress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
     "against": Literal["same-blade", "best-fixed"],

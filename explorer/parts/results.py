@@ -12,7 +12,7 @@ Kind = Literal["", "good", "bad"]
 
 @dataclass(frozen=True)
 class Status:
-    """The chip of the power card."""
+    """The end of the line: whether the answer can be trusted."""
 
     kind: Literal["converged", "care", "problem"]
     words: str
@@ -31,37 +31,54 @@ class PowerShare:
 
 
 @dataclass(frozen=True)
-class Sureness:
-    """How sure the power is: its band, how often such a band holds, and with that of its change as a sentence."""
+class PowerPart:
+    """The power card: its parts and why it changed.
 
-    within: str = ""
-    holds: str = ""
-    doubt: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PowerPart(Sureness):
-    """The power card.
-
-    `ideal`: least induced power at this lift, as a share of all parts. `moved`: the change of power from the reference,
-    `sure` its band and whether its sign is known, `change` its per cent; `rest`: in place of these, while nothing has
-    changed. `problem`: why there is no trim; the numbers are those of the last one.
+    `ideal`: least induced power at this lift, as a share of all parts.
     """
 
-    status: Status
-    total: str = "–"
-    unit: str = "kW"
-    change: str = "–"
-    kind: Kind = ""
-    against: str = "as built"
     parts: Sequence[PowerShare] = ()
     ideal: float | None = None
     ideal_title: str = ""
-    moved: str = ""
-    sure: str = ""
-    rest: str = ""
     why: str = ""
+
+
+@dataclass(frozen=True)
+class LineControl:
+    """A slider of the page within the line; numbers are in the unit shown, `words` with that unit."""
+
+    name: str
+    label: str
+    words: str
+    value: float
+    low: float
+    high: float
+    step: float
+
+
+@dataclass(frozen=True)
+class LinePiece:
+    """Some words of the line. `part`: what they are, empty for what the hand has set; `stale`: of another design."""
+
+    text: str
+    part: str = ""
+    kind: Kind = ""
+    stale: bool = False
+    title: str = ""
+    control: LineControl | None = None
+
+
+@dataclass(frozen=True)
+class LinePart:
+    """The sentence on top. `said`: labels of the sliders whose place it tells. `problem`: why there is no
+    trim; the other parts then show the last one.
+    """
+
+    pieces: Sequence[LinePiece]
+    status: Status
+    said: Sequence[str] = ()
     problem: str = ""
+    held: bool = False
 
 
 @dataclass(frozen=True)

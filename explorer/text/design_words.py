@@ -60,15 +60,20 @@ def title_words(design: Design) -> str:
 def twist_name(design: Design) -> str:
     """The twist in a few words, without the numbers that only a program sets: `as built + MFC P1 at 1 155 V`,
     `segments −14/−8 at 0.5`, `40 segments, −12.3° root to tip`; then its harmonics."""
+    waves = wave_names(design)
+    few, carried = waves if len(waves) < 3 else [f"{len(waves)} harmonics"], design.rotor.blade.carried
+    rests = "" if carried is None or design.twist != design.jig else f" + {carried.name}"
+    return ", ".join((_law_name(design.twist, design.rotor) + rests, *few))
+
+
+def wave_names(design: Design) -> list[str]:
+    """Active twist and root pitch, a wave each."""
     active = () if design.active_twist is None else design.active_twist.harmonics
-    waves = [
+    return [
         f"{wave.per_rev}/rev {kind} {number(math.degrees(wave.amplitude), 2)}°"
         for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
         for wave in harmonics
     ]
-    few, carried = waves if len(waves) < 3 else [f"{len(waves)} harmonics"], design.rotor.blade.carried
-    rests = "" if carried is None or design.twist != design.jig else f" + {carried.name}"
-    return ", ".join((_law_name(design.twist, design.rotor) + rests, *few))
 
 
 def _law_name(law: TwistLaw, rotor: Rotor) -> str:

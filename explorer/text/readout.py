@@ -304,13 +304,16 @@ def needs(verdict: Verdict, units: Units) -> str:
     return words + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
 
 
+def change_sizes(change: float, band: float | None, units: Units) -> tuple[str, str]:
+    """A change of power [W] without its sign, and its band [W]: `28`, ` ± 3`; empty without a band."""
+    unit, digits = units.power[0], digits_of(change, units, band)
+    return number(abs(unit.of(change)), digits), "" if band is None else f" ± {number(unit.of(band), digits)}"
+
+
 def needs_words(net: float, band: float | None, units: Units) -> str:
     """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more`."""
-    unit, digits = units.power[0], digits_of(net, units, band)
-    size = number(abs(unit.of(net)), digits)
-    if band is not None:
-        size += f" ± {number(unit.of(band), digits)}"
-    words = f"saves {size} {unit.symbol}" if net > 0.0 else f"needs {size} {unit.symbol} more"
+    size, symbol = "".join(change_sizes(net, band, units)), units.power[0].symbol
+    words = f"saves {size} {symbol}" if net > 0.0 else f"needs {size} {symbol} more"
     return words if band is None else f"{words} ({sureness(net, band)})"
 
 

@@ -8,11 +8,10 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import mass_parts, needs_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, doubt_here, here_problem
-from explorer.views.actuator_words import limit_words, wave_words
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
+from explorer.views.actuator_words import limit_words
 from explorer.views.dial_answer import FittedBlade, peak_of
-from explorer.views.flight import STATES
-from explorer.views.page_state import Effect, PageState, Panel, PanelWork, Questions, SetHand
+from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
 from rotor.actuator.limits import limits
 from rotor.actuator.verdict import Against
@@ -35,15 +34,6 @@ def _reach(one: ActuatedBlade) -> str:
     return "…".join(map(_angle, one.inputs.reach(one.installed))).replace("°…", "…")
 
 
-def _title(one: ActuatedBlade) -> str:
-    """What it is, its state, and its drive as it flies."""
-    installed, inputs, state = one.installed, one.inputs, STATES[one.now.hand.state]
-    shares = ", ".join(number(100.0 * share) for share in inputs.drive_shares(installed))
-    driven = f"{state} at {shares} % of its {installed.actuator.drive_noun}"
-    sides, waves = " a side" if installed.actuator.on_skin else "", wave_words(one.now.inputs.twist_per_rev)
-    return ", ".join(filter(None, (one.name, f"{installed.count}{sides}", driven, waves)))
-
-
 def _vibration(one: ActuatedBlade) -> str:
     """The change of vibration here: mean and ends over inflow models."""
     if not one.vibration:
@@ -58,12 +48,7 @@ def _vibration(one: ActuatedBlade) -> str:
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    state, tip = STATES[one.now.hand.state], _angle(one.inputs.tip(one.installed))
-    waves = wave_words(one.now.inputs.twist_per_rev)
-    moves = f"{one.name}, {total}, {state} turns the tip by {tip} of {_reach(one)}{waves and f', with {waves},'}"
-    if one.here is not None:
-        moves += f" and {needs_words(-one.here.power, one.here.band, units)} here"
-    moves += "."
+    moves = f"{total} on board turn the tip by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
     if flight is not None:
         moves += f" By schedule it {needs_words(-flight.power, flight.band, units)} over the flight."
     mass = None if verdict is None else verdict.mass_allowed
@@ -101,17 +86,13 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
     (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
-    both = one.here, one.over_flight
-    here, flight = ("" if each is None else needs_words(-each.power, each.band, units) for each in both)
+    whole = one.over_flight
     part = AssessedPart(
-        title=_title(one),
         tip=_angle(one.inputs.tip(one.installed)),
         reach=_reach(one),
         mass=total,
         masses=tuple(parts),
-        here=here,
-        kind="" if one.here is None else one.here.kind,
-        flight=flight,
+        flight="" if whole is None else needs_words(-whole.power, whole.band, units),
         vibration=_vibration(one),
         problem=here_problem(now),
         over=over,
@@ -166,9 +147,4 @@ def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
     return () if other is None else (SetHand(actuator={"plies": other.plies, "chord": other.chord}),)
 
 
-def works(now: PageState) -> tuple[PanelWork, ...]:
-    task = now.of(doubt_here)
-    return () if task is None else (task,)
-
-
-ACTUATOR_CARD = Panel(card, blade_out, asks, works, presses={"against": choose, "feasible": make_feasible})
+ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose, "feasible": make_feasible})

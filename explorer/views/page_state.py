@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import HandSettings
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionState
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
@@ -96,6 +96,14 @@ class PageState:
         if derive not in self._derived:
             self._derived[derive] = derive(self)
         return self._derived[derive]
+
+    @property
+    def shown(self) -> Inputs:
+        """What the sliders show: the inputs, or in their place a design that a search previews."""
+        if self.preview is None:
+            return self.inputs
+        previewed = with_optimum(self.inputs, self.preview)
+        return replace(previewed, advance_ratio=self.preview.condition.advance_ratio)
 
     @property
     def units(self) -> Units:

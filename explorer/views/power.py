@@ -1,19 +1,15 @@
-"""The power card: power and its parts, its change and why, how sure it is, and whether it can be trusted."""
+"""The power card: the parts of power and why it changed; and whether the answer can be trusted."""
 
 from dataclasses import replace
 from typing import Any
 
-from explorer.charts.doubt import card_words
 from explorer.model.session_state import SessionState
-from explorer.model.units import BLANK, Units, number
-from explorer.parts.results import HandPart, Kind, PowerPart, PowerShare, Status, Sureness
-from explorer.text.design_words import against
+from explorer.model.units import Units, number
+from explorer.parts.results import HandPart, Kind, PowerPart, PowerShare, Status
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel
-from explorer.views.work import shown_doubt
-from rotor.trim.doubt import Doubt, change_decimals, sureness
 
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
@@ -26,36 +22,13 @@ the disk may be stalled without weight.
 
 
 def power_card(now: PageState) -> dict[str, Any]:
-    """The numbers of the last trim; without one now they stay, greyed, beside the sentence that says why."""
-    state, problem = now.state, now.units.in_sliders(now.problem)
+    """The parts of the last trim, and why its power changed."""
+    state = now.state
     if state is None:
-        card = PowerPart(status=Status("problem", "no trim", problem))
-    else:
-        band = _band(now)
-        sure = Sureness() if band is None else card_words(band, now.units)
-        card = replace(_numbers(state, now.units), **_change(state, band, now.units), **vars(sure))
-    if now.problem:
-        greyed = f"{problem.rstrip('.')}. Greyed: last converged solution."
-        card = replace(card, problem=greyed, status=Status("problem", "no trim", problem))
-    return {"power": card}
-
-
-def _band(now: PageState) -> Doubt | None:
-    """How sure the power is. While the design moves the band of the step before stays."""
-    asked = shown_doubt(now)
-    return now.latest(asked[0])[0] if asked else None
-
-
-def _change(state: SessionState, band: Doubt | None, units: Units) -> dict[str, Any]:
-    """Change from the reference, and why."""
+        return {"power": PowerPart()}
     solution, reference = state.solution, state.reference
-    if solution.design == reference.design or not reference.converged:
-        return {"rest": "same as A" if state.pinned else "as built", "why": "Pull the blade tip up or down."}
-    change, sure, digits = solution.power.total - reference.power.total, "", fineness(solution.power, units)
-    if band is not None and (within := band.change_band) is not None:
-        digits = change_decimals(units.power[0].of(change), units.power[0].of(within), digits)
-        sure = f"± {number(units.power[0].of(within), digits)}: {sureness(change, within)}"
-    return {"sure": sure, "moved": units.watts(change, digits, sign=True), "why": why(reference, solution, units)}
+    same = solution.design == reference.design or not reference.converged
+    return {"power": replace(_numbers(state, now.units), why="" if same else why(reference, solution, now.units))}
 
 
 def _numbers(state: SessionState, units: Units) -> PowerPart:
@@ -64,12 +37,6 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
     reference = state.reference.power if state.reference.converged else None
     unit, digits = units.power[0], fineness(power, units)
     whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
-    change, percent = BLANK, None
-    if reference is not None and reference.total > _TELLING * whole:
-        percent = 100.0 * (power.total / reference.total - 1.0)
-        change = f"{number(percent, 1, sign=True)} %"
-    elif reference is not None:
-        change = units.watts(power.total - reference.total, digits, sign=True)
     parts = list[PowerShare]()
     for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
@@ -80,20 +47,14 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         parts.append(PowerShare(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
     ideal = ideal_induced(solution)
     return PowerPart(
-        status=_status(state, units),
-        total=number(unit.of(power.total), digits),
-        unit=unit.symbol,
-        change=change,
-        kind="" if percent is None else _kind(percent, 100.0),
-        against=against(solution.design, state.reference.design, state.pinned is not None),
         parts=parts,
         ideal=None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
         ideal_title="" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
     )
 
 
-def _status(state: SessionState, units: Units) -> Status:
-    """The chip: trimmed, or engines, stalled area, number of caveats; its title says how well it is validated."""
+def status(state: SessionState, units: Units) -> Status:
+    """The end of the line: trimmed, or engines, stalled area, number of caveats; the title: how well validated."""
     reasons = cautions(state.solution, state.pinned)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
@@ -140,5 +101,5 @@ def held_power(now: PageState) -> dict[str, Any]:
     return {"hand": shown}
 
 
-POWER = Panel(power_card, works=shown_doubt)
+POWER = Panel(power_card)
 HAND = Panel(held_power)

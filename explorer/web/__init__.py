@@ -19,9 +19,9 @@ _FOLDER = Path(__file__).parent
 STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "small.css", "big.css")
 """Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
-    *("viser.js", "common.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "disk.js", "cards.js"),
-    *("charts.js", "inset.js", "plan.js", "ride.js", "twisting.js", "flight.js", "dial.js", "spoken.js", "wipe.js"),
-    *("story.js", "lecture.js"),
+    *("viser.js", "common.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "disk.js", "line.js"),
+    *("cards.js", "charts.js", "inset.js", "plan.js", "ride.js", "twisting.js", "flight.js", "dial.js"),
+    *("spoken.js", "wipe.js", "story.js", "lecture.js"),
 )
 """Scripts of the page in the order in which they run: `viser.js` before viser's client; `common.js` defines
 `Common`, `frame.js` defines `RX`."""

@@ -2,12 +2,9 @@
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
   const {text, write, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
-  const coloured = kind => kind ? `rxf-${kind}` : '';
 
   RX.paint('power', power => {
-    const card = part('power'), {problem, moved, status, parts} = power;
-    card.toggleAttribute('data-faded', Boolean(problem));
-    page.toggleAttribute('data-refused', Boolean(problem));
+    const card = part('power'), {parts} = power;
     const widths = parts.map(({share}) => Math.max(share, 0));
     const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
     const bars = widths.map((width, k) =>
@@ -17,51 +14,28 @@
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const spoken = parts.map(one => `${one.name} ${one.value}`);
-    const change = `<div class="rxf-sub rxf-num" ${moved ? '' : 'hidden'}>
-      <span data-explorer="change" class="${coloured(power.kind)}">${text(power.change)}</span> vs.
-      <span data-explorer="against">${text(power.against)}</span></div>`;
-    const problemOrChange = problem
-      ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(problem)}
-        <button data-do="nearest" data-explorer="nearest">Nearest that trims</button></div>`
-      : `<div class="rxf-change"><div class="rxf-since rxf-num">
-        <span data-explorer="moved" class="${moved ? coloured(power.kind) : ''}">${text(moved || power.rest)}</span>
-        <small data-explorer="sure">${text(moved && power.sure)}</small></div>${change}
-        <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}"></div></div>`;
-    card.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num" title="${text(power.doubt)}">
-        <span data-explorer="total-power">${text(power.total)} <small>${text(power.unit)}</small></span>
-        <small data-explorer="within">${text(power.within)}</small></div>
-      <div class="rxf-sub">total power</div>
-      <div class="rxf-sub" data-explorer="holds"
-        title="How often measured powers lie in this band, for rotors that had no part in its size">${
-          text(power.holds)}</div></div>
-      <div class="rxf-rule"></div>${problemOrChange}<div class="rxf-rule"></div>
-      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+    card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
         <div>${bars}${ideal}</div><dl>${key}</dl></div>
-      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
-        data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}">
-        <span>${text(status.words)}</span></button>`;
+      <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
-    if (why) {
-      const room = parseFloat(getComputedStyle(why).minHeight) + 1;
-      why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
-      while (clauses.length > 1 && why.offsetHeight > room) {
-        clauses.pop();
-        why.textContent = `${clauses.join('; ')}.`;
-      }
+    const room = parseFloat(getComputedStyle(why).minHeight) + 1;
+    why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
+    while (clauses.length > 1 && why.offsetHeight > room) {
+      clauses.pop();
+      why.textContent = `${clauses.join('; ')}.`;
     }
-    if (problem) RX.say(problem);
   });
+  RX.paint('line', ({problem}) => part('power').parentElement.toggleAttribute('data-faded', Boolean(problem)));
 
-  // What the actuator moves, costs and gives, in place of the power without its mass; where there is little room, in
-  // one sentence.
-  RX.paint(['assessed', 'power'], (one, power) => {
-    const card = part('verdict'), shown = Boolean(one) && !power?.problem;
+  // What the actuator moves, costs and gives beside the line; where there is little room, in one sentence.
+  RX.paint(['assessed', 'line'], (one, line) => {
+    const card = part('verdict'), shown = Boolean(one) && !line?.problem;
     card.hidden = !shown;
     page.toggleAttribute('data-assessed', shown);
     if (!one || !shown) return;
-    const wait = text(one.problem || 'computing …'), {against, baselines, kind, vibration} = one;
+    const {against, baselines, vibration} = one;
     const column = (name, words, more, title = '') => `<div title="${text(title)}"><h4>${name}</h4>${words}
       <p class="rxf-dim rxf-num">${more}</p></div>`;
     const blades = baselines.map(([name, title]) => `<button data-do="against" data-value="${name}"
@@ -70,30 +44,26 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
-    // Where there is little room the limits have no values: those are in the rail.
+    // Where there is little room the line alone names the limits; their values are in the rail.
     const listed = (name, list) => list.length ? `<b>${name}:</b>
-      ${list.map(words => `<span>${text(words).replace(/ [\d−].*/, '<i>$&</i>')}</span>`).join(' ')}` : '';
+      ${list.map(words => `<span>${text(words)}</span>`).join(' ')}` : '';
     const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
       <span data-over>${listed('Over its limits', one.over)}</span>
       ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
         feasible: ${text(one.feasible)}</button>`}
       <span class="rxf-dim">${listed('The best twist would take', one.asked)}</span></p>` : '';
-    write(card, `<header><b data-explorer="assessed">${text(one.title)}</b>
-        <div role="group" aria-label="Compared with"><span class="rxf-dim">vs.</span>${blades}</div></header>
+    write(card, `<header data-explorer="assessed"><div role="group" aria-label="Compared with">
+        <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
           `<span>reach ${text(one.reach)}</span>`,
           'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('result', one.here
-          ? `<b class="rxf-num" data-explorer="verdict" data-kind="${kind}">${text(one.here)}</b> here` : wait,
-          [`${text(one.flight || '…')} over the flight`, text(vibration)].filter(Boolean)
-            .map(words => `<span>${words}</span>`).join(''),
-          'With its mass. ± is one standard deviation; vibration: mean and range over inflow models, blades bend.')}
+        ${column('over the flight', `<b class="rxf-num">${text(one.flight || '…')}</b>`, text(vibration),
+          'By schedule. ± is one standard deviation; vibration here: mean and range over inflow models, blades bend.')}
       </div>
-      <p class="rxf-pays"><span data-explorer="said">${
-        text(one.here ? one.sentence : `${one.sentence} ${wait}`)} </span>${pays}</p>`);
+      <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
   });
   // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
   const suppose = paced(place => RX.send('suppose', place), 80);
@@ -120,7 +90,7 @@
     row.ariaLabel = `Vibration: ${sentence || `${index} ${unit}, ${band}${change ? `, ${change}` : ''}. ${title}`}`;
     const numbers = `<span class="rxf-num"><b data-explorer="index">${text(index)}</b> ${text(unit)}</span>
       <span class="rxf-dim rxf-num" data-explorer="index-band">${text(band)}</span>
-      <span class="rxf-num ${coloured(kind)}" data-explorer="index-change"
+      <span class="rxf-num ${kind && `rxf-${kind}`}" data-explorer="index-change"
         ${change ? '' : 'hidden'}>${text(change)}</span>`;
     write(row, `<b>Vibration ${text(at)}</b>${sentence ? `<span class="rxf-dim">${text(sentence)}</span>` : numbers}`);
   });

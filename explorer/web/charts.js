@@ -20,7 +20,7 @@
   // Speed is dragged by the dot of power over µ, up to the first wall ahead, which is named.
   let limit = '', flown = null;
   const sayLimit = () => { if (limit) flown.querySelector('[data-value]').textContent = limit; };
-  const speeding = paced(speed => RX.send('speed', speed));
+  const speeding = paced(speed => RX.send('slide', ['advance_ratio', speed]));
   drag(document, '[data-speed]', (dot, event) => {
     const element = dot.closest('.rxf-chart'), {mu, fastest} = element.drawn.chart.speeds, letGo = RX.hold();
     const most = mu > fastest + .005 ? element.drawn.chart.x.range[1] : fastest;
@@ -40,7 +40,7 @@
   });
   document.addEventListener('dblclick', event => {
     const chart = closest(event, '[data-speed]')?.closest('.rxf-chart').drawn.chart;
-    if (chart) RX.send('speed', chart.speeds.fastest);
+    if (chart) RX.send('slide', ['advance_ratio', chart.speeds.fastest]);
   });
   RX.paint('strip', charts => {
     const strip = part('strip');

@@ -41,11 +41,11 @@
       for (const name of ['data-lecture', 'data-big']) page.removeAttribute(name);
     },
     // The session has gone: nothing is sent until another begins.
-    forget() { bridge = null; sessions++; delete state.power; },
+    forget() { bridge = null; sessions++; delete state.line; },
     set(parts) {
       Object.assign(state, parts);
       RX.again(.../** @type {(keyof RxState)[]} */ (Object.keys(parts)));
-      if ('power' in parts) window.dispatchEvent(new Event('rx-answered'));
+      if ('line' in parts) window.dispatchEvent(new Event('rx-answered'));
     },
     // To Python: what is wanted, and of what. A serial number makes every message another one.
     send(name, value) {
@@ -308,7 +308,7 @@
     const low = wide.filter(card => !high.includes(card));
     // The verdict, in columns or as a sentence, hides the vibration.
     const flown = page.hasAttribute('data-flight') && (stage.width > 900 ? 156 : 100);
-    const usual = stage.width > 470 ? flown || (state.vibration ? 156 : 126) : state.vibration ? 100 : 70;
+    const usual = stage.width > 470 ? flown || (state.vibration ? 126 : 96) : state.vibration ? 70 : 40;
     const told = small.matches ? null : box('.rxf-power');
     const shift = card => told && card.top >= told.bottom ? usual - (told.bottom - stage.top) : 0;
     const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top + shift(card)));

@@ -52,7 +52,7 @@
     const place = canvas ? JSON.stringify([canvas.getBoundingClientRect(), elements]) : '';
     calm = place && place === last ? calm + 1 : 0;
     last = place;
-    if (window.RX?.state.power || document.querySelector('[data-explorer=lobby]')) stale = false;
+    if (window.RX?.state.line || document.querySelector('[data-explorer=lobby]')) stale = false;
     const now = performance.now();
     const answered = !stale && document.querySelector(sign) && !document.querySelector(unanswered);
     if (!answered && now < held) { begun = now; calm = 0; }
@@ -65,7 +65,7 @@
 
   function lift() {
     page.classList.remove('rx-veiled');
-    const opening = document.querySelector('.rxf-opening');
+    const opening = document.querySelector('.rxf-line');
     if (opening && !document.querySelector(sign)) opening.textContent =
       'The server does not answer: it is busy, or this address is wrong. The page keeps trying.';
     hold(false);

@@ -16,6 +16,7 @@ interface RxState {
   idle: number;
   inset: RxInsetPart;
   lecture: RxLecturePart | null;
+  line: RxLinePart;
   lifted_labels: RxSceneLabel[];
   notice: RxNoticePart | null;
   plan: RxPlanPart | null;
@@ -70,11 +71,11 @@ interface RxPresses {
   dial_front: number;
   grab_at: number;
   twist_by_hand: number;
-  speed: number;
   difference: 'on' | 'off';
   more: 'on' | 'off';
   ride: 'off' | RxSectionPress | null;
   section: RxSectionPress;
+  slide: RxSlidePress;
   azimuth: number;
   fly: number;
   against: 'same-blade' | 'best-fixed';
@@ -94,13 +95,10 @@ interface RxPresses {
 }
 
 interface RxAssessedPart {
-  title: string;
   tip: string;
   reach: string;
   mass: string;
   masses: [string, string][];
-  here: string;
-  kind: '' | 'gain' | 'loss';
   flight: string;
   vibration: string;
   problem: string;
@@ -353,6 +351,39 @@ interface RxStepAnswer {
   dots: [number, number, string][][];
 }
 
+interface RxLinePart {
+  pieces: RxLinePiece[];
+  status: RxStatus;
+  said: string[];
+  problem: string;
+  held: boolean;
+}
+
+interface RxLinePiece {
+  text: string;
+  part: string;
+  kind: '' | 'good' | 'bad';
+  stale: boolean;
+  title: string;
+  control: RxLineControl | null;
+}
+
+interface RxLineControl {
+  name: string;
+  label: string;
+  words: string;
+  value: number;
+  low: number;
+  high: number;
+  step: number;
+}
+
+interface RxStatus {
+  kind: 'converged' | 'care' | 'problem';
+  words: string;
+  title: string;
+}
+
 interface RxNoticePart {
   text: string;
   actions: [string, string][];
@@ -397,29 +428,10 @@ interface RxPackedTable {
 }
 
 interface RxPowerPart {
-  within: string;
-  holds: string;
-  doubt: string;
-  status: RxStatus;
-  total: string;
-  unit: string;
-  change: string;
-  kind: '' | 'good' | 'bad';
-  against: string;
   parts: RxPowerShare[];
   ideal: number | null;
   ideal_title: string;
-  moved: string;
-  sure: string;
-  rest: string;
   why: string;
-  problem: string;
-}
-
-interface RxStatus {
-  kind: 'converged' | 'care' | 'problem';
-  words: string;
-  title: string;
 }
 
 interface RxPowerShare {
@@ -551,6 +563,8 @@ interface RxSliderSaving {
 }
 
 type RxSectionPress = [r: number, psi: number];
+
+type RxSlidePress = [name: string, place: number];
 
 type RxSupposePress = [tip: number, mass: number];
 

@@ -282,7 +282,7 @@
     }, layout.chart);
   }
 
-  RX.paint('power', power => place.toggleAttribute('data-faded', Boolean(power.problem)));
+  RX.paint('line', line => place.toggleAttribute('data-faded', Boolean(line.problem)));
 
   const redraw = soon(() => { if (RX.state.plan) { drawCursor(); drawAround(); } });
   function find(event) {

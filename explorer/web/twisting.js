@@ -272,7 +272,7 @@
     const change = `<tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan>`;
     return `<path d="M${from} ${y}H${to}" stroke="var(--rx-faint)" stroke-width="1.5"/>${ticks.join('')}
       ${named.join('')}
-      <g opacity="${RX.state.power?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>
+      <g opacity="${RX.state.line?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>
         <text x="${clamp(x, from + 50, to - 60)}" y="${y - 21}" text-anchor="middle"
           class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan>${change}</text></g>`;
   }

@@ -23,7 +23,7 @@ from explorer.model.inputs import (
     with_rotor,
 )
 from explorer.model.session_state import SessionState
-from explorer.model.sliders import limits, slider
+from explorer.model.sliders import slider
 from explorer.model.stand import condition_of
 from explorer.model.undo import LongestPause, PowerTracker
 from explorer.model.units import SI, Units
@@ -65,7 +65,7 @@ class DesignControls:
         self.pauses = LongestPause()
         self._units = SI
         """Units of the sliders of mass, altitude and climb now."""
-        form = self._form = WidgetForm(gui, self._heard, ROWS, at_once=True)
+        form = self.form = WidgetForm(gui, self._heard, ROWS, at_once=True)
         curve = tag("div.rxp-curve", data_curve=True)
         gui.add_html(tag("div.rxp-head", "BUILT-IN TWIST", tag("span", "slopes in °/R")) + curve)
         form.menu("law", "Twist concept", _laws_of(start), start.law)
@@ -88,7 +88,6 @@ class DesignControls:
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         bridge.on("rotor", self._choose_rotor)
         bridge.on("flown", self._set_measured)
-        bridge.on("speed", self._set_speed)
         bridge.on("more", self._show_more)
 
     def inputs(self) -> Inputs:
@@ -96,7 +95,7 @@ class DesignControls:
         with self._moving:
             if self._own is not None:
                 return self._own
-            return replace(self._special, stand=self.stand.stand, **self._form.values())
+            return replace(self._special, stand=self.stand.stand, **self.form.values())
 
     def shown(self) -> Inputs:
         """What the widgets show: those of a preview, or what they mean."""
@@ -111,7 +110,7 @@ class DesignControls:
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
         self._held = held
-        self._form.hold(held)
+        self.form.hold(held)
         self.stand.form.hold(held)
         self.optimise_button.disabled = held
 
@@ -135,7 +134,7 @@ class DesignControls:
         """Put the slider with this label where `opening` has it, or another rotor as it is built."""
         now = self.inputs()
         base = opening if now.rotor == opening.rotor else with_rotor(opening, now.rotor, now.own_rotor)
-        self.change(**{name: getattr(base, name) for name in self._form.sliders(label)})
+        self.change(**{name: getattr(base, name) for name in self.form.sliders(label)})
 
     def follow(self, preview: Inputs | None) -> None:
         """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
@@ -153,31 +152,31 @@ class DesignControls:
     def _place(self, inputs: Inputs) -> None:
         """Move the widgets, under the lock."""
         self._special = inputs
-        self._form.offer("law", _laws_of(inputs), inputs.law)
+        self.form.offer("law", _laws_of(inputs), inputs.law)
         self.stand.place(inputs)
         for name, row in ROWS.items():
             if row.slider is None:
-                self._form.place(name, getattr(inputs, name))
+                self.form.place(name, getattr(inputs, name))
             else:
-                self._form.fit(name, slider(name, self._units, inputs.aircraft), getattr(inputs, name))
+                self.form.fit(name, slider(name, self._units, inputs.aircraft), getattr(inputs, name))
 
     def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
         with self._moving:
             if units is not self._units:
                 aircraft, self._units = self._special.aircraft, units
-                self._form.translate(units, lambda name: slider(name, units, aircraft))
+                self.form.translate(units, lambda name: slider(name, units, aircraft))
             shown = inputs if self._own is None else self._special
         law, tested = LAWS[shown.law].inputs, inputs.stand is not None
-        self._form.show({name: name in law and name not in shown.idle for name in _LAW_INPUTS})
+        self.form.show({name: name in law and name not in shown.idle for name in _LAW_INPUTS})
         counting = [name for name, row in FLIGHT.items() if inputs.counts(row) and not (tested and row.in_place)]
         folded = [name for name in counting if name not in _ALWAYS and getattr(shown, name) == FLIGHT[name].default]
         in_sight = set(counting) if self._more else set(counting) - set(folded)
-        self._form.show({name: name in in_sight for name in FLIGHT})
+        self.form.show({name: name in in_sight for name in FLIGHT})
         chosen = tested or shown.aircraft.isolated
         self.stand.form.show({"trim": self._more or chosen})
         self._fold.content = _fold(folded, self._more, chosen)
-        self._form.disable(dict.fromkeys(law, self._held))
+        self.form.disable(dict.fromkeys(law, self._held))
         if self._own is None:
             self.stand.follow(inputs)
         self._speed.content = _flight_heading(inputs.advance_ratio * inputs.tip_speed, units, tested)
@@ -197,12 +196,12 @@ class DesignControls:
         for name in names:
             form, below = slider(name, SI, self._start.aircraft), tag("div.rxp-worth", data_worth=name)
             value = float(getattr(self._start, name))
-            self._form.slider(name, form, value, visible=name in seen, below=below)
+            self.form.slider(name, form, value, visible=name in seen, below=below)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name == "preset":
-            for menu, value in preset_inflow(self._form["preset"]).items():
-                self._form.place(menu, value)
+            for menu, value in preset_inflow(self.form["preset"]).items():
+                self.form.place(menu, value)
         self._moved(by_hand)
 
     def _moved(self, by_hand: bool) -> None:
@@ -224,12 +223,6 @@ class DesignControls:
         if not self._held and name in menu_titles(self.inputs().own_rotor):
             self.pauses.moved(time.monotonic())
             self.set_inputs(with_rotor(self.inputs(), name))
-
-    def _set_speed(self, mu: float) -> None:
-        """Fly at this advance ratio, as far as its slider goes; the dot of power over µ was dragged."""
-        if not self._held:
-            step, (low, high) = slider("advance_ratio", SI, self._special.aircraft).step, limits("advance_ratio")
-            self.change(advance_ratio=round(min(max(step * round(mu / step), low), high), 4))
 
     def _set_measured(self, case: str) -> None:
         """Set a measured flight or test of this rotor, by its name."""
@@ -272,7 +265,7 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     few = len(names) if len(names) <= _NAMED + 1 else _NAMED
     words = "Fewer" if more else ", ".join((names[0], *following)[:few])
     if not more and few < len(names):
-        words += f" and {len(names) - few} more"
+        words += " and more"
     pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
     return tag("button.rxp-fold", words, **pressed)
 

@@ -16,7 +16,7 @@ from viser.transforms import SO3
 
 from explorer.charts.plots import PowerCurves
 from explorer.export.blade import blade_stl
-from explorer.export.contents import DesignReport, ReportEntry, line_words
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
 from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, view_png
@@ -27,7 +27,8 @@ from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
 from explorer.text.glossary import hint
-from explorer.views.actuated import ActuatedBlade, actuated_blade, doubt_here
+from explorer.views.actuated import actuated_blade
+from explorer.views.line import line_text, works
 from explorer.views.page_state import PageState
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import TabContext
@@ -71,14 +72,13 @@ class ExportPanel:
         self._say("idle", "Exports the design on the sliders.")
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
 
-    def _driven(self) -> ActuatedBlade | None:
-        """The actuator on board, and how sure its change of power is, worked out where that is not known."""
+    def _whole(self) -> PageState:
+        """All that is known, and how sure power and its change are, worked out where that is not known."""
         now = self._now()
-        task = doubt_here(now) if now.hand.on_board else None
-        if task is None:
-            return None
-        known = {} if task.key in now.answers else {task.key: task.run(lambda: False, lambda: None)}
-        return actuated_blade(replace(now, answers={**now.answers, **known}))
+        tasks = (task for task in works(now) if task.key not in now.answers)
+        return replace(
+            now, answers={**now.answers, **{task.key: task.run(lambda: False, lambda: None) for task in tasks}}
+        )
 
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
@@ -93,9 +93,8 @@ class ExportPanel:
         words = self._actuator.blade.labels
         places = seen_at(camera, np.array([at for _, at in words]), SHAPES[shape] / HEIGHT) if words else ()
         labels = [(text, float(x), float(y)) for (text, _), (x, y) in zip(words, places, strict=True)]
-        units, dark = self._context.units, state.view.dark
-        line = line_words(state.solution, units, self._driven())
-        return view_png(scene, state.solution, self._scene.scale, line, units, dark, labels, bool(ground))
+        line = line_text(self._whole())
+        return view_png(scene, state.solution, self._scene.scale, line, state.view.dark, labels, bool(ground))
 
     def _render(self, width: int) -> tuple[NDArray[np.uint8], Camera]:
         """The scene, (HEIGHT, width, 4), as a camera sees it that is aimed for this alone."""
@@ -113,6 +112,7 @@ class ExportPanel:
     def _report(self, state: SessionState) -> bytes:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""
         solution, pinned, view = state.solution, state.pinned, replace(state.view, difference=False)
+        now = self._whole()
         if state.pin is None:
             reference = ReportEntry(baseline_title(solution.design, state.baseline.design), state.baseline)
         else:
@@ -131,7 +131,8 @@ class ExportPanel:
             {view.field: self._scene.held_range(field)},
             own_section=state.pin is not None,
             actuator=self._actuator.outcome(),
-            driven=self._driven(),
+            driven=actuated_blade(now) if now.hand.on_board else None,
+            line=line_text(now),
         )
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
         rotor = io.BytesIO()

@@ -12,6 +12,7 @@ import viser
 from explorer.hosting.viser_compat import on_event_loop
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import SessionState
+from explorer.model.sliders import STAND_SLIDERS, stand_slider
 from explorer.model.stand import (
     LOAD_TITLES,
     TRIM_TITLES,
@@ -26,7 +27,7 @@ from explorer.model.units import SI, Units, meant, shown
 from explorer.text.glossary import hint
 from rotor import FlightCondition
 from rotor.design import Flapping
-from rotor.design.quantities import BY_INPUT, STAND, STAND_TRIMS
+from rotor.design.quantities import BY_INPUT, STAND_TRIMS
 from rotor.design.quantity import Quantity, Slider
 
 Titles = Mapping[Any, str]
@@ -130,6 +131,17 @@ class WidgetForm:
         if self._handles[name].value != value:
             self._handles[name].value = value
 
+    def move(self, name: str, place: float) -> None:
+        """Move a slider as a hand does, to a place in the unit shown, as far as it goes."""
+        handle = self._handles[name]
+        place = handle.step * round(place / handle.step)
+        handle.value = round(min(max(place, handle.min), handle.max), 9)
+        self._moved(name, True)
+
+    def __contains__(self, name: str) -> bool:
+        """Whether it has this slider."""
+        return name in self._placed
+
     def fit(self, name: str, form: Slider, value: float) -> None:
         """Move a slider whose label, ends or step may be others."""
         handle = self._handles[name]
@@ -183,8 +195,6 @@ _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""
 _TRIM, _TEST, _POINT, _LOAD, _FLAPPING = "trim", "measured_test", "measured_point", "stand_load", "stand_flapping"
 _FLAPPINGS: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "Gives moments"}
-_SLIDERS = {row.input: row.slider for row in STAND.values() if row.slider}
-"""By the field of `StandInputs`, or by what is given."""
 
 
 class StandControls:
@@ -213,7 +223,7 @@ class StandControls:
         """Add the sliders of the test, which come after those of flight."""
         self.form.menu(_LOAD, "Given", LOAD_TITLES, visible=False)
         self.form.menu(_FLAPPING, BY_INPUT[_FLAPPING].title, _FLAPPINGS, visible=False)
-        for name, form in _SLIDERS.items():
+        for name, form in STAND_SLIDERS.items():
             self.form.slider(name, form, form.low, visible=False)
         self.place(start)
 
@@ -224,7 +234,7 @@ class StandControls:
         self.form.offer(_TRIM, titles, "flight" if stand is None else stand.trim)
         self.follow(inputs)
         seen = () if stand is None else _seen(stand)
-        self.form.show({name: name in seen for name in (_LOAD, _FLAPPING, *_SLIDERS)})
+        self.form.show({name: name in seen for name in (_LOAD, _FLAPPING, *STAND_SLIDERS)})
         if stand is None:
             return
         self.form.place(_LOAD, stand.load)
@@ -235,7 +245,7 @@ class StandControls:
         self._fit(inputs, "cyclic_1s_deg", stand.cyclic_1s_deg)
 
     def _fit(self, inputs: Inputs, name: str, value: float) -> None:
-        form = _slider(name, inputs)
+        form = stand_slider(name, inputs)
         self.form.fit(name, replace(form, low=min(form.low, value), high=max(form.high, value)), round(value, 6))
 
     def follow(self, inputs: Inputs) -> None:
@@ -278,7 +288,7 @@ class StandControls:
                     self.set_measured(condition)
         elif self.stand is not None and name == _FLAPPING:
             self._change(replace(self.stand, flapping=value))
-        elif self.stand is not None and name in _SLIDERS:
+        elif self.stand is not None and name in STAND_SLIDERS:
             self.stand = replace(self.stand, **{"value" if name in LOAD_TITLES else name: float(value)})  # pyright: ignore[reportArgumentType]
             self._moved()
 
@@ -306,7 +316,7 @@ class StandControls:
         usual = {
             "ct_over_sigma": 0.07,
             "collective_deg": 8.0,
-            "thrust_n": 0.3 * _slider("thrust_n", self._inputs()).high,
+            "thrust_n": 0.3 * stand_slider("thrust_n", self._inputs()).high,
         }
         if self.stand is not None:
             value = usual[load] if solution is None else load_of(solution, load)
@@ -323,14 +333,3 @@ def _seen(stand: StandInputs) -> tuple[str, ...]:
     cyclic = ("cyclic_1c_deg", "cyclic_1s_deg") if stand.flapping == "free" else ()
     menus = () if stand.trim == "controls" else (_LOAD, _FLAPPING)
     return (*menus, stand.load, *tilt, *cyclic, "tip_mach", "density")
-
-
-def _slider(name: str, inputs: Inputs) -> Slider:
-    """The slider of a load for this rotor at its speed: thrust to a loading of 0.2 at sea level, in round numbers."""
-    form = _SLIDERS[name]
-    if name != "thrust_n":
-        return form
-    rotor = inputs.aircraft.rotor
-    most = 0.2 * rotor.solidity * 1.225 * rotor.disk_area * inputs.tip_speed**2
-    step = 10.0 ** (len(str(int(most))) - 3)
-    return replace(form, high=step * (most // step + 1.0), step=step)

@@ -123,9 +123,9 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
         watched.answered()
         tip = watched.at_rest(lambda: watched.text("tip-twist"))
         watched.until(lambda: f"{tip} at the tip" in labels.inner_text() and tip == watched.text("actuator-twist"))
-        watched.until(lambda: f", {state} at " in watched.text("assessed"))
-        power = page.evaluate("() => RX.state.power.total")
-        watched.reads("flight", f"{state}: {power} kW")
+        watched.reads("line", rf" with MFC P1 {state.removeprefix('as set')} ?at ".replace("  ", " "))
+        power = watched.text("total-power")
+        watched.reads("flight", f"{state}: {power}")
         return tip, power
 
     watched.type("Voltage", 77)
@@ -142,7 +142,7 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     assert fast[1] != slow[1]
     page.get_by_role("button", name="Disk", exact=True).click()  # Elsewhere, too, it is stopped with its voltage.
     watched.answered()
-    assert (page.evaluate("() => RX.state.power.total"), watched.field("Voltage").input_value()) == (fast[1], "77")
+    assert (watched.text("total-power"), watched.field("Voltage").input_value()) == (fast[1], "77")
     page.get_by_role("button", name="Actuator", exact=True).click()
     assert seen("as set") == fast
     assert "actuator=MFC_P1,drive=77" in page.url

@@ -95,7 +95,7 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     asked = requests_of(report.page)
     with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text):
         report.page.goto(path.as_uri())
-    assert report.page.locator('[data-report="total-power"]').first.inner_text() == shown
+    assert report.page.locator('[data-report="total-power"]').first.inner_text() == f"{shown} kW"
     assert "reverse flow and stall dominate" in report.page.inner_text(".care")
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     ground = "() => getComputedStyle(document.body).backgroundColor"

@@ -88,7 +88,7 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
     flapping.click()
     watched.until(lambda: kilowatts(watched.text("total-power")) > kilowatts(before) + 30.0)
     status = watched.page.wait_for_function(
-        "() => (words => words.includes('Switched off') && words)(RX.state.power.status.title)"
+        "() => (words => words.includes('Switched off') && words)(RX.state.line.status.title)"
     ).json_value()
     assert "Switched off: flapping. The result is for teaching, not for the aircraft." in status
     assert re.search(r"the hub carries 1\d\d kN m rolling to the retreating side", status)

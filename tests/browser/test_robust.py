@@ -97,7 +97,7 @@ def test_outlives_its_server(context: BrowserContext, artefacts: Path):
         page.wait_for_function(OPEN)
         Watched(page).type("Δ inboard", -11.5)
         page.wait_for_function("() => location.search.includes('-11.5')")
-        page.wait_for_function("() => RX.state.power.change !== '0.0 %'")
+        page.wait_for_function("() => RX.state.line.pieces.some(piece => piece.part === 'moved')")
         page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled")
         page.keyboard.press("Escape")  # In a field of numbers, keys are the field's own.
         page.keyboard.press("m")

@@ -45,7 +45,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.reads("provenance", "SC1095")  # Nothing is lost.
     file.write_text(text, encoding="utf-8")  # Mended, under the same name.
     load(watched, file)
-    shown(watched, "against", "Mine as built")
+    watched.reads("line", "^Mine of ")
     watched.until(lambda: watched.page.evaluate(BLADES) == 2)
     watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
     file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.cor"\n', encoding="utf-8")

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image, ImageFont
 
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.export.contents import DesignReport, ReportEntry, line_words
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
 from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, font_path, view_png
@@ -21,6 +21,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import SI
 from explorer.text.design_words import LONGEST_TITLE, title_words
+from explorer.text.line import sentence
 from rotor import Design, Solution, doubt, make_design, solve
 
 PLAIN = make_design(inflow="drees", elements=16, azimuths=36)
@@ -71,11 +72,11 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
 @pytest.mark.parametrize("width", SHAPES.values())
 @pytest.mark.parametrize("name", DESIGNS)
 def test_words_of_the_picture_stay_within_it_above_the_scene(name: str, width: int):
-    """The line, however long, and the flight; a ground that is transparent is nowhere but under words."""
+    """The line, however long; a ground that is transparent is nowhere but under words."""
     one = solution(name)
     scene = np.zeros((HEIGHT, width, 4), np.uint8)
-    line = f"{line_words(one, SI)}: it needs 12 ± 2 kW more (sure) with 132 kg on board, compared with the same blade"
-    with Image.open(io.BytesIO(view_png(scene, one, None, line, SI, False, transparent=True))) as picture:
+    line = f"{sentence(one, SI)} It needs 12 ± 2 kW more than without it, sure; over its limits in voltage and mass."
+    with Image.open(io.BytesIO(view_png(scene, one, None, line, False, transparent=True))) as picture:
         assert picture.size == (width, HEIGHT)
         assert json.loads(picture.text["Design"])["twist"] == one.design.to_dict()["twist"]  # pyright: ignore[reportAttributeAccessIssue]
         inked = np.asarray(picture)[..., 3] > 0
@@ -88,7 +89,8 @@ def test_words_of_the_picture_stay_within_it_above_the_scene(name: str, width: i
 
 def test_the_line_of_the_picture_has_the_power_and_its_band():
     one = solution("segments")
-    assert line_words(one, SI).endswith(f"needs {one.power.total / 1e3:.0f} ± {doubt(one).band / 1e3:.0f} kW")
+    words = sentence(one, SI, band=doubt(one))
+    assert words.endswith(f"needs {one.power.total / 1e3:.0f} ± {doubt(one).band / 1e3:.0f} kW.")
 
 
 # The font of the picture's words

@@ -40,14 +40,16 @@ def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str
     Where the blade is out of the rotor a card with the verdict stands in place of the power.
     """
     frame, design = visitor.frame, design_of(page)
-    power, card, parts = frame["power"], frame.get("assessed"), {"flight", "earns", "assessed"}
-    shown = float(power["total"].replace("\u2009", ""))
+    line, card, parts = frame["line"], frame.get("assessed"), {"flight", "earns", "assessed"}
+    shown = float(visitor.text("total-power").replace("\u2009", ""))
+    speaks = "drive 0" if mode == "actuate" else "built_outer"
     verdict = ACTUATOR_CARD.view(page.now())["assessed"] if look == "actuator" else None
     seen = {name for name in parts | {"dial"} if frame.get(name) is not None}
     right = {
         "mode": frame["bar"]["mode"] == mode,
         "look": look in (None, frame["views"]["now"]),
-        "power": not power["problem"] and abs(shown - kilowatts(design)) < 0.5 + 1e-3,  # To the digit shown.
+        "line": speaks in {piece["control"]["name"] for piece in line["pieces"] if piece["control"]},
+        "power": not line["problem"] and abs(shown - kilowatts(design)) < 0.5 + 1e-3,  # To the digit shown.
         "parts": seen == (parts if look == "actuator" else set()) | ({"dial"} if mode == "actuate" else set()),
         "verdict": card == msgspec.json.decode(msgspec.json.encode(verdict)),
     }

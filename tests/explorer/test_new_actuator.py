@@ -16,7 +16,7 @@ from explorer.model.inputs import Inputs
 from explorer.picture.actuator_drawings import DRAWINGS, BladePart, Drawing, PieceStyle, side_line, stations
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.views.actuator import ACTUATOR, actuator_titles
-from explorer.views.assessed import ACTUATOR_CARD
+from explorer.views.line import line_text
 from rotor import Rotor
 from rotor.__main__ import main
 from rotor.actuator import catalogue
@@ -95,7 +95,7 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
     assert "5 °" in shown["actuator.bar"]
     assert "tip twist at +2 °" in shown["actuator.now"]
     verdict = asked(ACTUATOR, now)["lean_verdict"].run()
-    assert ACTUATOR_CARD.view(now)["assessed"].title == "servo flap, 2 flaps, as set at 40 % of its deflection"
+    assert " with servo flap at 40\u00a0% " in line_text(now)
 
     picture = lifted_picture(FLAPS, verdict.installed, INPUTS.design())
     assert picture.solids["drive_0"].surface.colour == (1, 2, 3)

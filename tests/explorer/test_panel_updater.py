@@ -94,8 +94,8 @@ def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[
 
 
 def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
-    page = page_of(Panel(shown, presses={"speed": pressed}))
-    page.bridge.press("speed", 0.2)
+    page = page_of(Panel(shown, presses={"wiped": pressed}))
+    page.bridge.press("wiped", 0.2)
     assert page.done == [
         SetGrabbed(False),
         MoveSliders(replace(OPENING, advance_ratio=0.2)),
@@ -103,7 +103,7 @@ def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
     ]
     page.done.clear()
     page.now = replace(NOW, ui=OpenPanels(held=True))
-    page.bridge.press("speed", 0.2)
+    page.bridge.press("wiped", 0.2)
     assert page.done == [SetGrabbed(False)]
 
 

@@ -18,7 +18,7 @@ from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
 from explorer.charts.svg import key_entries
 from explorer.export import report as document
 from explorer.export.blade import blade_mesh
-from explorer.export.contents import DesignReport, ReportEntry, line_words
+from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import versions
 from explorer.export.report import report_html
 from explorer.export.tables import blade, doubts, vibration
@@ -29,6 +29,7 @@ from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
+from explorer.text.line import sentence
 from explorer.web import json_block
 from rotor import Design, Status, doubt, hub_loads, make_design, solve
 from tests.tools.lint_web import html_faults
@@ -141,7 +142,7 @@ class TestReport:
     def test_the_first_page_of_a_print_has_the_line_the_rotor_and_the_disk(self):
         alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", NOW)], VIEW)
         page = report_html(alone, None, Swept(), rotor=b"drawn")
-        assert f"<h1>{line_words(NOW, alone.units)}</h1>" in page
+        assert f"<h1>{sentence(NOW, alone.units, BASELINE, doubt(NOW, BASELINE))}</h1>" in page
         front = page[page.index('class="front"') : page.index('class="glance"')]
         assert "image/webp;base64,ZHJhd24=" in front
         assert front.count('aria-label="Angle of attack over the disk"') == 1

@@ -108,10 +108,10 @@ class TestControls:
         controls.follow(found)
         assert controls.inputs() == own  # Until it is applied.
         controls.follow(None)
-        assert controls._form["law"] == "linear"
+        assert controls.form["law"] == "linear"
         controls.follow(found)
-        controls._form.place("two_inner", -11.0)
-        controls._form._moved("two_inner", True)
+        controls.form.place("two_inner", -11.0)
+        controls.form._moved("two_inner", True)
         assert controls.inputs() == replace(found, two_inner=-11.0)
         controls.follow(None)  # There is no preview of another design.
         assert controls.inputs() == replace(found, two_inner=-11.0)
@@ -136,7 +136,7 @@ class TestControls:
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
     def test_the_break_point_is_shown_where_it_has_an_effect(self, controls: DesignControls):
-        place, built = controls._form._handles["built_division"], Inputs(law="builtin")
+        place, built = controls.form._handles["built_division"], Inputs(law="builtin")
         changed, moved = replace(built, built_outer=-1.0), replace(built, built_division=0.7)
         assert built.design().twist == moved.design().twist  # It has no effect indeed.
         for inputs, shown in ((built, False), (changed, True), (built, False)):
@@ -148,12 +148,12 @@ class TestControls:
         controls.hold(False)
         controls.refresh(changed, SI)
         assert not place.disabled
-        assert not controls._form._handles["built_outer"].disabled
+        assert not controls.form._handles["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         def shown(inputs: Inputs) -> set[str]:
             controls.refresh(inputs, SI)
-            return {name for name in SLIDERS if controls._form._handles[name].visible}
+            return {name for name in SLIDERS if controls.form._handles[name].visible}
 
         law = {"two_inner", "two_outer", "two_division"}
         assert shown(Inputs(law="two")) == {*law, "advance_ratio", "mass_t"}

@@ -82,7 +82,7 @@ class TestWidgets:
         controls.set_inputs(replace(OPENING, stand=given))
         shown, thrust = (controls.stand.form._handles[name] for name in ("tip_mach", "thrust_n"))
         before, most = shown.value, thrust.max
-        controls._form.place("rotor_speed_percent", 80.0)
+        controls.form.place("rotor_speed_percent", 80.0)
         controls.refresh(controls.inputs(), controls._units)
         assert shown.value == pytest.approx(0.8 * before, rel=1e-5)
         controls.set_inputs(controls.inputs())

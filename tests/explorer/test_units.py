@@ -73,11 +73,11 @@ class TestControls:
         controls.set_inputs(wanted)
         controls.refresh(wanted, UNITS["Aviation"])
         assert controls.inputs() == wanted
-        handle = controls._form._handles["mass_t"]
+        handle = controls.form._handles["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
         assert handle.label == "Mass [lb]"
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
-        assert controls._form._handles["altitude_m"].value == pytest.approx(10_000.0)
+        assert controls.form._handles["altitude_m"].value == pytest.approx(10_000.0)
         controls.refresh(wanted, SI)
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05

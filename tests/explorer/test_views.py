@@ -1,5 +1,6 @@
 """Panels as functions of what is known now, without a page."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
@@ -15,9 +16,10 @@ from explorer.model.stand import StandInputs
 from explorer.model.units import AVIATION, number
 from explorer.page import PANELS
 from explorer.parts import Parts
-from explorer.parts.results import LeastPower, PowerPart
+from explorer.parts.results import LeastPower, LinePiece
 from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.inset import blade_inset
+from explorer.views.line import line, line_text
 from explorer.views.page_state import HeldStation, OpenPanels, PageState, Panel, PanelWork
 from explorer.views.power import held_power, power_card
 from explorer.views.strip import remember_ranges, strip
@@ -59,6 +61,11 @@ def soon(now: PageState) -> PageState:
     """A moment after it began to rest."""
     works = {work.key: work for panel in PANELS for work in panel.works(now) if work.soon}
     return known(now, *works.values())
+
+
+def pieces(now: PageState) -> dict[str, LinePiece]:
+    """Of the line, by what they are."""
+    return {piece.part: piece for piece in line(now).pieces}
 
 
 def moved(before: PageState, inputs: Inputs, pin: Inputs | None = None) -> PageState:
@@ -116,13 +123,11 @@ class TestWhileADragGoesOn:
         return soon(now_at(replace(OPENING, built_outer=-4.0)))
 
     def test_the_band_of_the_step_before_stays(self, rest: PageState):
-        before, during, after = (
-            power_card(now)["power"] for now in (rest, moved(rest, CHANGED), soon(moved(rest, CHANGED)))
-        )
-        assert before.within.startswith("± ")
-        assert (during.within, during.doubt) == (before.within, before.doubt)
-        assert during.sure.partition(":")[0] == before.sure.partition(":")[0] != after.sure.partition(":")[0]
-        assert after.doubt != before.doubt
+        before, during, after = (pieces(now) for now in (rest, moved(rest, CHANGED), soon(moved(rest, CHANGED))))
+        assert before["within"].text.startswith(" ± ")
+        assert during["within"] == replace(before["within"], stale=True)
+        assert (during["sure-band"].stale, during["sure"].stale, during["moved"].stale) == (True, True, False)
+        assert after["sure-band"].text != before["sure-band"].text
 
     def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
         assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
@@ -150,8 +155,8 @@ class TestWhileADragGoesOn:
 
     def test_another_rotor_forgets_them(self, rest: PageState):
         other = moved(rest, with_rotor(OPENING, "bo105"))
-        card = power_card(other)["power"]
-        assert (card.within, card.doubt, card.sure, worth(other)["worth"]) == ("", "", "", {})
+        assert not pieces(other).keys() & {"within", "sure-band", "sure"}
+        assert worth(other)["worth"] == {}
         assert TRUST.view(other)["trust.doubts"] == ""
 
 
@@ -167,23 +172,22 @@ def test_axes_hold_while_the_data_fit():
     assert remember_ranges(left, strip(left)).ranges["alpha"] == axis
 
 
-def test_the_card_has_the_change_from_the_reference_and_why():
-    card = power_card(now_at(CHANGED))["power"]
-    assert card.moved.startswith(card.change[0])
-    assert card.why.startswith("Lift moved")
-    assert card.rest == ""
-    rest = power_card(now_at(OPENING))["power"]
-    assert (rest.moved, rest.rest) == ("", "as built")
+def test_the_change_from_the_reference_and_why():
+    assert power_card(now_at(CHANGED))["power"].why.startswith("Lift moved")
+    assert pieces(now_at(CHANGED))["against"].text == " than as built"
+    assert power_card(now_at(OPENING))["power"].why == ""
+    assert not pieces(now_at(OPENING)).keys() & {"moved", "against"}
 
 
 class TestWithoutATrim:
     def test_the_last_numbers_stay_greyed_beside_the_sentence(self):
-        good, card = soon(now_at(CHANGED)), power_card(soon(now_at(CHANGED)))["power"]
+        good = soon(now_at(CHANGED))
         lost = replace(good, problem=SENTENCE)
-        found = power_card(lost)["power"]
-        assert found.problem == f"{SENTENCE} Greyed: last converged solution."
-        assert (found.status.words, found.status.title) == ("no trim", SENTENCE)
-        assert replace(found, problem="", status=card.status) == card
+        assert line(lost).problem == SENTENCE
+        assert line(lost).status.kind == "problem"
+        assert pieces(lost).keys() == {"", "problem"}
+        assert pieces(lost)["problem"].text == f" has no trim: {SENTENCE.rstrip('.')}"
+        assert power_card(lost) == power_card(good)
         assert {one.faded for one in strip(lost)["strip"]} == {True}
         assert {one.faded for one in strip(good)["strip"]} == {False}
         assert worth(lost)["worth"] == {}
@@ -195,15 +199,15 @@ class TestWithoutATrim:
         assert blade_inset(lost) == blade_inset(good)
 
     def test_before_the_first_there_are_none(self):
-        card = power_card(PageState(OPENING, None, None, problem=SENTENCE))["power"]
-        assert (card.total, card.parts, card.status.kind) == ("–", (), "problem")
+        none = PageState(OPENING, None, None, problem=SENTENCE)
+        assert (power_card(none)["power"].parts, line(none).status.kind) == ((), "problem")
 
 
 def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
     now = soon(now_at(FREE))
-    card = power_card(now)["power"]
-    assert (card.within, worth(now)["worth"], slopes_asked(now)) == ("", {}, ())
-    assert card.doubt.startswith("Drag times speed")
+    assert pieces(now)["total-power"].text == "needs no power"
+    assert pieces(now)["total-power"].title.startswith("Drag times speed")
+    assert ("within" in pieces(now), worth(now)["worth"], slopes_asked(now)) == (False, {}, ())
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
@@ -218,40 +222,36 @@ def test_in_the_hand_power_has_the_unit_of_the_page():
 # The power card where power is near zero or negative: descent and autorotation
 
 
-def card(inputs: Inputs) -> PowerPart:
+def flown(inputs: Inputs) -> PageState:
     solution = solve(inputs.design()).require()
     state = SessionState(inputs, ViewState(), solution, solve(baseline_of(solution.design)), None)
-    return power_card(PageState(inputs, solution.design, state))["power"]
+    return PageState(inputs, solution.design, state)
 
 
 @pytest.mark.parametrize("climb", [-8.0, -13.0])
 @pytest.mark.parametrize("outer", [0.0, -2.0])
 def test_no_number_of_the_card_is_blank_in_descent(climb: float, outer: float):
-    found = card(replace(OPENING, advance_ratio=0.15, climb_m_s=climb, built_outer=outer))
-    assert "–" not in (found.total, found.change)
-    assert "– %" not in str(found)
+    now = flown(replace(OPENING, advance_ratio=0.15, climb_m_s=climb, built_outer=outer))
+    found = power_card(now)["power"]
+    assert "–" not in line_text(now)
     assert sum(max(one.share, 0.0) for one in found.parts) == pytest.approx(1.0, abs=1e-4)
 
 
 def test_autorotation_is_marked():
-    found = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-13.0))
-    assert found.total.startswith("−")
+    now = flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-13.0))
+    found = line(now)
+    assert re.search(r"descent 13\.0 m/s .* takes [\d.]+ kW from the air; driven by the air\.$", line_text(now))
     assert found.status.words == "driven by the air"
     assert (
         "The air drives the rotor, which sinks by about 11 m/s in autorotation and by 13.0 here" in found.status.title
     )
-    slower = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-10.8))
-    assert slower.total.startswith("−")
-    assert slower.status.words == "autorotation"
-    assert found.change == "0.0 kW"
-    descent = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))
-    assert descent.status.words != "autorotation"
-    assert descent.change.endswith(" %")
+    assert line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-10.8))).status.words == "autorotation"
+    assert line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))).status.words != "autorotation"
 
 
-def test_more_than_the_engines_give_is_said_on_the_chip():
+def test_more_than_the_engines_give_is_said_in_the_line():
     """The UH-60A's two T700 give 2,327 kW by its rotor file."""
-    fast = card(replace(OPENING, advance_ratio=0.42))
+    fast = line(flown(replace(OPENING, advance_ratio=0.42)))
     assert fast.status.words == f"engines give only {number(2327.0)} kW"
     assert "The rotors need" in fast.status.title
-    assert "engines" not in card(replace(OPENING, advance_ratio=0.3)).status.words
+    assert "engines" not in line(flown(replace(OPENING, advance_ratio=0.3))).status.words

@@ -66,7 +66,7 @@ def _twisted(page: Page) -> bytes:
     page.wait_for_function("() => RX.state.strip?.length === 3", timeout=WAIT)
     page.evaluate("() => RX.send('knot', ['0', 'start'])")
     page.evaluate("() => RX.send('knot', ['0', [0.13, 6.8]])")
-    page.wait_for_function("() => RX.state.power.moved && RX.state.power.why", timeout=WAIT)
+    page.wait_for_function("() => RX.state.power.why", timeout=WAIT)
     page.evaluate("() => RX.send('knot', ['0', 'end'])")
     page.evaluate("() => RX.send('azimuth', 65)")
     swept = "() => RX.state.strip[0].chart.series.some(one => one.filled && one.y.some(y => Math.abs(y) > 1))"

@@ -29,7 +29,7 @@ _FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
 _FORMS = re.compile(r"rotorDisk\.form\((\{.*\})\)", re.DOTALL)
 _TOLD = re.compile(r"RX\.(keep|address)\((.*)\)", re.DOTALL)
 _CARD_KINDS = {"care": "converged"}
-"""Kinds of the power card that the page marks otherwise."""
+"""Kinds of the status that the page marks otherwise."""
 _KIND = re.compile(r'data-kind="(\w+)"')
 
 
@@ -113,10 +113,11 @@ class Visitor:
 
     def text(self, part: str) -> str:
         """Text or kind of an element that the page marks with `data-explorer`; empty where there is none."""
-        power = self.frame.get("power")
-        if power is not None and part in ("status", "total-power"):
-            kind = power["status"]["kind"]
-            return f"{power['total']} {power['unit']}" if part == "total-power" else str(_CARD_KINDS.get(kind, kind))
+        line = self.frame.get("line")
+        if line is not None and part == "status":
+            return str(_CARD_KINDS.get(line["status"]["kind"], line["status"]["kind"]))
+        if line is not None and part == "total-power":
+            return next((piece["text"] for piece in line["pieces"] if piece["part"] == part), "")
         for widget in self.widgets.values():
             if shown := re.search(_SHOWN.format(part), str(widget.get("content"))):
                 kind = _KIND.search(shown[1])

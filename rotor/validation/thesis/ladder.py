@@ -88,6 +88,8 @@ class MovingTwist:
     """[°/R]"""
     fixed_kw: float
     """Mean total power of the best fixed twist."""
+    baseline_kw: float
+    """Mean total power of a fixed −16°."""
     gain: float
     """What moving saves, as a part of the fixed blade's power."""
 
@@ -113,11 +115,11 @@ def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | N
     guess = (math.radians(sum(least.rate_deg for least in moving) / len(moving)),)
     search = Search(design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False)
     optimum = run_search(search)
-    fixed = optimum.best
-    if fixed is None:
+    fixed, baseline = optimum.best, optimum.baseline_power
+    if fixed is None or baseline is None:
         raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
     mean = 1e3 * sum(least.power_kw for least in moving) / len(moving)
-    return MovingTwist(math.degrees(fixed.parameters[0]), fixed.power / 1e3, 1.0 - mean / fixed.power)
+    return MovingTwist(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
 
 
 @CachedFunction

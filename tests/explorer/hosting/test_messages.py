@@ -24,7 +24,7 @@ from tests.tools import wire
 from tests.tools.visitor import _CAMERA, BRIDGE, Visitor, arrived, ran
 
 GOOD: dict[str, list[Any]] = {
-    "azimuth": [65, 0.5], "fly": [1.25], "speed": [0.2, "0.165"], "hold": [True], "stop": [3, "3"], "guess": ["0"],
+    "azimuth": [65, 0.5], "fly": [1.25], "slide": [["mass_t", 8.5]], "hold": [True], "stop": [3, "3"], "guess": ["0"],
     "drawer": ["", "share"],
     "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]],
     "idle": [[7, False]], "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]],

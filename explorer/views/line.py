@@ -1,0 +1,120 @@
+"""The line on top of the page: in Explore and Optimise of the twist, in Actuate of the actuator."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+from explorer.model.inputs import LAWS, TWISTS
+from explorer.model.units import number
+from explorer.parts.results import LinePart, LinePiece, Status
+from explorer.text.design_words import AS_BUILT
+from explorer.text.line import (
+    change_pieces,
+    control,
+    flight_pieces,
+    over_pieces,
+    plain,
+    power_pieces,
+    than_words,
+    twist_pieces,
+)
+from explorer.text.readout import fineness
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, doubt_here, drive_here, in_actuate
+from explorer.views.actuator import DRIVES
+from explorer.views.actuator_words import limit_words
+from explorer.views.flight import STATES
+from explorer.views.page_state import PageState, Panel, PanelWork
+from explorer.views.power import status
+from explorer.views.work import shown_doubt
+from rotor.design.quantity import Slider
+
+_BUILT = [row.slider.label.partition(" [")[0] for row in map(TWISTS.get, LAWS["builtin"].inputs) if row and row.slider]
+"""Labels of the sliders that are all at zero where the twist is as built."""
+_DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
+
+
+def works(now: PageState) -> tuple[PanelWork, ...]:
+    """How sure power and its change are."""
+    here = now.of(doubt_here) if in_actuate(now.ui) else None
+    return (*shown_doubt(now), *(() if here is None else (here,)))
+
+
+def line(now: PageState) -> LinePart:
+    """What the hand has set, and the answer of the last trim; while there is none of it, why."""
+    one, state, units, problem = _on_board(now), now.state, now.units, now.problem
+    pieces = flight_pieces(now.shown, units)
+    pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
+    said = tuple(piece.control.label for piece in pieces if piece.control is not None)
+    said += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
+    if problem or state is None:
+        words = f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}" if problem else " …"
+        pieces.append(LinePiece(words, "problem"))
+        return LinePart(pieces, Status("problem", "", problem), said, problem, now.ui.held)
+    doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
+    band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
+    pieces += power_pieces(state.solution, units, band, known)
+    pieces += _change_here(one) if one is not None else _change(now)
+    return LinePart(pieces, status(state, units), said, held=now.ui.held)
+
+
+def _on_board(now: PageState) -> ActuatedBlade | None:
+    """The actuator that the line speaks of."""
+    return actuated_blade(now) if in_actuate(now.ui) else None
+
+
+def _actuator(one: ActuatedBlade) -> list[LinePiece]:
+    """Its state, and the voltages as controls."""
+    state, drives = one.now.hand.state, one.inputs.drives[: len(one.installed.shapes)]
+    word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
+    pieces = [LinePiece(f" with {one.name} {word} ")]
+    for k, drive in enumerate(drives):
+        label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
+        pieces += [LinePiece(", ")] if k else []
+        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label), drive))
+    waves = [
+        f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°" for each in one.now.inputs.twist_per_rev
+    ]
+    return [*pieces, LinePiece("\u00a0%" + "".join(waves))]
+
+
+def _change_here(one: ActuatedBlade) -> list[LinePiece]:
+    """With its mass and its drive, and the limits that are exceeded."""
+    here, now, against = one.here, one.now, one.question.against
+    if here is None:
+        return [LinePiece(": computing the change …", "moved", stale=True)]
+    than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
+    digit = 0.5 * 10.0 ** -fineness(now.state.solution.power, now.units) if now.state is not None else 0.5
+    note = ", drive included" if abs(now.units.power[0].of(drive_here(now) or 0.0)) >= digit else ""
+    reach = one.installed.actuator.range_limits
+    broken = () if one.verdict is None else one.verdict.broken
+    over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
+    return change_pieces(here.power, here.band, than, now.units, note=note) + over
+
+
+def _change(now: PageState) -> list[LinePiece]:
+    """From the blade as built, or A; nothing where that is what is shown."""
+    state = now.state
+    if state is None or not state.reference.converged:
+        return []
+    solution, reference, pinned = state.solution, state.reference, state.pinned is not None
+    if solution.design == reference.design:
+        return [LinePiece(": same as A", "against")] if pinned else []
+    if "free-rotor" in (solution.design.models.trim, reference.design.models.trim):
+        return []
+    band, known = now.latest(shown_doubt(now)[0])
+    within = None if band is None else band.change_band
+    change = solution.power.total - reference.power.total
+    return change_pieces(change, within, than_words(solution.design, reference.design, pinned), now.units, known)
+
+
+def line_text(now: PageState) -> str:
+    """The line as it is exported, with what is to be noted of the answer."""
+    told = line(now)
+    return plain(told.pieces, told.status.words if told.status.kind == "care" else "")
+
+
+def view(now: PageState) -> dict[str, Any]:
+    return {"line": line(now)}
+
+
+LINE = Panel(view, works=works)

@@ -1,0 +1,90 @@
+// @ts-check
+// The line on top: what is said of the design, and its numbers, which are dragged as their sliders are.
+(() => {
+  const {text, clamp, write, closest, paced, drag} = Common, {part} = RX, place = part('line');
+  const SPAN = 480;  // [px] from one end of a slider to the other, if its steps are not too fine for that.
+  const LATER = 900;  // [ms] from the last move to the spoken line.
+  /** @type {Map<string, RxLineControl>} */
+  const controls = new Map();
+  let told = 0;
+
+  RX.paint('line', line => {
+    const {pieces, status, problem, held} = line, focused = closest({target: document.activeElement}, '[data-slide]');
+    controls.clear();
+    const words = pieces.map(({text: said, part: name, kind, stale, title, control}) => {
+      if (control) controls.set(control.name, control);
+      const slides = control && `role="slider" tabindex="${held ? -1 : 0}" data-slide="${control.name}"
+        aria-label="${text(control.label)}" aria-valuemin="${control.low}" aria-valuemax="${control.high}"
+        aria-valuenow="${control.value}" aria-valuetext="${text(control.words)}" ${held ? 'aria-disabled="true"' : ''}
+        title="${text(control.label)}: drag, or arrow keys"`;
+      const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${stale ? 'data-stale' : ''}
+        ${title && `title="${text(title)}"`}`;
+      return slides || marks ? `<span ${slides || marks}>${text(said)}</span>` : text(said);
+    }).join('');
+    write(place, `${words}${problem
+      ? ' <button data-do="nearest" data-explorer="nearest">Nearest that trims</button>' : ''}<button
+      class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
+      data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}"
+      ${status.words ? '' : 'hidden'}>${text(status.words)}</button>`);
+    place.toggleAttribute('data-problem', Boolean(problem));
+    document.documentElement.toggleAttribute('data-refused', Boolean(problem));
+    markSaid();
+    if (focused && !focused.isConnected) {
+      const again = place.querySelector(`[data-slide="${focused.dataset.slide}"]`);
+      (again ?? place.querySelector('[data-slide]'))?.focus({preventScroll: true});
+    }
+    if (problem) RX.say(problem);
+  });
+
+  // A number that stands here need not stand in the rail too.
+  const fields = '[data-dock-region=right] input[aria-label]:not([type=hidden])';
+  function markSaid() {
+    const said = RX.shown('line')?.said ?? [];
+    for (const field of document.querySelectorAll(fields))
+      field.toggleAttribute('data-said', said.includes((field.ariaLabel ?? '').split(' [')[0]));
+  }
+  RX.paint('worth', markSaid);  // viser may have drawn its fields anew.
+
+  // It moves at once; what is said of the design before is grey until the answer comes.
+  const sliding = paced((/** @type {[string, number]} */ to) => RX.send('slide', to));
+  function slide(name, wanted) {
+    const control = controls.get(name), element = place.querySelector(`[data-slide="${name}"]`);
+    if (!control || !element) return;
+    const steps = Math.round(wanted / control.step), value = clamp(steps * control.step, control.low, control.high);
+    if (value === control.value) return;
+    control.value = value;
+    const digits = Math.max(0, -Math.floor(Math.log10(control.step) + 1e-9));
+    element.textContent = element.textContent.startsWith('+') || /^[a-z]/.test(element.textContent)
+      ? Common.signed(value, digits) : Common.fixed(value, digits);
+    for (const answer of place.querySelectorAll('[data-explorer]')) answer.toggleAttribute('data-stale', true);
+    place.written = '';
+    sliding.send([name, value]);
+    clearTimeout(told);
+    told = setTimeout(() => RX.say(place.textContent), LATER);
+  }
+  drag(place, '[data-slide]:not([aria-disabled])', (element, {clientX}) => {
+    const {slide: name} = element.dataset, control = controls.get(name);
+    if (!control) return null;
+    const {value, low, high, step} = control, letGo = RX.hold(), near = SPAN * step / (high - low);
+    const pixels = step / clamp(near, 2, 8);
+    element.focus();
+    return {
+      move(event) { slide(name, value + pixels * (event.clientX - clientX)); },
+      end() { sliding.flush(); letGo(); },
+    };
+  });
+  place.addEventListener('keydown', event => {
+    const {slide: name} = closest(event, '[data-slide]:not([aria-disabled])')?.dataset ?? {};
+    const control = controls.get(name);
+    if (!control) return;
+    const {value, low, high, step} = control, up = value + step, down = value - step;
+    const to = {ArrowUp: up, ArrowRight: up, ArrowDown: down, ArrowLeft: down, Home: low, End: high}[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    slide(name, to);
+  });
+  // Its height is its own: what stands below begins there.
+  const {style} = document.documentElement;
+  new ResizeObserver(() => style.setProperty('--rx-said', `${place.offsetHeight}px`)).observe(place);
+})();

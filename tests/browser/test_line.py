@@ -1,0 +1,94 @@
+"""The line on top: its numbers are dragged, set by key and read out, and move what their sliders move."""
+
+import re
+
+import pytest
+from watched import LARGE, Visit, Watched
+
+SIZES = (LARGE, (1280, 720), (812, 734), (390, 844))
+FITS = """() => [document.querySelector('.rxf-line'), document.querySelector('canvas')].map(e => {
+    const {left, right, top, bottom} = e.getBoundingClientRect();
+    return [left, right, top, bottom, e.scrollWidth - e.clientWidth];
+})"""
+
+
+def numbers(watched: Watched) -> dict[str, list[str | None]]:
+    """Of each number of the line its label, place and words."""
+    return watched.page.evaluate(
+        """() => Object.fromEntries([...document.querySelectorAll('.rxf-line [data-slide]')].map(e =>
+            [e.dataset.slide, ['label', 'valuenow', 'valuetext'].map(name => e.getAttribute(`aria-${name}`))]))"""
+    )
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size: tuple[int, int]):
+    watched = visit(size=size)
+    page = watched.page
+    watched.answered()
+    as_built = watched.text("line")
+    assert numbers(watched).keys() == {"mass_t", "advance_ratio", "built_outer"}
+    # Tab goes from one to the next; a key is a step of the slider, and one press of undo takes it back.
+    page.locator("[data-slide=mass_t]").focus()
+    page.keyboard.press("Tab")
+    assert page.evaluate("() => document.activeElement.dataset.slide") == "advance_ratio"
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("() => document.activeElement.dataset.slide") == "advance_ratio"
+    watched.answered()
+    assert numbers(watched)["advance_ratio"] == ["Adv. ratio µ", "0.205", "0.205"]
+    assert watched.number("Adv. ratio") == 0.205
+    page.keyboard.press("Control+z")
+    watched.until(lambda: watched.text("line").split(" ±")[0] == as_built.split(" ±")[0])
+    # A drag with a pause is one step too; what is said meanwhile is that of the sliders.
+    for place, dragged in (("explore", "built_outer"), ("optimise", "mass_t"), ("actuate", "drive 0")):
+        if place != "explore":
+            watched.mode(place)
+            watched.answered()
+        before, name = numbers(watched)[dragged][1], f"[data-slide='{dragged}']"
+        power = watched.text("total-power")
+        x, y = watched.middle(name)
+        watched.hold(x, y)
+        page.mouse.move(x + 40, y, steps=4)
+        page.wait_for_timeout(1500)
+        page.mouse.move(x + 120, y, steps=4)
+        page.mouse.up()
+        watched.answered()
+        after = float(numbers(watched)[dragged][1] or 0.0)
+        assert after > float(before or 0.0)
+        assert watched.text("total-power") != power
+        box, canvas = watched.at_rest(lambda: page.evaluate(FITS))
+        assert (box[0], box[1], box[4], abs(canvas[2] - box[3]) < 2) == (0, size[0], 0, True)
+        label = {"built_outer": "Δ outboard", "mass_t": "Mass", "drive 0": "Voltage"}[dragged]
+        if place != "optimise":
+            assert watched.number(label) == pytest.approx(after)
+        page.evaluate("() => document.activeElement.blur()")
+        page.locator("[data-do=undo]").first.click()
+        watched.until(lambda name=dragged, before=before: numbers(watched).get(name, [None, None])[1] == before)
+    watched.reads("line", r"with MFC P1 at 0\s%.* than without it, (sure|likely|unclear)")
+    # Above it, the lecture says it too.
+    watched.mode("explore")
+    page.keyboard.press("t")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
+    watched.reads("line", r"^The UH-60A of ")
+
+
+def test_touch_drags_and_a_refused_trim_is_said(visit: Visit):
+    watched = visit(size=(390, 844))
+    page = watched.page
+    x, y = watched.middle("[data-slide=advance_ratio]")
+    touch, finger = page.context.new_cdp_session(page), {"x": x, "y": y, "id": 0}
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [finger]})
+    for _ in range(10):
+        finger["x"] += 12
+        touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [finger]})
+        page.wait_for_timeout(40)
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    watched.answered()
+    assert watched.number("Adv. ratio") > 0.2
+    page.locator("[data-slide=mass_t]").focus()
+    page.keyboard.press("End")
+    page.locator("[data-slide=advance_ratio]").focus()
+    page.keyboard.press("End")
+    said = watched.reads("line", r"^The UH-60A of 11\.00 t at µ 0\.450 .* has no trim: ")
+    assert not re.search(r"needs|kW", said)
+    page.get_by_role("button", name="Nearest that trims").click()
+    watched.reads("line", r" needs [\d\u2009]+ kW")
