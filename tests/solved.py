@@ -5,7 +5,7 @@ from dataclasses import astuple, replace
 from numpy.testing import assert_allclose
 
 from rotor.trim.newton import DEFAULT_OPTIONS
-from rotor.trim.solution import Caveat, Solution
+from rotor.trim.solution import Caveat, DiskFields, Solution
 
 SAME = 10.0 * DEFAULT_OPTIONS.residual_tolerance
 """Part of power by which two trims may differ that are solved apart, even with equal equations: processors sum in
@@ -23,3 +23,8 @@ def assert_same_trim(one: Solution, other: Solution) -> None:
 def with_caveats(solution: Solution, *caveats: Caveat) -> Solution:
     """The solution with other caveats."""
     return replace(solution, find_shown=lambda _: replace(solution.shown, caveats=caveats))
+
+
+def with_disk(solution: Solution, disk: DiskFields) -> Solution:
+    """The solution with other fields over the disk."""
+    return replace(solution, find_shown=lambda _: replace(solution.shown, disk=disk))

@@ -204,7 +204,7 @@ def verdict_on(question: VerdictInputs) -> Verdict:
 
 
 def lean_verdict(question: VerdictInputs) -> Verdict:
-    """A verdict, its trims with their disks left behind: a few kilobytes for three megabytes."""
+    """A verdict, its trims left behind: a twentieth of its size."""
     verdict = verdict_on(question)
     base = verdict.baseline
     first, second = (replace(best, solutions=()) for best in base.best)

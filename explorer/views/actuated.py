@@ -30,12 +30,11 @@ from rotor.actuator import (
     InstalledActuator,
     OtherStroke,
     Verdict,
-    bending,
     effect,
     other_stroke,
-    pitching,
     powers,
 )
+from rotor.actuator.harmonic import bending, pitching_power
 from rotor.actuator.verdict import Against
 from rotor.design import TwistLaw
 from rotor.dynamics.structure import check_blade
@@ -232,7 +231,7 @@ def per_rev_here(now: PageState) -> tuple[float, float] | None:
     flown, still = now.state.solution, None if work is None else now.answers.get(work.key)
     if still is None or not still.converged:
         return None
-    drive = heat_here(now) + pitching(flown) - pitching(still)
+    drive = heat_here(now) + pitching_power(flown) - pitching_power(still)
     return flown.power.total - still.power.total + drive, drive
 
 

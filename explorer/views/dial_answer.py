@@ -9,7 +9,8 @@ import numpy as np
 
 from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
-from rotor.actuator import InstalledActuator, bending, steady_room, tip_amplitude
+from rotor.actuator import InstalledActuator, steady_room, tip_amplitude
+from rotor.actuator.harmonic import bending
 from rotor.design import Harmonic
 from rotor.optimisation.vibration import front_twists, with_power_of
 from rotor.support.arrays import Array

@@ -72,7 +72,7 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
             for trim in trims:
                 trim.solution.require()
         if all(trim.solution.converged for trim in trims):
-            here, there = (trim.solution.power.total + pitching(trim.solution) for trim in trims)
+            here, there = (trim.solution.power.total + pitching_power(trim.solution) for trim in trims)
             power.append(here - there)
         bent = trims if design.models.bending else [analyse(bending(one)) for one in pair if shaken]
         if shaken and all(trim.solution.converged for trim in bent):
@@ -87,6 +87,6 @@ def powers(designs: Sequence[Design]) -> tuple[float, ...]:
     return tuple(known[design] for design in designs)
 
 
-def pitching(solution: Solution) -> float:
+def pitching_power(solution: Solution) -> float:
     """Power that pitch links and plies put into an elastic blade [W]."""
     return solution.elastic.control_power if solution.elastic is not None else 0.0

@@ -138,7 +138,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["reach"] = [part.reach]
     read("reach", rf"of ({NUMBER}…{NUMBER}°)\.", part.sentence)
     said = line_text(now)
-    read("power", "needs # kW", said)
+    read("power", "needs # ±", said)
     read("power", ": # kW, disk", flight["flight"].words)
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))

@@ -28,6 +28,7 @@ from explorer.picture.polar import (
 from explorer.picture.wake import tip_vortices
 from rotor import Solution, make_design, solve
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
+from tests.solved import with_disk
 
 ALPHA = FIELDS["Angle of attack"]
 
@@ -180,7 +181,7 @@ class TestAirLines:
         assert (np.diff(points[:, 0, 2]) < 0.0).all()
         assert len(age) == len(points)
         # In hover dz/dζ is λ_i about the radius of the vortex: here of an even inflow, so the pitch is even.
-        even = replace(hover, disk=replace(hover.disk, induced=np.full_like(hover.disk.induced, 0.06)))
+        even = with_disk(hover, replace(hover.disk, induced=np.full_like(hover.disk.induced, 0.06)))
         points, _ = tip_vortices(even, [0.0])
         age = 2.0 * math.pi * 0.8
         sunk = (points[0, 0, 2] - points[-1, 1, 2]) / hover.design.rotor.radius

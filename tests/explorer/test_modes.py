@@ -100,13 +100,15 @@ def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
         for k, place in enumerate(WALK):
             mode, look = await go(presenter, place, ("3d", "disk", "side")[k % 3])
             flown = look == "actuator"  # Once a flight is known, the voltages follow it until Actuate is left.
-            await presenter.press(*(("fly", 1.0 + 0.06 * k) if flown else ("speed", 0.1 + 0.005 * k)))
+            await presenter.press(
+                *(("fly", 1.0 + 0.06 * k) if flown else ("slide", ["advance_ratio", 0.1 + 0.005 * k]))
+            )
             for visitor, page in both:
                 await right(visitor, page, mode, look)
             await follower.until(lambda: design_of(led) == design_of(leader))
         await presenter.close()
         await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"), 10.0)
-        await follower.press("speed", 0.3)  # The page is the follower's.
+        await follower.press("slide", ["advance_ratio", 0.3])  # The page is the follower's.
         await follower.until(lambda: led.context.controls.inputs().advance_ratio == 0.3)
         await right(follower, led)
         again = await arrived(app.address, kept={PRESENT: SECRET}, page="two")

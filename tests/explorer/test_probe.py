@@ -20,6 +20,7 @@ from explorer.picture.picture import DISK_DROP, composed_rotation, make_picture,
 from rotor import Solution, make_design, solve
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
+from tests.solved import with_disk
 
 SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
 CASES = {
@@ -117,7 +118,7 @@ def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
     down = 0.02 * sign * np.ones_like(behind)
     alpha = -np.arctan2(down, behind)
     wind = replace(disk, u_t=behind, u_p=down, theta=np.zeros_like(behind), alpha=alpha)
-    p = probe(replace(fast, disk=wind), 0.5, float(0.5 * disk.psi[1]))
+    p = probe(with_disk(fast, wind), 0.5, float(0.5 * disk.psi[1]))
     assert_allclose(abs(p.alpha), math.pi)
     assert p.region is FlowRegion.REVERSE
 

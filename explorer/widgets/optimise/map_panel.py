@@ -22,7 +22,7 @@ TIME_LIMIT = 120.0
 _URGENCY = 2
 """After searches and schedules."""
 NAME = "map"
-_BEFORE = "Least power over the other parameters, which takes about half a minute. Click the map to set a point."
+_BEFORE = "Least power over the other parameters. Click the map to set a point."
 _KEY = f"★ least · ○ your design, if it is of this concept · white outline: within {100 * BAND:g} % of the least"
 
 
