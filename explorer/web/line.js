@@ -22,7 +22,7 @@
       return slides || marks ? `<span ${slides || marks}>${text(said)}</span>` : text(said);
     }).join('');
     write(place, `${words}${problem
-      ? ' <button data-do="nearest" data-explorer="nearest">Nearest that trims</button>' : ''}<button
+      ? ' <button data-do="nearest" data-explorer="nearest">Nearest that trims</button>' : ''} <button
       class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
       data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}"
       ${status.words ? '' : 'hidden'}>${text(status.words)}</button>`);

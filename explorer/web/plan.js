@@ -57,7 +57,7 @@
     const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
     const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
-      : wide ? [CARDS, (both ? LABEL.width : 0) + 26, ROOM, ROOM]
+      : wide ? [CARDS, both ? LABEL.width + 26 : 70, ROOM, ROOM]
         : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
     return {
       width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),

@@ -99,7 +99,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     page.wait_for_selector('[data-explorer="ab"]', state="detached")
     page.wait_for_function("() => !RX.state.bar.pinned")
     watched.until_changed(lambda: overlay_seen(watched), False)  # Of the blade as built.
-    watched.says("against", "UH-60A as built")
+    watched.reads("against", "than as built")
     watched.until(lambda: "B − A" not in page.locator('[data-part="unit"]').inner_text())
     page.get_by_role("button", name="Show B − A").wait_for(state="detached")
     page.wait_for_function(f"() => !({_BESIDE_A})")

@@ -136,7 +136,7 @@ def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):
 
 def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_path: Path):
     watched.type("Altitude", 4000.0)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]')
+    watched.page.wait_for_selector('[data-explorer="nearest"]')
     watched.drawer("share")
     with zipfile.ZipFile(saved(watched, "Tables", tmp_path)) as tables:
         assert b"8322 kg, 0 m" in tables.read("power.csv")

@@ -39,7 +39,7 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
         math.degrees(disk.alpha[row, column]), abs=0.2
     )
     assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
-    assert float(shown["C_l"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
+    assert float(shown["Cl"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
     watched.reads("around", f"{r:.2f} R")
     # A click opens its section; the pointer was a fraction of a pixel beside it.
     page.mouse.down()

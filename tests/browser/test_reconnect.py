@@ -234,10 +234,10 @@ def test_a_page_without_a_connection_does_not_go_on_solving(page: Page, proxy: P
     page.add_init_script(FAST)
     proxy.delay, proxy.deaf = (1e4, False) if way == "no WebSocket" else (0.0, True)
     page.goto(proxy.address + COARSE)
-    card = "document.querySelector('[data-explorer=power-card]')?.textContent ?? ''"
+    card = "document.querySelector('[data-explorer=line]')?.textContent ?? ''"
     page.wait_for_function(f"() => {{ const said = {card}; return said && !said.includes('Solving the first trim'); }}")
     if way == "no WebSocket":
-        assert "The server does not answer" in page.inner_text("[data-explorer=power-card]")
+        assert "The server does not answer" in page.inner_text("[data-explorer=line]")
 
 
 def test_a_clock_set_back_by_a_day_stops_nothing(twisted: Page, monkeypatch: pytest.MonkeyPatch):

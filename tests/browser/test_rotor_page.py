@@ -85,7 +85,6 @@ def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.page.locator(".rxf-rotor").select_option(label="SA349/2 Gazelle")
     power = "RX.state.strip?.find(one => one.name === 'power')?.chart"
     until(watched, f"() => {power}?.series.some(one => one.press?.length === 4 && one.words[1].includes('computed'))")
-    watched.until(lambda: watched.page.locator("[data-name=power] [data-band]").count() == 1)
     watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
     until(watched, f"() => {power}?.value.startsWith('FC2: ')")
     watched.until(lambda: "FC2" in watched.row("Point").locator("input").first.input_value())

@@ -161,10 +161,10 @@ def test_on_a_tablet_optimise_shows_its_controls_and_its_search(visit: Visit):
 def test_what_is_measured_can_fail(visit: Visit):
     page = visit(size=(820, 1180)).page
     for name, style in (
-        (".rxf-views", "inset: 20px auto auto 20px !important"),
+        (".rxf-views", "inset: -20px auto auto 20px !important"),
         (".rxf-grip button", "min-height: 20px !important; height: 20px; align-self: start"),
     ):
         page.evaluate("([name, style]) => { document.querySelector(name).style.cssText = style; }", [name, style])
     now = page.evaluate(MEASURE)
-    assert "power-card × views" in now["hit"]
+    assert "line × views" in now["hit"]
     assert [name for name in now["narrow"] if name.endswith("×20")]
