@@ -20,10 +20,10 @@ from rotor.actuator import (
     default_placement,
     find_actuator,
     install,
-    pitching,
     tip_amplitude,
     with_actuator,
 )
+from rotor.actuator.harmonic import pitching_power
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.files.make_design import make_design
 from rotor.optimisation.vibration import with_harmonics
@@ -102,7 +102,7 @@ def test_what_is_answered_is_shown(answered: PageState):
     assert one.settled is not None
     design = with_actuator(make_design(mu=0.3, bending=True), "MFC_P1")
     flown, still = (solve(with_harmonics(design, waves)).require() for waves in (WAVES, ()))
-    own = flown.power.total - still.power.total + pitching(flown) - pitching(still)
+    own = flown.power.total - still.power.total + pitching_power(flown) - pitching_power(still)
     assert one.settled.power == pytest.approx((1e-3 * own + heat, 0.9 + heat), abs=2e-3)
     assert one.settled.index == (-20.0, 3.0)
     assert (one.computing, one.words, one.problem, one.held) == (False, "", "", False)

@@ -21,7 +21,6 @@ from explorer.views.dial_answer import DialAnswer, FittedBlade, FrontDot, dial_a
 from explorer.widgets.twist_curve import flown_band, shown_twist
 from rotor.actuator import (
     HostBlade,
-    bending,
     default_placement,
     effect,
     find_actuator,
@@ -30,6 +29,7 @@ from rotor.actuator import (
     steady_room,
     tip_amplitude,
 )
+from rotor.actuator.harmonic import bending
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.files.make_design import make_design

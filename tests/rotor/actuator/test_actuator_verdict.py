@@ -98,7 +98,7 @@ def test_a_softer_blade_costs_power_with_no_voltage():
     """Half the stiffness doubles the elastic 1/rev twist of flight at µ 0.3, which no fixed jig twist takes away."""
     judged = verdict()
     assert judged.stiffness_cost > 1000.0
-    assert f"the softer elastic blade costs {judged.stiffness_cost / 1e3:.1f} kW" in verdict_details(judged)
+    assert f"the softer elastic blade costs {judged.stiffness_cost / 1e3:.1f} ± " in verdict_details(judged)
     wave = [trims[1].elastic for trims in (judged.baseline.fixed.solutions, judged.resting.solutions)]
     assert 1.5 < wave[1].first_harmonic / wave[0].first_harmonic < 2.5
 
