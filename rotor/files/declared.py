@@ -5,6 +5,7 @@ neither msgspec nor tomllib gives the line: it is found by looking for the key.
 """
 
 import re
+import threading
 import tomllib
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -44,10 +45,15 @@ class Refusal(ValueError):
         self.place = place
 
 
+_one_at_a_time = threading.Lock()
+"""msgspec 0.22 ends the process where several threads use a type for the first time."""
+
+
 def convert(value: Any, declared: type[Declared], *place: str) -> Declared:
     """The value at a place of a file as it is declared. Raises Refusal."""
     try:
-        return msgspec.convert(value, declared)
+        with _one_at_a_time:
+            return msgspec.convert(value, declared)
     except msgspec.ValidationError as error:
         found, cause = re.search(r" - at `\$([\w.\[\]]+)`$", str(error)), error.__cause__
     at: Place = place

@@ -3,6 +3,8 @@
 import math
 import pickle
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -349,3 +351,30 @@ def test_a_structure_with_bending_has_hub_loads():
 def test_a_wrong_structure_is_one_sentence(old: str, new: str, remedy: str):
     with pytest.raises(ValueError, match=remedy):
         read(GOOD + STRUCTURE.replace(old, new))
+
+
+_IN_THREADS = """
+import sys
+import threading
+from msgspec import defstruct
+from rotor.files.declared import convert
+
+sys.setswitchinterval(1e-6)
+for _ in range(100):
+    inner = defstruct("Inner", [(f"a{k}", float, 0.0) for k in range(40)])
+    outer = defstruct("Outer", [(f"b{k}", inner | None, None) for k in range(20)])
+    begin = threading.Barrier(4)
+    def read():
+        begin.wait()
+        assert convert({"b0": {"a1": 1.0}}, outer).b0.a1 == 1.0
+    threads = [threading.Thread(target=read) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+"""
+
+
+def test_threads_may_read_a_table_for_the_first_time_together():
+    """msgspec ends the process there, in a few of a hundred such beginnings."""
+    subprocess.run([sys.executable, "-c", _IN_THREADS], cwd=Path(__file__).parents[3], check=True)
