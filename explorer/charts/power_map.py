@@ -116,7 +116,7 @@ def least_words(drawn: PowerMap, units: Units) -> str:
         for p, part in zip(drawn.parameters, drawn.least[:2], strict=True)
         if part in (0.0, 1.0)
     ]
-    beyond = f" Less power lies beyond the bound of {' and '.join(ends)}." if ends else ""
+    beyond = f" It lies at the bound of {' and '.join(ends)}: less may lie beyond." if ends else ""
     return f"Least {units.watts(drawn.least[2], 1)} at {best}.{beyond}"
 
 
