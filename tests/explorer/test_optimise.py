@@ -200,12 +200,12 @@ class TestMap:
         rates = f"Inboard {math.degrees(inboard):.1f} °/R, Outboard {math.degrees(outboard):.1f} °/R".replace("-", "−")
         said = least_words(drawn, SI)
         assert said.startswith(f"Least {SI.watts(power, 1)} at {rates}, Break point {place:.2f} R.")
-        assert ("beyond the bound" in said) == (x in (0.0, 1.0) or y in (0.0, 1.0))
+        assert ("lies at the bound" in said) == (x in (0.0, 1.0) or y in (0.0, 1.0))
         middle = np.full_like(drawn.powers, 2e6)
         middle[0, 2] = 1e6
-        assert "beyond the bound of Outboard" in least_words(replace(drawn, powers=middle), SI)
+        assert "lies at the bound of Outboard" in least_words(replace(drawn, powers=middle), SI)
         middle[2, 2] = 0.9e6
-        assert "beyond" not in least_words(replace(drawn, powers=middle), SI)
+        assert "bound" not in least_words(replace(drawn, powers=middle), SI)
 
     def test_it_is_drawn_with_its_least_and_a_design_of_its_concept(self, drawn: PowerMap):
         picture = ET.fromstring(drawing(drawn, drawn.at(0.5, 0.25).twist))
