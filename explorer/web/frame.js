@@ -63,10 +63,10 @@
     // the server computes nothing more for this page, searches apart. It gives the number back that it is sent.
     async idle(wholly = false) {
       const drawn = () => new Promise(requestAnimationFrame);
-      for (let asked = -1; asked !== serial;) {
-        await drawn();  // A slider that is moved changes in the next frame; nothing is kept back longer than 120 ms.
+      for (let asked = -1; asked !== serial || telling;) {
+        await drawn();  // A slider that is moved changes in the next frame; else nothing is kept back over 120 ms.
         await new Promise(done => setTimeout(done, 150));
-        while (bridge === null) await drawn();
+        while (bridge === null || telling) await drawn();  // What cards cover moves the camera.
         const session = sessions;
         RX.send('idle', [asked = serial + 1, wholly]);
         while (state.idle !== asked && session === sessions) await drawn();
