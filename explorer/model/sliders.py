@@ -29,9 +29,6 @@ from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim import PitchGradient
 
-_NO_EFFECT = 0.05
-"""Power changes per step below this, in the unit of power of the page, are no effect: less than the last digit
-shown."""
 _HALVINGS = 6
 """Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
@@ -100,14 +97,14 @@ class SliderSensitivity:
         """Change of total power for one natural step up [W]."""
         return self.slope * slider(self.name, units).natural
 
-    def saving_direction(self, units: Units = SI) -> int:
-        """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes nothing that is shown."""
+    def saving_direction(self, units: Units = SI, digits: int = 1) -> int:
+        """Where to move the slider to save power: 1 up, −1 down, 0 where a step changes none of so many decimals."""
         change = units.power[0].of(self.watts(units))
-        return 0 if abs(change) < _NO_EFFECT else -1 if change > 0.0 else 1
+        return 0 if abs(change) < 0.5 * 10.0**-digits else -1 if change > 0.0 else 1
 
-    def value_text(self, units: Units = SI) -> str:
-        """The change of power for one step up, signed, one decimal: `−2.6`."""
-        return number(units.power[0].of(self.watts(units)), 1, sign=True)
+    def value_text(self, units: Units = SI, digits: int = 1) -> str:
+        """The change of power for one step up, signed: `−2.6`."""
+        return number(units.power[0].of(self.watts(units)), digits, sign=True)
 
     def unit_text(self, units: Units = SI) -> str:
         """What belongs behind the number: `kW per °/R`, `kW/0.1 R`, `hp/200 lb`."""

@@ -97,7 +97,7 @@ class PlanDisk:
 class PlanPart:
     """Everything that the page's plan of the disk is drawn from; lengths are in radii.
 
-    `root`: where the blade begins. `flight`: airspeed in
+    `root`: where the blade begins. `sides`: what lies at ψ = 0°, 90°, 180° and 270°. `flight`: airspeed in
     words. `around`: the axes of the angle of attack over azimuth. `mu`: advance ratio along the disk. `values`: what is
     read under the pointer, by name, once nothing moves: `psi` of the columns begins at zero, `r` of the rows goes from
     `root` to 1. `alpha_a`: angle of attack of A [°]. `held`: what the outlines beside are of while the blade is in the
@@ -110,6 +110,7 @@ class PlanPart:
     field: str
     unit: str
     regions: Sequence[PlanRegion]
+    sides: Sequence[str]
     flight: str
     around: DrawnChart
     mu: float

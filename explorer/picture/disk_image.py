@@ -16,11 +16,14 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map, greyed
 from explorer.picture.airframe import Airframe
 from explorer.picture.polar import Bytes, MarkedRegion, Places, PolarGrid
+from rotor import Design
 from rotor.support.arrays import Array
 from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
+Sides = tuple[str, str, str, str]
+"""Words about the disk at ψ = 0°, 90°, 180° and 270°; empty: none there."""
 SIZE = 512
 """Pixels along each edge of a picture for export, where nothing else is asked for."""
 LARGEST = 2400
@@ -213,20 +216,28 @@ def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
     return encode_png(mask, entries, effort=6)
 
 
-@lru_cache(maxsize=1)
-def ring_mask() -> Bytes:
-    """Rim, azimuth ticks, sense of rotation and four words, shape (RING_SIZE, RING_SIZE). Row 0 is at the nose."""
+def sides(design: Design) -> Sides:
+    """What lies at ψ = 0°, 90°, 180° and 270°: of the helicopter, or of the stream past a rotor tested alone."""
+    if design.condition.stand is None:
+        return "TAIL", "ADVANCING", "NOSE", "RETREATING"
+    return ("DOWNSTREAM", "ADVANCING", "UPSTREAM", "RETREATING") if design.condition.advance_ratio else ("", "", "", "")
+
+
+@lru_cache(maxsize=3)
+def ring_mask(words: Sides) -> Bytes:
+    """Rim, azimuth ticks, sense of rotation and the words, shape (RING_SIZE, RING_SIZE). Row 0 is at ψ = 180°."""
     ring = _Ring(RING_SIZE * _OVERSAMPLING)
     ring.circle(1.012, 0.0035, 150)
     for degrees in range(0, 360, 10):
         long, medium = degrees % 90 == 0, degrees % 30 == 0
         reach = 0.034 if long else 0.024 if medium else 0.013
         ring.tick(degrees, 1.024, 1.024 + reach, 0.0040 if long else 0.0027, 215 if long else 125)
-    ring.word("NOSE", 180.0, 1.122, 0.084, outward=True)
+    aft, advancing, ahead, retreating = words
+    ring.word(ahead, 180.0, 1.122, 0.084, outward=True)
     # Beside the boom, neither fin nor stabilator hides it.
-    ring.word("TAIL", 15.0, 1.122, 0.084, outward=False)
-    ring.word("ADVANCING", 90.0, 1.122, 0.079, outward=False)
-    ring.word("RETREATING", 270.0, 1.122, 0.079, outward=True)
+    ring.word(aft, 15.0, 1.122, 0.084, outward=False)
+    ring.word(advancing, 90.0, 1.122, 0.079, outward=False)
+    ring.word(retreating, 270.0, 1.122, 0.079, outward=True)
     for degrees in (0, 90, 180, 270):
         ring.word(f"{degrees}°", degrees + 3.4, 1.051, 0.036, outward=degrees > 90, strength=185)
     ring.arrow(116.0, 146.0, 1.092, 0.0055, 195)

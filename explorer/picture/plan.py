@@ -10,6 +10,7 @@ from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, number
 from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion
+from explorer.picture.disk_image import sides
 from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.polar import (
@@ -169,6 +170,7 @@ def plan(
         field=field.title,
         unit=field.unit,
         regions=_regions(solution, view, pinned),
+        sides=sides(solution.design),
         flight=UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
         around=drawn_chart(around_chart(solution)),
         mu=round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),

@@ -239,8 +239,7 @@ class SceneController:
             theme = scene_theme(view.dark)
             self.scene.set_theme(theme)
             self._overlay.set_theme(theme)
-            self.scene.fit(solution.design.rotor)
-            self.scene.set_alone(solution.design.condition.stand is not None)
+            self.scene.fit(solution.design)
             self.scene.show(picture, still=not self._page.playing)
             other = self._overlay.show(overlay, solution, view, at_rest=False)
             self._page.form(self.scene.rotor.forms(picture.blades) | other)
@@ -280,7 +279,7 @@ class SceneController:
                 self.scene.hide_compared()
             else:
                 picture = make_picture(compared, view)
-                nodes = self.scene.show_compared(compared.design.rotor, picture)
+                nodes = self.scene.show_compared(compared.design, picture)
                 self._page.form(nodes.forms(picture.blades))
                 self._page.paint(compared, field, drawn.colour_range, view, COMPARED)
         self._client.flush()

@@ -16,7 +16,7 @@ from explorer.picture import disk_image
 from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import BladeForm, Faces, Mesh, blade_shape, joined_meshes, straight
 from explorer.picture.picture import Blades, Picture, Pose, axis_rotation
-from rotor import Rotor
+from rotor import Design, Rotor
 
 ROTOR, COMPARED = "/rotor", "/compared"
 """Names of the rotor of the sliders and of the one that it is compared with."""
@@ -34,6 +34,7 @@ class RotorNodes:
     def __init__(self, api: viser.SceneApi, name: str, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._name, self._theme = api, name, theme
         self._fitted: Rotor | None = None
+        self._sides: disk_image.Sides = ("", "", "", "")
         self.frame = api.add_frame(name, show_axes=False)
         self._head = add_solid(api, f"{name}/head", mast(1.0), theme.head)
         self._blades: list[viser.MeshHandle] = []
@@ -103,7 +104,17 @@ class RotorNodes:
         self._head.color = theme.head
         for k, blade in enumerate(self._blades):
             blade.color = theme.blade if k else theme.reference_blade
-        viser_compat.set_png(self.words, disk_image.tinted_png(disk_image.ring_mask(), theme.lettering))
+        self._write()
+
+    def name_sides(self, sides: disk_image.Sides) -> None:
+        """Write about the disk what lies at ψ = 0°, 90°, 180° and 270°."""
+        if sides != self._sides:
+            self._sides = sides
+            self._write()
+
+    def _write(self) -> None:
+        mask = disk_image.ring_mask(self._sides)
+        viser_compat.set_png(self.words, disk_image.tinted_png(mask, self._theme.lettering))
 
 
 class Scene:
@@ -135,22 +146,29 @@ class Scene:
         self._light_up()
         self._fit_airframe(rotor)
 
-    def fit(self, rotor: Rotor) -> None:
+    def fit(self, design: Design) -> None:
+        """Make room for a design; a rotor tested alone has no airframe."""
+        rotor, alone = design.rotor, design.condition.stand is not None
         if rotor != self._fitted:
             self._fitted = rotor
             self._fit_airframe(rotor)
         self.rotor.fit(rotor)
+        self.rotor.name_sides(disk_image.sides(design))
+        if alone != self._alone:
+            self._alone = alone
+            self._set_visible()
 
     def show(self, picture: Picture, still: bool = True) -> None:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
         self.rotor.show(picture, still)
         place_node(self._airframe, picture.airframe)
 
-    def show_compared(self, rotor: Rotor, picture: Picture) -> RotorNodes:
+    def show_compared(self, design: Design, picture: Picture) -> RotorNodes:
         """A second rotor at the place of the first: the page draws it left of a handle and the first right of it."""
         if self._compared is None:
-            self._compared = RotorNodes(self._api, COMPARED, rotor, self._theme)
-        self._compared.fit(rotor)
+            self._compared = RotorNodes(self._api, COMPARED, design.rotor, self._theme)
+        self._compared.fit(design.rotor)
+        self._compared.name_sides(disk_image.sides(design))
         self._compared.show(picture)
         self._comparing = True
         self._set_visible()
@@ -165,12 +183,6 @@ class Scene:
         """Whether the aircraft flies far behind something else: shadow, words and colours of the disk make room."""
         self.behind = behind
         self._set_visible()
-
-    def set_alone(self, alone: bool) -> None:
-        """Whether the rotor is tested alone, without an airframe."""
-        if alone != self._alone:
-            self._alone = alone
-            self._set_visible()
 
     def set_close(self, close: bool) -> None:
         """Whether one blade is looked at from near: airframe, shadow and words make room."""

@@ -66,6 +66,7 @@ def _still_page(solution: Solution, view: ViewState, colour_range: tuple[float, 
         server.initial_camera.look_at = camera.look_at
         server.initial_camera.fov = FIELD_OF_VIEW
         scene = Scene(server.scene, solution.design.rotor, scene_theme(view.dark))
+        scene.fit(solution.design)
         # A file should be small: elastic twist alone is drawn with one shape for all, that of the reference blade.
         # Nothing in the file could say that bending is drawn larger.
         picture = make_picture(solution, view, solution.design.active_twist is not None, bent=False)

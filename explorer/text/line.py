@@ -117,9 +117,10 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
     ]
     if band is not None and band.of_total:
         within = unit.of(band.band)
+        digits = max(fineness(power, units), decimals(within))
         part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
         title = f"± holds {part} times in {of}: so often measured powers of rotors lie in it that did not set its size"
-        pieces.append(LinePiece(f" ± {number(within, decimals(within))}", "within", stale=not known, title=title))
+        pieces.append(LinePiece(f" ± {number(within, digits)}", "within", stale=not known, title=title))
     return [*pieces, LinePiece(f" {unit.symbol}{' from the air' if driven else ''}", "verb")]
 
 

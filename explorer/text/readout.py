@@ -114,7 +114,7 @@ def direction(percent: float) -> str:
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
     """Decimals of a power: one for a light helicopter, none for a heavy one; in watts likewise."""
-    return 1 if power.total < (200.0 if units.power[0] is WATT else 2e5) else 0
+    return 1 if abs(power.total) < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
 def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:

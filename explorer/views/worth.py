@@ -6,20 +6,22 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Literal
 
+from explorer.colours import PARTS
 from explorer.model.inputs import LAWS, Inputs
 from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, limits, slider, twist_sensitivities
-from explorer.model.units import SI, Units
+from explorer.model.units import SI, Units, number
 from explorer.parts.results import SliderSaving
-from explorer.text.readout import banded
+from explorer.text.readout import banded, fineness
 from explorer.views.page_state import PageState, Panel, PanelWork, Tell
 from explorer.views.work import has_power, shown_doubt
 from rotor import doubt, solve
 from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import sureness
+from rotor.trim.power import PowerBudget
 
-_HALF_LENGTH = 6.0
-"""Change of a step in the unit of power at which the arrow has half the greatest length, so that none looks as long as
-a larger one."""
+_HALF_LENGTH = 0.005
+"""Change of a step, as a part of the power that is needed, at which the arrow has half the greatest length, so that
+none looks as long as a larger one."""
 
 
 def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
@@ -76,33 +78,41 @@ def worth(now: PageState) -> dict[str, Any]:
         return {"worth": rows}
     (gradient, of_now), (flight, flight_of_now), *rest = map(now.latest, asked)
     bands: Mapping[str, float] = (rest[0][0] if rest else None) or {}
+    power = state.solution.power
     sure = now.latest(shown_doubt(now)[0])[0]
     part = None if sure is None or not sure.power else sure.band / abs(sure.power)
     if gradient is not None and state.solution.design == state.inputs.design():
         for name, one in twist_sensitivities(state.inputs, gradient).items():
-            rows[name] = worth_row(one, now.units, bands.get(name), stale=not of_now)
+            rows[name] = worth_row(one, power, now.units, bands.get(name), stale=not of_now)
     for name, one in (flight or {}).items():
-        rows[name] = worth_row(one, now.units, part and part * abs(one.watts(now.units)), stale=not flight_of_now)
+        band = part and part * abs(one.watts(now.units))
+        rows[name] = worth_row(one, power, now.units, band, stale=not flight_of_now)
     return {"worth": rows}
 
 
-def worth_row(one: SliderSensitivity, units: Units, band: float | None = None, *, stale: bool = False) -> SliderSaving:
-    """The change of power by a step up, with its sign and band [W], and which way saves unless that is unclear."""
+def worth_row(
+    one: SliderSensitivity, power: PowerBudget, units: Units, band: float | None = None, *, stale: bool = False
+) -> SliderSaving:
+    """The change of `power` by a step up, with its sign and band [W], and which way saves unless that is unclear; one
+    decimal more than power has."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
-    way = ways[one.saving_direction(units)]
-    value = one.value_text(units) if way else "no effect"
+    digits = 1 + fineness(power, units)
+    way = ways[one.saving_direction(units, digits)]
+    value = one.value_text(units, digits) if way else "no effect"
     title = SLIDERS[one.name].label.partition(" [")[0]
     step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
     change = one.watts(units)
-    said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=1, sign=True)
-    sentence = f"{title}: {step} more changes power by {said if way else f'less than 0.05 {units.power[0].symbol}'}."
+    said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
+    less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
+    sentence = f"{title}: {step} more changes power by {said if way else less}."
     if way and band is not None and sureness(change, band) == "unclear":
         way, value = "", f"{value} {one.unit_text(units)}"
     elif way:
         sentence += f" A {'higher' if way == 'up' else 'lower'} value saves power."
-    size = abs(units.power[0].of(one.watts()))
-    return SliderSaving(way, value, one.unit_text(units), round(size / (size + _HALF_LENGTH), 3), sentence, stale)
+    size, needed = abs(one.watts()), sum(max(getattr(power, name), 0.0) for name in PARTS)
+    part = round(size / (size + _HALF_LENGTH * needed), 3) if size else 0.0
+    return SliderSaving(way, value, one.unit_text(units), part, sentence, stale)
 
 
 WORTH = Panel(worth, works=slopes_asked)

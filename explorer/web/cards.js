@@ -6,17 +6,22 @@
   RX.paint('power', power => {
     const card = part('power'), {parts} = power;
     const widths = parts.map(({share}) => Math.max(share, 0));
-    const total = Math.max(widths.reduce((sum, width) => sum + width, 0), 1e-6);
-    const bars = widths.map((width, k) =>
-      `<div style="flex:${width / total};background:var(--rx-${parts[k].part})"></div>`).join('');
+    // What a part gives back lies over the end of what the others need: both ends of the rest bound the total.
+    const given = parts.filter(({share}) => share < 0), back = given.reduce((sum, {share}) => sum - share, 0);
+    const needed = widths.reduce((sum, width) => sum + width, 0), below = Math.max(back - needed, 0);
+    const total = Math.max(needed + below, 1e-6);
+    const bars = [`<div style="flex:${below / total}"></div>`, ...widths.map((width, k) =>
+      `<div style="flex:${width / total};background:var(--rx-${parts[k].part})"></div>`)].slice(below ? 0 : 1).join('');
+    const over = back && `<s style="width:${100 * back / total}%">${given.map(({part, share}) =>
+      `<i style="flex:${-share};background:var(--rx-${part})"></i>`).join('')}</s>`;
     const ideal = power.ideal === null ? ''
-      : `<u style="left:${100 * power.ideal / total}%" title="${text(power.ideal_title)}"></u>`;
+      : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
     const spoken = parts.map(one => `${one.name} ${one.value}`);
     card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
-        <div>${bars}${ideal}</div><dl>${key}</dl></div>
+        <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');

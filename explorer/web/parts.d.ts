@@ -396,6 +396,7 @@ interface RxPlanPart {
   field: string;
   unit: string;
   regions: RxPlanRegion[];
+  sides: string[];
   flight: string;
   around: RxDrawnChart;
   mu: number;

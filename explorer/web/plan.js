@@ -67,15 +67,16 @@
   }
 
   function drawRim() {
-    const {x, y, radius, width} = layout, {flight, root} = RX.shown('plan');
+    const {x, y, radius, width} = layout, {flight, root, sides} = RX.shown('plan');
     const marks = Array.from({length: 36}, (_, k) => 10 * k).map(psi =>
       trace([xy(1.008, psi), xy(psi % 90 === 0 ? 1.04 : psi % 30 === 0 ? 1.026 : 1.014, psi)]));
     // The sides are named below the circle, where no line to a label passes. Outside the rim: the sense of rotation.
+    const of = side => sides[side] && `${sides[side]} · `;
     const ahead = flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(flight)}</tspan>`;
     const below = y + radius + 27, side = Math.max(radius, 172), words = [
-      [x, below, 'middle', 'TAIL · ψ 0°'], [Math.min(x + side, width - 8), below, 'end', 'ADVANCING · 90° →'],
-      [Math.max(x - side, 8), below, 'start', '← RETREATING · 270°'],
-      [x, y - radius - 15, 'middle', `NOSE · 180°${ahead}`],
+      [x, below, 'middle', `${of(0)}ψ 0°`], [Math.min(x + side, width - 8), below, 'end', `${of(1)}90°${sides[1] && ' →'}`],
+      [Math.max(x - side, 8), below, 'start', `${sides[3] && '← '}${of(3)}270°`],
+      [x, y - radius - 15, 'middle', `${of(2)}180°${ahead}`],
     ].map(([left, top, anchor, word]) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${word}</text>`);
     const out = 1.055, arc = `M${xy(out, 32)}A${out * radius} ${out * radius} 0 0 0 ${xy(out, 52)}`;
     const head = [[1.03, 52], [out, 57], [1.08, 52]].map(([r, psi]) => xy(r, psi));

@@ -120,7 +120,7 @@ class TestRanges:
 class TestFlatPictures:
     def test_words_stand_at_their_sides(self):
         """Ink in the band of the words: nose above, tail below, advancing right, retreating left."""
-        mask = disk_image.ring_mask().astype(float)
+        mask = disk_image.ring_mask(disk_image.sides(make_design(mu=0.2))).astype(float)
         size = len(mask)
         middle = 0.5 * (size - 1)
         row, column = np.nonzero(mask > 0)
@@ -131,6 +131,13 @@ class TestFlatPictures:
             assert np.count_nonzero(np.abs((words - centre + 180) % 360 - 180) < 12) > 500
         assert np.count_nonzero(np.abs(words - 225) < 20) == 0
         assert r.min() > 1.0  # Nothing lies on the disk itself.
+
+    def test_a_rotor_tested_alone_has_no_nose(self):
+        assert disk_image.sides(make_design(mu=0.2)) == ("TAIL", "ADVANCING", "NOSE", "RETREATING")
+        assert disk_image.sides(make_design(rotor="hart2")) == ("DOWNSTREAM", "ADVANCING", "UPSTREAM", "RETREATING")
+        still = disk_image.sides(make_design(rotor="caradonna-tung", mu=0.0))
+        words = [disk_image.ring_mask(each) for each in (still, disk_image.sides(make_design()))]
+        assert np.count_nonzero(words[0]) < np.count_nonzero(words[1])
 
 
 class TestAirLines:

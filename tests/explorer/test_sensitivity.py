@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.model.inputs import FLIGHT, LAWS, Inputs, preset_inflow
+from explorer.model.inputs import FLIGHT, LAWS, Inputs, preset_inflow, with_rotor
 from explorer.model.sliders import (
     SLIDERS,
     SliderSensitivity,
@@ -16,7 +16,7 @@ from explorer.model.sliders import (
     slider,
     twist_sensitivities,
 )
-from explorer.model.units import AVIATION, SI, UNITS
+from explorer.model.units import AVIATION, SI, UNITS, number
 from explorer.views.worth import step_bands, worth_row
 from rotor import doubt
 from rotor.trim.analysis import Analysis, power_gradient
@@ -95,28 +95,45 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     inputs = Inputs(law="builtin")
     solution = solve(inputs.design()).require()
     found = flight_sensitivities(solution)
-    faster = worth_row(found["advance_ratio"], SI)
+    faster = worth_row(found["advance_ratio"], solution.power, SI)
     assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
     assert (faster.value[0], faster.way, faster.unit) == ("+", "down", "kW/0.01")
     assert faster.sentence == (
         f"Adv. ratio µ: 0.01 more changes power by {faster.value} kW. A lower value saves power."
     )
-    twist = worth_row(SliderSensitivity("built_outer", -900.0), SI)
+    twist = worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI)
     assert (twist.value, twist.way, twist.unit) == ("−0.9", "up", "kW per °/R")
-    bent = worth_row(SliderSensitivity("quadratic_curvature", -900.0), SI)
+    bent = worth_row(SliderSensitivity("quadratic_curvature", -900.0), solution.power, SI)
     assert bent.unit == "kW per °/R²"
     assert "1°/R more changes power by −0.9 kW. A higher value saves power." in twist.sentence
-    sure, unclear = (worth_row(SliderSensitivity("built_outer", -900.0), SI, band) for band in (400.0, 1100.0))
+    sure, unclear = (
+        worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI, band) for band in (400.0, 1100.0)
+    )
     assert "by −0.9 ± 0.4 kW: sure. A higher value saves power." in sure.sentence
     assert unclear.sentence.endswith("by −0.9 ± 1.1 kW: unclear.")
     assert (unclear.way, unclear.value) == ("", "−0.9 kW per °/R")
-    climb = worth_row(SliderSensitivity("climb_m_s", 100e3), AVIATION)
+    climb = worth_row(SliderSensitivity("climb_m_s", 100e3), solution.power, AVIATION)
     assert "100 ft/min more changes power by +" in climb.sentence
-    nothing = worth_row(SliderSensitivity("built_division", 0.0), SI)
+    nothing = worth_row(SliderSensitivity("built_division", 0.0), solution.power, SI)
     assert (nothing.value, nothing.way) == ("no effect", "")
-    sizes = [worth_row(SliderSensitivity("mass_t", slope), SI).size for slope in (3e4, 9e4, 9e5)]
+    sizes = [worth_row(SliderSensitivity("mass_t", slope), solution.power, SI).size for slope in (3e4, 9e4, 9e5)]
     assert sizes == sorted(set(sizes))  # A larger change has a longer arrow.
     assert sizes[-1] < 1.0
+
+
+@pytest.mark.parametrize("rotor", ["hart2", "2mrts"])
+def test_twist_of_a_small_rotor_has_an_effect(rotor: str):
+    """One decimal more than power has, and an arrow as long as the part of the power that a step changes."""
+    inputs = with_rotor(Inputs(law="builtin"), rotor)
+    solution = solve(inputs.design()).require()
+    (step,) = (
+        one for name, one in twist_sensitivities(inputs, power_gradient(solution)).items() if name == "built_outer"
+    )
+    row = worth_row(step, solution.power, SI)
+    assert row.value == number(1e-3 * step.watts(), 2, sign=True)
+    assert row.way == ("down" if step.watts() > 0.0 else "up")
+    large = worth_row(step, replace(solution.power, profile=2.0 * solution.power.total), SI)
+    assert 0.0 < large.size < row.size
 
 
 def test_the_nearest_design_that_trims_lies_a_step_before_the_end():

@@ -169,7 +169,7 @@ class TestScene:
         handles = dict(server.scene._handle_from_node_name)
         solution = solve(make_design(rotor="r22"))
         for shown in (solve(make_design(mu=0.0)), solve(make_design(preset="thesis", mu=0.2)), solution):
-            scene.fit(shown.design.rotor)
+            scene.fit(shown.design)
             scene.show(make_picture(shown, ViewState()))
         assert dict(server.scene._handle_from_node_name) == handles
         assert [blade.visible for blade in scene.rotor._blades] == [True, True, False, False]
