@@ -235,7 +235,7 @@ def ring_mask(words: Sides) -> Bytes:
     aft, advancing, ahead, retreating = words
     ring.word(ahead, 180.0, 1.122, 0.084, outward=True)
     # Beside the boom, neither fin nor stabilator hides it.
-    ring.word(aft, 15.0, 1.122, 0.084, outward=False)
+    ring.word(aft, 15.0 if aft == "TAIL" else 0.0, 1.122, 0.084, outward=False)
     ring.word(advancing, 90.0, 1.122, 0.079, outward=False)
     ring.word(retreating, 270.0, 1.122, 0.079, outward=True)
     for degrees in (0, 90, 180, 270):
