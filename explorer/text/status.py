@@ -99,7 +99,7 @@ def trust_page() -> Markup:
     """Comparisons by kind."""
     parts: list[Content] = [tag("div.rx-dim", "Point at a row to see the test that verifies it.")]
     for kind, title in KINDS.items():
-        parts.append(tag("h4", title))
+        parts.append(tag("h2", title))
         parts.extend(_trust_row(row) for row in trust_rows() if row.kind == kind)
     return tag("div.rx.rx-small.rx-trust", parts, data_explorer="trust")
 

@@ -18,9 +18,8 @@
       : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
-    const spoken = parts.map(one => `${one.name} ${one.value}`);
     card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
-        title="Power and trim in detail" aria-label="Power and trim in detail: ${text(spoken.join(', '))}">
+        title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
@@ -41,7 +40,7 @@
     page.toggleAttribute('data-assessed', shown);
     if (!one || !shown) return;
     const {against, baselines, vibration} = one;
-    const column = (name, words, more, title = '') => `<div title="${text(title)}"><h4>${name}</h4>${words}
+    const column = (name, words, more, title = '') => `<div title="${text(title)}"><h2>${name}</h2>${words}
       <p class="rxf-dim rxf-num">${more}</p></div>`;
     const blades = baselines.map(([name, title]) => `<button data-do="against" data-value="${name}"
       aria-pressed="${name === against}">${text(title)}</button>`).join('');

@@ -82,7 +82,7 @@
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
         <span role="group" class="rxf-push" aria-label="Actuator">${states.join('')}</span></div>
       <div class="rxf-num" data-words></div>
-      <svg role="img"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
+      <svg role="img" aria-label="Twist at the tip over the flight"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
         <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
     drawButton();
     card.querySelector('input').max = last();
@@ -166,7 +166,7 @@
         <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Try another actuator: drag its twist and mass">What would pay?</button></div>
-      <svg role="img"></svg>
+      <svg role="img" aria-label="Extra power by its parts"></svg>
       <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
     const {svg, width, height} = room();

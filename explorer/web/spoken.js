@@ -1,7 +1,7 @@
 // @ts-check
 // Names that screen readers speak, and keys, for what viser draws without them; focus that survives a repaint.
 (() => {
-  const {closest, soon} = Common;
+  const {closest, soon, viewer} = Common;
   const FOLDER = '[data-dock-region] .mantine-Paper-root[data-with-border] > .mantine-Paper-root';
   const NAMED = 'input:not([type=hidden], [type=checkbox], [role=combobox])';
   const NAMELESS = `[data-dock-region] :is([role=slider], ${NAMED}, textarea):is(:not([aria-label]), [aria-label=""])`;
@@ -18,7 +18,16 @@
     }
     return control.labels?.length ? '' : control.placeholder?.trim() ?? '';
   }
+  // What viser draws belongs to no part of the page else: its columns, and the scene with its cover.
+  function place() {
+    const parts = [...document.querySelectorAll('[data-dock-region]')].map(dock =>
+      [dock, dock.dataset.dockRegion === 'right' ? 'Controls' : 'Drawer']);
+    for (const [part, words] of [...parts, [viewer()?.canvas?.parentElement, 'Scene']])
+      if (part && part.role !== 'region') [part.role, part.ariaLabel] = ['region', words];
+    for (const cover of document.querySelectorAll('canvas[width="0"]')) cover.ariaHidden = 'true';
+  }
   function name() {
+    place();
     for (const control of document.querySelectorAll(NAMELESS)) {
       const words = labelOf(control);
       if (words) control.ariaLabel = words;

@@ -166,7 +166,7 @@ def keys_help(bound: Iterable[str]) -> Markup:
             groups.setdefault(key.group, []).append(_row(key.title, key.parts))
     for group, title, *parts in _FILE["always"]:
         groups.setdefault(group, []).append(_row(title, parts))
-    lists = [tag("section", tag("h4", group), rows) for group, rows in groups.items()]
+    lists = [tag("section", tag("h2", group), rows) for group, rows in groups.items()]
     return tag("div.rx.rx-keys", lists, data_explorer="keys")
 
 

@@ -1,0 +1,60 @@
+"""No violation of the rules of axe-core, by Deque Systems, in any mode or drawer, light or dark, wide or narrow."""
+
+import sys
+from pathlib import Path
+from typing import Literal
+
+import pytest
+from playwright.sync_api import Browser
+from watched import Visit, Watched, opened
+
+from explorer.app import App
+
+pytestmark = pytest.mark.slow
+
+AXE = next(Path(sys.prefix).glob("axe-core-*/node_modules/axe-core/axe.min.js"), None)
+"""`make page` brings it."""
+CHECK = """async () => (await axe.run(document, {resultTypes: ['violations']})).violations
+    .map(({id, nodes}) => `${id}: ${nodes.slice(0, 3).map(node => node.html.slice(0, 120)).join(' | ')}`)"""
+
+
+def violations(watched: Watched) -> list[str]:
+    """Of what stays: what is stale, or fades in, is faint for a moment."""
+    found = ["not asked"]
+    for _ in range(20):
+        watched.answered()
+        if not (found := watched.page.evaluate(CHECK)):
+            break
+        watched.page.wait_for_timeout(500)
+    return found
+
+
+def with_axe(watched: Watched) -> Watched:
+    assert AXE is not None, "axe-core is not installed: run `make page`"
+    watched.page.evaluate(AXE.read_text(encoding="utf-8"))
+    return watched
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_hard_to_reach(browser: Browser, app: App, scheme: Literal["light", "dark"]):
+    watched = with_axe(opened(browser, app.address, scheme=scheme, size=(1500, 940)))
+    page = watched.page
+    for mode in ("optimise", "actuate", "explore"):
+        watched.mode(mode)
+        assert violations(watched) == [], mode
+    for drawer in ("open", "share", "details", "probe", "trust", "lecture", "settings"):
+        watched.drawer(drawer)
+        assert violations(watched) == [], drawer
+    page.keyboard.press("Escape")
+    page.set_viewport_size({"width": 390, "height": 844})
+    for mode in ("optimise", "actuate", "explore"):
+        watched.mode(mode)
+        assert violations(watched) == [], f"{mode} on a telephone"
+    watched.close()
+
+
+def test_what_is_checked_can_fail(visit: Visit):
+    watched = with_axe(visit())
+    watched.page.evaluate("() => document.body.insertAdjacentHTML('beforeend', '<img src=\"data:,\">')")
+    found = watched.page.evaluate(CHECK)
+    assert any(each.startswith("image-alt") for each in found)
