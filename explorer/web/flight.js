@@ -82,7 +82,8 @@
     write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
         <span role="group" class="rxf-push" aria-label="Actuator">${states.join('')}</span></div>
       <div class="rxf-num" data-words></div>
-      <svg role="img" aria-label="Twist at the tip over the flight"></svg><div class="rxf-fly-bar"><button data-fly="play"></button>
+      <svg role="img" aria-label="Twist at the tip over the flight"></svg>
+      <div class="rxf-fly-bar"><button data-fly="play"></button>
         <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
     drawButton();
     card.querySelector('input').max = last();
