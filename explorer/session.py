@@ -30,18 +30,12 @@ from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
-from rotor.trim import DEFAULT_OPTIONS, SolverOptions
 
 _log = logging.getLogger(__name__)
 _STILL = 0.25
 """[s] without a change after which nothing is dragged; less would delay the frames of keys pressed one by one."""
 _DRAGGED = 0.5
-"""[s] between two updates within a drag, at most."""
-MOVING = SolverOptions(
-    residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
-    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
-)  # fmt: skip
-"""While a slider moves: the same equations, solved to the digits that are shown."""
+"""[s] from a frame to the next change within a drag, at most, however long the frame itself took."""
 
 
 class Session:
@@ -57,10 +51,10 @@ class Session:
         self._all_changed = True
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
         self._curves = PowerCurves()
-        self._begun = -math.inf
-        """When the last update began."""
+        self._framed = -math.inf
+        """When the last update ended."""
         self._rough = self._settling = False
-        """Whether the latest solution is one of a moving slider; whether the next update solves it to the end."""
+        """Whether the latest solution is one of a moving slider; whether the next update solves to the end."""
         # A link with A wakes it before the page is whole.
         self._worker = NewestWins(self._update, self._failed, held=True)
         self._client = client
@@ -82,24 +76,29 @@ class Session:
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self) -> Iterator[float] | None:
         """One slider step up to its frame; returns the steps that follow, None where only the blade was turned."""
-        before, self._begun = self._begun, time.monotonic()
+        try:
+            return self._step()
+        finally:
+            self._framed = time.monotonic()
+
+    def _step(self) -> Iterator[float] | None:
         everything, self._all_changed = self._all_changed, False
-        dragged = self._begun - before < _DRAGGED
-        to_the_end, self._settling = not dragged or self._settling, False
+        dragged = self._worker.woken - self._framed < _DRAGGED
+        moving, self._settling = dragged and not self._settling, False
         now, design = self._read()
-        solution = self._solve(now, design, to_the_end)
+        solution = self._solve(now, design, moving)
         if solution is None:
             return iter(())
         page, pinboard, view = self.page, self.page.context.pinboard, now.view
         # A is solved before the frame only where the scene shows it.
         shown = view.difference or view.wipe
-        pinned = pinboard.solve(solution.design, self._overtaken()) if shown else None
+        pinned = pinboard.solve(solution.design, self._overtaken(), moving) if shown else None
         page.draw(now, solution, pinned, only_azimuth=not everything)
         if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
             return iter(())
         as_built = page.counted_from(now) or baseline_of(solution.design)
-        baseline = solution if as_built == solution.design else self._baseline.solve(as_built)
-        pinned = pinboard.solve(solution.design, self._overtaken())
+        baseline = solution if as_built == solution.design else self._baseline.solve(as_built, moving)
+        pinned = pinboard.solve(solution.design, self._overtaken(), moving)
         state = SessionState(now.inputs, view, solution, baseline, pinned, pinboard.pinned)
         now = replace(now, state=state)
         if not everything and state.only_turned(page.latest.state):
@@ -108,7 +107,7 @@ class Session:
         page.show(now, "address")
         if UPDATES.busy:  # The number goes with the frame: charts wait for those of other pages, and for their sweeps.
             page.show(now, "number")
-        return self._in_turn(self._follow(state, dragged))
+        return self._in_turn(self._follow(state, dragged, moving))
 
     @staticmethod
     def _in_turn(steps: Iterator[float]) -> Iterator[float]:
@@ -132,19 +131,16 @@ class Session:
         preview = self.page.optimise.preview(sliders) if design == sliders else None
         return replace(now, sliders=sliders, preview=preview), preview or design
 
-    def _solve(self, now: PageState, design: Design | None, to_the_end: bool) -> Solution | None:
-        """Design → converged solution; None if there is none, or if the sliders were moved meanwhile.
-
-        A design is refused only by a trim that was solved to the end.
-        """
+    def _solve(self, now: PageState, design: Design | None, moving: bool) -> Solution | None:
+        """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""
         if design is None:
             self._latest = None
-        elif self._latest is None or self._latest.design != design or (self._rough and to_the_end):
-            for options in (DEFAULT_OPTIONS,) if to_the_end else (MOVING, DEFAULT_OPTIONS):
+        elif self._latest is None or self._latest.design != design or (self._rough and not moving):
+            for options in solver.tries(moving):
                 answer = self.page.context.analyses.solve(design, self._good, replace(options, stop=self._overtaken))
                 if not answer.converged and self._overtaken():
                     return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-                self._latest, self._rough = answer, options is MOVING
+                self._latest, self._rough = answer, options is solver.MOVING
                 if answer.converged:
                     break
         solution = self._latest
@@ -157,8 +153,9 @@ class Session:
         self._good = solution
         return solution
 
-    def _follow(self, state: SessionState, dragged: bool) -> Iterator[float]:
-        """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one.
+    def _follow(self, state: SessionState, dragged: bool, moving: bool) -> Iterator[float]:
+        """Everything else, in order of how soon it is needed; `dragged`: another update was just before this one;
+        `moving`: what it shows was not solved to the end.
 
         Each step shows the latest state: the blade may have been turned since.
         """
@@ -184,7 +181,7 @@ class Session:
         if dragged and not self._curves.recent:
             sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
-        if self._rough:
+        if moving:
             self._settling = True
             self._wake()
             return

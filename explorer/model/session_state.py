@@ -156,7 +156,7 @@ class Pinboard:
         while self._put:
             given = self._put[0]  # Removed once it is A: `inputs` reads it until then.
             try:
-                answer = None if given is None else self._by(given.design(), None)
+                answer = None if given is None else self._by(given.design(), None, DEFAULT_OPTIONS)
                 self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
             finally:
                 self._put.popleft()
@@ -173,16 +173,16 @@ class Pinboard:
             design, solution = (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
             self._known = BaselineCache(design, solution, self._by)
 
-    def solve(self, present: Design, hurried: bool = False) -> Solution | None:
+    def solve(self, present: Design, hurried: bool = False, moving: bool = False) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.
 
         A of another rotor keeps its own solution, because its weight differs. A trim that fails is slow, so it
-        is not repeated when `hurried`: a newer update waits.
+        is not repeated when `hurried`: a newer update waits. `moving`: to the digits shown.
         """
         along = self.along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
         if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
             return self.answer
-        self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
+        self.answer = self._known.solve(self.pinned.design(present), moving) if along else self.pinned.solution
         return self.answer
 
 

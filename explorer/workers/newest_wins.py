@@ -8,6 +8,7 @@ no page gets its second before all others had their first.
 import contextlib
 import heapq
 import itertools
+import math
 import os
 import threading
 import time
@@ -109,6 +110,8 @@ class NewestWins:
         """held: no update begins before `release`."""
         self._update, self._on_error, self._pool = update, on_error, pool
         self._wanted = threading.Event()
+        self.woken = -math.inf
+        """When the change came that the latest update is for, or the one that waits, `time.monotonic` [s]."""
         self._stopped = False
         self._state: Literal["held", "idle", "frame", "step", "running"] = "held" if held else "idle"
         self._ticket = self._thread = 0
@@ -125,6 +128,7 @@ class NewestWins:
         if self._wanted.is_set():  # Setting it again takes as long as the rest of an edit.
             return
         with self._pool.change:
+            self.woken = time.monotonic()
             self._wanted.set()
             if self._state in ("idle", "step") and not self._stopped:
                 self._line_up_for_frame()

@@ -27,7 +27,7 @@ from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.evaluator import Evaluator, TrimHistory
 from rotor.optimisation.limits import Limits
 from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
-from rotor.trim import analyse, power_gradient
+from rotor.trim import DEFAULT_OPTIONS, SolverOptions, analyse, power_gradient
 from rotor.trim.doubt import Doubt
 
 _NICE = 5
@@ -53,7 +53,19 @@ def prepare_worker(cache_bytes: int = CACHE_BYTES) -> None:
         doubt(trim)
 
 
-Solve = Callable[[Design, Solution | None], Solution]
+MOVING = SolverOptions(
+    residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
+    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
+)  # fmt: skip
+"""While a slider moves: the same equations, solved to the digits that are shown."""
+
+
+def tries(moving: bool) -> tuple[SolverOptions, ...]:
+    """How a design is solved: what moves is refused only by a trim that was solved to the end."""
+    return (MOVING, DEFAULT_OPTIONS) if moving else (DEFAULT_OPTIONS,)
+
+
+Solve = Callable[[Design, Solution | None, SolverOptions], Solution]
 
 
 @dataclass
@@ -63,11 +75,18 @@ class BaselineCache:
     design: Design | None = None
     solution: Solution | None = None
     by: Solve = solve
+    rough: bool = False
+    """Whether it was solved for a moving slider."""
 
-    def solve(self, design: Design) -> Solution:
-        if self.solution is None or design != self.design:
-            self.solution = self.by(design, self.solution if self.solution and self.solution.converged else None)
-            self.design = design
+    def solve(self, design: Design, moving: bool = False) -> Solution:
+        """`moving`: to the digits shown; else to the end."""
+        if self.solution is None or design != self.design or (self.rough and not moving):
+            start = self.solution if self.solution and self.solution.converged else None
+            for options in tries(moving):
+                self.solution, self.design, self.rough = self.by(design, start, options), design, options is MOVING
+                if self.solution.converged:
+                    break
+            assert self.solution is not None
         return self.solution
 
 

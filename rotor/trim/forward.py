@@ -32,6 +32,8 @@ SLOWEST = 1e-4
 FOLLOWING_PASSES = 25
 """Evaluations of the blade elements in one step of continuation: steps that converge take 6 to 20 in nearly all cases,
 and a shorter step costs less than more of them. Our choice."""
+_NEARLY = SolverOptions(residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2)
+"""To which the blade as built is trimmed as a start: each twist is solved to the end from there. Our choice."""
 _FINEST_OF_REST = 0.1
 """Step of continuation over the way left below which it gives up: so small a step means that trims end. Our choice."""
 
@@ -185,7 +187,7 @@ def start_as_built(problem: Problem) -> Guess | None:
 def _trim_as_built(design: Design) -> Guess | None:
     """From where all twists of a condition start, with factors that serve them all; None where it is not found."""
     problem = with_course(build_problem(design))
-    results = (newton(problem, guess) for guess in _simple_guesses(problem))
+    results = (newton(problem, guess, _NEARLY) for guess in _simple_guesses(problem))
     return next((result.guess for result in results if result.converged), None)
 
 

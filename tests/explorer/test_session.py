@@ -16,11 +16,12 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import Analyses
 from explorer.model.sliders import SLIDERS
 from explorer.page import Urgency
-from explorer.session import MOVING, Session
+from explorer.session import Session
 from explorer.text.readout import TRIM_ROWS
 from explorer.views.page_state import PageState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
-from rotor import Design, Solution, solve
+from explorer.workers.solver import MOVING, BaselineCache
+from rotor import Design, Solution, make_design, solve
 from rotor.trim import DEFAULT_OPTIONS, SolverOptions, analyse
 from rotor.trim.solution import Status
 from tests.fake_bridge import Bridge
@@ -91,7 +92,7 @@ def update(session: Session) -> Any:
     """One update after a rest, with all its steps, in which nothing supersedes it; the page with its calls only."""
     page: Any = session.page
     page.calls.clear()
-    session._all_changed, session._begun = True, -math.inf
+    session._all_changed, session._framed = True, -math.inf
     steps = session._update()
     assert steps is not None
     for _ in steps:
@@ -160,7 +161,8 @@ def test_trim_that_does_not_converge_shows_its_own_sentence(session: Session):
 def moved_quickly(session: Session, **values: Any) -> Solution:
     """A step of a drag, and what its frame shows; the steps that follow are done too."""
     page: Any = session.page
-    page.inputs, session._begun, session._all_changed = replace(page.inputs, **values), time.monotonic(), True
+    page.inputs, session._all_changed = replace(page.inputs, **values), True
+    session._worker.woken = session._framed = time.monotonic()
     steps = session._update()
     assert steps is not None
     for _ in steps:
@@ -176,7 +178,6 @@ def test_a_moving_slider_is_solved_to_the_digits_shown_and_at_rest_to_the_end(se
     assert page.calls[-1] == "tabs"
     whole = solve(moving.design)
     assert moving.residual > 1e-10 >= whole.residual
-    session._begun = time.monotonic()
     assert session._all_changed  # It has woken itself.
     steps = session._update()
     assert steps is not None
@@ -201,6 +202,26 @@ def test_a_moving_slider_refuses_only_what_is_solved_to_the_end(session: Session
     assert moved_quickly(session, mass_t=8.6).converged
     assert tried == [MOVING.residual_tolerance, DEFAULT_OPTIONS.residual_tolerance]
     assert "show_failure" not in page.calls
+
+
+def test_a_change_soon_after_a_frame_is_of_a_drag_however_long_it_waited(session: Session):
+    """On a busy server frames take longer than a hand rests between two changes."""
+    page = update(session)
+    session._framed, session._worker.woken = -1000.0, -1000.1 + session_module._DRAGGED
+    page.inputs, session._all_changed = replace(page.inputs, mass_t=8.7), True
+    assert session._update() is not None
+    assert page.frames[-1].solution.residual > 1e-10
+
+
+def test_a_baseline_moves_with_its_slider_and_is_solved_to_the_end_at_rest():
+    known, design = BaselineCache(), make_design(mu=0.21)
+    known.solve(make_design(mu=0.2))
+    moving = known.solve(design, moving=True)
+    assert moving.residual > 1e-10
+    assert known.solve(design, moving=True) is moving
+    at_rest = known.solve(design)
+    assert at_rest.residual <= 1e-10
+    assert known.solve(design, moving=True) is at_rest
 
 
 def test_no_digit_changes_when_a_slider_comes_to_rest():

@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import example, given
@@ -14,10 +15,14 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import build_problem
 from rotor.design.aircraft import Stand
 from rotor.design.quantities import CONDITION, PRESETS, STAND
+from rotor.trim import forward
+from rotor.trim import newton as newton_module
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import easier_condition, first_guess
 from rotor.trim.newton import DEFAULT_OPTIONS, newton
 from rotor.trim.validity import MOST_STALLED
+from tests.patched import empty_caches
+from tests.solved import assert_same_trim
 from tests.tools.designs import FIRST, RIGHT, run, share, wrong
 
 TRIMMABLE = 0.08
@@ -221,3 +226,26 @@ def test_a_hundred_designs():
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_ten_thousand_designs(seed: int):
     check_random(1000, seed)
+
+
+@pytest.mark.parametrize(
+    "case", [{"mu": 0.151}, {"mu": 0.301, "bending": True}, {"mu": 0.401, "mass_kg": 9500.0}], ids=str
+)
+def test_the_blade_as_built_nearly_trimmed_is_as_good_a_start(
+    case: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As the same blade solved to the end."""
+    passes, trims, ended = list[int](), list[Solution](), newton_module._ended
+
+    def counting(*given: Any) -> Any:
+        passes[-1] += given[1].passes
+        return ended(*given)
+
+    monkeypatch.setattr(newton_module, "_ended", counting)
+    for nearly in (forward._NEARLY, DEFAULT_OPTIONS):
+        monkeypatch.setattr(forward, "_NEARLY", nearly)
+        empty_caches()
+        passes.append(0)
+        trims.append(solve(make_design(twist="linear:-12", **case)))
+    assert passes[0] < passes[1]
+    assert_same_trim(*trims)
