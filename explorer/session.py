@@ -30,18 +30,14 @@ from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
-from rotor.trim import DEFAULT_OPTIONS, SolverOptions
+from rotor.trim import DEFAULT_OPTIONS
+from rotor.trim.newton import FEW_DIGITS
 
 _log = logging.getLogger(__name__)
 _STILL = 0.25
 """[s] without a change after which nothing is dragged; less would delay the frames of keys pressed one by one."""
 _DRAGGED = 0.5
 """[s] between two updates within a drag, at most."""
-MOVING = SolverOptions(
-    residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
-    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
-)  # fmt: skip
-"""While a slider moves: the same equations, solved to the digits that are shown."""
 
 
 class Session:
@@ -140,11 +136,11 @@ class Session:
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design or (self._rough and to_the_end):
-            for options in (DEFAULT_OPTIONS,) if to_the_end else (MOVING, DEFAULT_OPTIONS):
+            for options in (DEFAULT_OPTIONS,) if to_the_end else (FEW_DIGITS, DEFAULT_OPTIONS):
                 answer = self.page.context.analyses.solve(design, self._good, replace(options, stop=self._overtaken))
                 if not answer.converged and self._overtaken():
                     return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-                self._latest, self._rough = answer, options is MOVING
+                self._latest, self._rough = answer, options is FEW_DIGITS
                 if answer.converged:
                     break
         solution = self._latest
