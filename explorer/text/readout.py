@@ -5,6 +5,7 @@ Below it, what an actuator saves and costs in words: one place for card, rail an
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -282,19 +283,39 @@ def digits_of(power: float, units: Units, band: float | None = None) -> int:
     return digits if band is None else change_decimals(unit.of(power), unit.of(band), digits)
 
 
-def balance(
-    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None
-) -> list[tuple[str, float, str]]:
-    """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up.
+class BalanceRow(NamedTuple):
+    """What one part needs, or all do; more is positive."""
 
-    savings: as `Verdict.savings`. band: of their sum [W], with which its digits are those of `needs_words`.
+    name: str
+    value: float
+    """In the main unit, as `band`."""
+    text: str
+    """As written: the parts add up to the total."""
+    band: float = 0.0
+    words: str = ""
+    """The band, and whether the sign is known; empty without a band."""
+
+
+def balance(
+    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None, bands: Sequence[float] = ()
+) -> list[BalanceRow]:
+    """What each part needs and what all do.
+
+    savings, bands: as of `Verdict`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    digits = digits_of(sum(power for _, power in savings), units, band)
-    exact = [-units.power[0].of(power) for _, power in savings]
-    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
+    unit, digits = units.power[0], digits_of(sum(power for _, power in savings), units, band)
+    exact = [-unit.of(power) for _, power in savings]
     written = adding(exact, digits)
-    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
-    return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]
+    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
+    within = (*(bands or [0.0] * len(savings)), band or 0.0)
+    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True)
+    return [
+        BalanceRow(
+            name, value, number(shown, digits, sign=True), unit.of(sure),
+            f"{name} {needs_words(-unit.size * value, sure, units)}" if sure else "",
+        )
+        for name, value, shown, sure in rows
+    ]  # fmt: skip
 
 
 def needs(verdict: Verdict, units: Units) -> str:

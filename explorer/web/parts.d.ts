@@ -257,6 +257,8 @@ interface RxPowerBar {
   text: string;
   kind: '' | 'gain' | 'loss';
   total: boolean;
+  band: number;
+  title: string;
 }
 
 interface RxFieldPart {
