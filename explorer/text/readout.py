@@ -98,19 +98,16 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
 
 
 def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None = None) -> Markup:
-    """Change of the total [%], with its band once that is known: green for less, rust for more; a dash without a
-    reference."""
+    """Change of the total [%], with its band once that is known: green for a saving whose sign is known, rust for a
+    cost; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
         return tag("span.rx-dim", BLANK)
     percent = 100.0 * (power.total / reference.total - 1.0)
     words = "" if band is None else band.saving_words
     words = words or f"{number(percent, 1, sign=True)} %"
-    return tag("span.rx-change", words, class_=direction(percent), data_explorer="change")
-
-
-def direction(percent: float) -> str:
-    """CSS class of a change: green for less, rust for more, none below 0.05 %."""
-    return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
+    known = band is not None and band.sureness in ("sure", "likely")
+    kind = "" if not known else "rx-less" if percent < 0.0 else "rx-more"
+    return tag("span.rx-change", words, class_=kind, data_explorer="change")
 
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
@@ -267,9 +264,7 @@ def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBud
     if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
-    kind = "" if percent is None else direction(percent)
-    coloured = (tag("span", text, class_=kind) for text in changes)
-    return _cells(title, (number(a, fine), number(b, fine), *coloured), "rx-sum", tip("total_power"))
+    return _cells(title, (number(a, fine), number(b, fine), *changes), "rx-sum", tip("total_power"))
 
 
 def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:

@@ -92,8 +92,8 @@ class PowerChange(NamedTuple):
 
     @property
     def kind(self) -> Literal["gain", "loss", ""]:
-        """Empty where its sign is unclear."""
-        if self.band is not None and sureness(self.power, self.band) == "unclear":
+        """Empty where its sign is not known."""
+        if self.band is None or sureness(self.power, self.band) == "unclear":
             return ""
         return "loss" if self.power > 0.0 else "gain"
 

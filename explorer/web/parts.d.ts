@@ -291,7 +291,6 @@ interface RxFlightPart {
 interface RxHandPart {
   power: string;
   change: string;
-  kind: '' | 'good' | 'bad';
   now: number;
   before: number;
   digits: number;
