@@ -30,6 +30,7 @@ from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
+from rotor.trim.newton import FEW_DIGITS
 
 _log = logging.getLogger(__name__)
 _STILL = 0.25
@@ -140,7 +141,7 @@ class Session:
                 answer = self.page.context.analyses.solve(design, self._good, replace(options, stop=self._overtaken))
                 if not answer.converged and self._overtaken():
                     return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
-                self._latest, self._rough = answer, options is solver.MOVING
+                self._latest, self._rough = answer, options is FEW_DIGITS
                 if answer.converged:
                     break
         solution = self._latest

@@ -207,13 +207,16 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
 
 def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
-    rows = balance(verdict.savings, units, verdict.net_band)
+    rows = balance(verdict.savings, units, verdict.net_band, verdict.bands)
     ends, reached = [], 0.0
-    for k, (_, power, _) in enumerate(rows):
-        start = 0.0 if k == len(rows) - 1 else reached
-        ends.append((start, start + power))
-        reached += power
-    low, high = min(0.0, *map(min, ends)), max(0.0, *map(max, ends))
+    for row in rows:
+        start = 0.0 if row is rows[-1] else reached
+        ends.append((start, start + row.value))
+        reached += row.value
+    reach = [
+        (min(start, end - row.band), max(start, end + row.band)) for row, (start, end) in zip(rows, ends, strict=True)
+    ]
+    low, high = min(0.0, *(one for one, _ in reach)), max(0.0, *(one for _, one in reach))
     room = _WIDE - _NAME - _NUMBER
 
     def at(power: float) -> float:
@@ -221,15 +224,17 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
 
     height = _ROW * len(rows)
     drawn: list[Content] = [tag("line.zero", x1=at(0.0), x2=at(0.0), y1=0, y2=height)]
-    for k, ((name, _, text), (start, end)) in enumerate(zip(rows, ends, strict=True)):
-        top, kind = _ROW * k, {"+": "more", "−": "less"}.get(text[0], "dim")
+    for k, (row, (start, end)) in enumerate(zip(rows, ends, strict=True)):
+        text, top, kind = row.text, _ROW * k, {"+": "more", "−": "less"}.get(row.text[0], "dim")
         left, width = min(at(start), at(end)), abs(at(end) - at(start))
         weight = 650 if k == len(rows) - 1 else None
         if kind != "dim":
             drawn.append(tag("rect", x=left, y=top + 6, width=width, height=_ROW - 12, class_=kind))
-        drawn.append(tag("text", name, x=0, y=top + 20, font_weight=weight))
+        if row.band:
+            y, left, right = top + 0.5 * _ROW, at(end - row.band), at(end + row.band)
+            drawn.append(tag("line.band", tag("title", row.words), x1=left, x2=right, y1=y, y2=y))
+        drawn.append(tag("text", row.name, x=0, y=top + 20, font_weight=weight))
         look = {"text_anchor": "end", "class_": kind, "font_weight": weight, "data_report": "balance"}
         drawn.append(tag("text", text, x=_WIDE, y=top + 20, **look))
-    listed = ", ".join(f"{name} {text}" for name, _, text in rows)
-    label, box = f"{listed} {units.power[0].symbol}", f"0 0 {_WIDE:g} {height:g}"
-    return tag("svg.balance", drawn, viewBox=box, role="img", aria_label=label)
+    label = ", ".join(row.words or f"{row.name} {row.text} {units.power[0].symbol}" for row in rows)
+    return tag("svg.balance", drawn, viewBox=f"0 0 {_WIDE:g} {height:g}", role="img", aria_label=label)

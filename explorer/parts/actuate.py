@@ -96,6 +96,10 @@ class PowerBar:
     text: str
     kind: Sign
     total: bool
+    band: float = 0.0
+    """Either side of `value`, 0: not known."""
+    title: str = ""
+    """With the band, and whether the sign is known."""
 
 
 @dataclass(frozen=True)

@@ -173,7 +173,6 @@ class HandPart:
 
     power: str
     change: str
-    kind: Kind
     now: float
     before: float
     digits: int

@@ -132,7 +132,7 @@ def change_pieces(
     if band is None and not any(digit in size for digit in "123456789"):
         return [LinePiece(f": no change from {than}", "against")]
     word = "" if band is None else sureness(change, band)
-    kind: Kind = "" if word == "unclear" else "bad" if change > 0.0 else "good"
+    kind: Kind = "" if word in ("", "unclear") else "bad" if change > 0.0 else "good"
     return [
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),

@@ -5,6 +5,7 @@ Below it, what an actuator saves and costs in words: one place for card, rail an
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -97,19 +98,16 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Ma
 
 
 def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None = None) -> Markup:
-    """Change of the total [%], with its band once that is known: green for less, rust for more; a dash without a
-    reference."""
+    """Change of the total [%], with its band once that is known: green for a saving whose sign is known, rust for a
+    cost; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
         return tag("span.rx-dim", BLANK)
     percent = 100.0 * (power.total / reference.total - 1.0)
     words = "" if band is None else band.saving_words
     words = words or f"{number(percent, 1, sign=True)} %"
-    return tag("span.rx-change", words, class_=direction(percent), data_explorer="change")
-
-
-def direction(percent: float) -> str:
-    """CSS class of a change: green for less, rust for more, none below 0.05 %."""
-    return "" if abs(percent) < 0.05 else "rx-less" if percent < 0.0 else "rx-more"
+    known = band is not None and band.sureness in ("sure", "likely")
+    kind = "" if not known else "rx-less" if percent < 0.0 else "rx-more"
+    return tag("span.rx-change", words, class_=kind, data_explorer="change")
 
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
@@ -266,9 +264,7 @@ def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBud
     if part != "total":
         titled = patch(PARTS[part]) + title
         return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
-    kind = "" if percent is None else direction(percent)
-    coloured = (tag("span", text, class_=kind) for text in changes)
-    return _cells(title, (number(a, fine), number(b, fine), *coloured), "rx-sum", tip("total_power"))
+    return _cells(title, (number(a, fine), number(b, fine), *changes), "rx-sum", tip("total_power"))
 
 
 def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:
@@ -282,19 +278,39 @@ def digits_of(power: float, units: Units, band: float | None = None) -> int:
     return digits if band is None else change_decimals(unit.of(power), unit.of(band), digits)
 
 
-def balance(
-    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None
-) -> list[tuple[str, float, str]]:
-    """What each part needs and what all do, more is positive: name, in the main unit, and as written, which adds up.
+class BalanceRow(NamedTuple):
+    """What one part needs, or all do; more is positive."""
 
-    savings: as `Verdict.savings`. band: of their sum [W], with which its digits are those of `needs_words`.
+    name: str
+    value: float
+    """In the main unit, as `band`."""
+    text: str
+    """As written: the parts add up to the total."""
+    band: float = 0.0
+    words: str = ""
+    """The band, and whether the sign is known; empty without a band."""
+
+
+def balance(
+    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None, bands: Sequence[float] = ()
+) -> list[BalanceRow]:
+    """What each part needs and what all do.
+
+    savings, bands: as of `Verdict`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    digits = digits_of(sum(power for _, power in savings), units, band)
-    exact = [-units.power[0].of(power) for _, power in savings]
-    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
+    unit, digits = units.power[0], digits_of(sum(power for _, power in savings), units, band)
+    exact = [-unit.of(power) for _, power in savings]
     written = adding(exact, digits)
-    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), strict=True)
-    return [(name, value, number(shown, digits, sign=True)) for name, value, shown in rows]
+    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
+    within = (*(bands or [0.0] * len(savings)), band or 0.0)
+    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True)
+    return [
+        BalanceRow(
+            name, value, number(shown, digits, sign=True), unit.of(sure),
+            f"{name} {needs_words(-unit.size * value, sure, units)}" if sure else "",
+        )
+        for name, value, shown, sure in rows
+    ]  # fmt: skip
 
 
 def needs(verdict: Verdict, units: Units) -> str:

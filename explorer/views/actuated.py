@@ -7,6 +7,7 @@ Tip twist is that in flight, at the tip, nose up positive: what the actuator add
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Literal, NamedTuple, cast
 
 from explorer.model.actuator_inputs import (
@@ -91,8 +92,8 @@ class PowerChange(NamedTuple):
 
     @property
     def kind(self) -> Literal["gain", "loss", ""]:
-        """Empty where its sign is unclear."""
-        if self.band is not None and sureness(self.power, self.band) == "unclear":
+        """Empty where its sign is not known."""
+        if self.band is None or sureness(self.power, self.band) == "unclear":
             return ""
         return "loss" if self.power > 0.0 else "gain"
 
@@ -252,26 +253,28 @@ def heat_here(now: PageState) -> float:
 
 
 def parts_asked(now: PageState) -> Call | None:
-    """Trims of the present blade, with the actuator's twist, and with its stiffness too; None where not all are
-    known."""
+    """Trims of the blade that changes count from, the present one, with the actuator's twist, with its stiffness, with
+    its mass; None where not all are known."""
     trims, one = now.of(trims_here), actuated_blade(now)
     if trims is None or one is None:
         return None
     flown, bare = trims[0].design, replace(one.design, active_twist=None, pitch_per_rev=())
     twisted = replace(one.design, twist=flown.twist)
-    return Call(powers, ((bare, twisted, one.installed.on(twisted)),))
+    return Call(powers, ((trims[1].design, bare, twisted, one.installed.on(twisted), flown),))
 
 
-def parts_here(now: PageState) -> tuple[tuple[str, float], ...]:
-    """Name and saving [W] of each part in this flight, as `Verdict.savings`; their sum is `ActuatedBlade.here`."""
-    found, trims, drive = now.answers.get(now.of(parts_asked)), now.of(trims_here), now.of(drive_here)
-    if not isinstance(found, tuple) or trims is None or drive is None:
+def parts_here(now: PageState) -> tuple[tuple[str, float, float], ...]:
+    """Name, saving and its band [W] of each part in this flight, the savings as `Verdict.savings`; their sum is
+    `ActuatedBlade.here`."""
+    found, drive = now.answers.get(now.of(parts_asked)), now.of(drive_here)
+    if not isinstance(found, tuple) or drive is None:
         return ()
-    bare, twisted, stiff = cast("tuple[float, float, float]", found)
-    flown, other = (trim.power.total for trim in trims)
-    blades = (("blade", other - bare),) if now.hand.actuator.against == "best-fixed" else ()
-    stiffness = (("stiffness", twisted - stiff),) if twisted != stiff else ()
-    return (*blades, ("gross", bare - twisted), *stiffness, ("mass", stiff - flown), ("drive", 0.0 - drive))
+    steps = pairwise(cast("tuple[tuple[float, float], ...]", found))
+    parts = [
+        (name, before - after, band)
+        for name, ((before, _), (after, band)) in zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
+    ]
+    return (*(part for part in parts if part[1] or part[0] in ("gross", "mass")), ("drive", 0.0 - drive, 0.0))
 
 
 def here_problem(now: PageState) -> str:

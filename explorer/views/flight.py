@@ -147,7 +147,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     return replace(
         state,
         where=pair_words(verdict),
-        bars=_bars(verdict.savings, units, verdict.net_band),
+        bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
@@ -164,13 +164,20 @@ def _earns_here(now: PageState, problem: str) -> EarnsPart:
         now.units.power[0].symbol,
         here=True,
         where="in hover" if hovers else f"at {now.units.speed[0].text(speed)}",
-        bars=_bars(parts, now.units, here and here.band) if parts else (),
+        bars=_bars([part[:2] for part in parts], now.units, here and here.band, [part[2] for part in parts]),
     )
 
 
-def _bars(savings: Sequence[tuple[str, float]], units: Units, band: float | None) -> tuple[PowerBar, ...]:
-    rows = balance(savings, units, band)
-    return tuple(PowerBar(name, round(value, 3), text, _sign(text), name == rows[-1][0]) for name, value, text in rows)
+def _bars(
+    savings: Sequence[tuple[str, float]], units: Units, band: float | None, bands: Sequence[float]
+) -> tuple[PowerBar, ...]:
+    rows = balance(savings, units, band, bands) if savings else []
+    return tuple(
+        PowerBar(
+            row.name, round(row.value, 3), row.text, _sign(row.text), row is rows[-1], round(row.band, 3), row.words
+        )
+        for row in rows
+    )
 
 
 def _sign(text: str) -> Sign:

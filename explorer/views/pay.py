@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from explorer.model.units import SI, Units, number
-from explorer.parts.actuate import SupposePart
+from explorer.parts.actuate import Sign, SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import needs, needs_words
 from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, blade_out, here_problem
@@ -53,12 +53,14 @@ def _stage(now: PageState) -> SupposePart | None:
     saving = line.net(twist, mass)
     if (degrees, mass) == own:
         saving, band = -one.over_flight.power, one.over_flight.band
+    kind: Sign = "gain" if saving > 0.0 else "loss"  # The side of the line.
+    kind = kind if band is None else PowerChange(-saving, band).kind
     most, least = line.mass_allowed(twist), line.twist_for(mass)
     notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     return SupposePart(
         words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
-        kind=PowerChange(-saving, band).kind,
+        kind=kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
         at=(degrees, mass),

@@ -5,14 +5,12 @@ from typing import Any
 
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
-from explorer.parts.results import HandPart, Kind, PowerPart, PowerShare, Status
+from explorer.parts.results import HandPart, PowerPart, PowerShare, Status
 from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel
 
-_NOTICEABLE = 0.05
-"""Changes below this [%] have no colour."""
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
 _STALLED = 0.01
@@ -75,12 +73,6 @@ def status(state: SessionState, units: Units) -> Status:
     return Status("care", words, title)
 
 
-def _kind(change: float, total: float) -> Kind:
-    if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
-        return ""
-    return "good" if change < 0.0 else "bad"
-
-
 def held_power(now: PageState) -> dict[str, Any]:
     """Power and its least beside the blade, while a station of it is held."""
     if now.state is None or now.station is None:
@@ -90,7 +82,6 @@ def held_power(now: PageState) -> dict[str, Any]:
     shown = HandPart(
         power=now.units.watts(power.total, digits),
         change=unit.text(change, digits, sign=True),
-        kind=_kind(change, power.total),
         now=round(unit.of(power.total), 2),
         before=round(unit.of(power.total - change), 2),
         digits=digits,

@@ -178,22 +178,25 @@
       sum = from + value;
       return [from, sum];
     });
-    const all = [0, ...ends.flat()], high = Math.max(...all), span = Math.max(high - Math.min(...all), 1e-6);
+    const bands = bars.flatMap(({band}, k) => [ends[k][1] - band, ends[k][1] + band]);
+    const all = [0, ...ends.flat(), ...bands], high = Math.max(...all), span = Math.max(high - Math.min(...all), 1e-6);
     const Y = value => 20 + (high - value) / span * (height - 62);
     const step = width / bars.length, wide = Math.min(64, 0.66 * step);
-    const drawn = bars.map(({kind, total, name, text: words}, k) => {
+    const drawn = bars.map(({kind, total, name, text: words, band, title}, k) => {
       const [from, to] = ends[k], x = step * (k + .5), top = Math.min(Y(from), Y(to));
       const tall = Math.max(2, Math.abs(Y(to) - Y(from))), above = to > from ? top - 5 : top + tall + (total ? 18 : 14);
       const link = k ? `M${x - step + wide / 2} ${Y(ends[k - 1][1]).toFixed(1)}H${x + (total ? wide : -wide) / 2}` : '';
-      return `<path d="${link}" class="rxf-earns-link"/>
+      const within = band ? `M${x + wide / 2 - 4} ${Y(to - band).toFixed(1)}V${Y(to + band).toFixed(1)}` : '';
+      return `<g><title>${text(title)}</title><path d="${link}" class="rxf-earns-link"/>
         <rect x="${x - wide / 2}" width="${wide}" y="${top.toFixed(1)}" height="${tall.toFixed(1)}" rx="3"
           class="rxf-earns-bar" data-kind="${kind}" ${total ? 'data-total' : ''}/>
+        <path d="${within}" class="rxf-earns-band"/>
         <text x="${x}" y="${above.toFixed(1)}" text-anchor="middle" class="rxf-earns-number rxf-num" data-kind="${kind}"
           ${total ? 'data-total data-explorer="net"' : ''}>${text(words)}</text>
         <text x="${x}" y="${height - 3}" text-anchor="middle" class="rxf-earns-name" ${total ? 'data-total' : ''}>
-          ${text(name)}</text>`;
+          ${text(name)}</text></g>`;
     });
-    svg.ariaLabel = bars.map(bar => `${bar.name} ${bar.text}`).join(', ');
+    svg.ariaLabel = bars.map(bar => bar.title || `${bar.name} ${bar.text}`).join(', ');
     svg.innerHTML = `<path d="M0 ${Y(0).toFixed(1)}H${width}" stroke="var(--rx-faint)"/>${drawn.join('')}`;
   }
 

@@ -257,6 +257,8 @@ interface RxPowerBar {
   text: string;
   kind: '' | 'gain' | 'loss';
   total: boolean;
+  band: number;
+  title: string;
 }
 
 interface RxFieldPart {
@@ -289,7 +291,6 @@ interface RxFlightPart {
 interface RxHandPart {
   power: string;
   change: string;
-  kind: '' | 'good' | 'bad';
   now: number;
   before: number;
   digits: number;

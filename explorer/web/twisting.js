@@ -268,8 +268,7 @@
     const named = marks.map(({name, colour, words, x, at}) => `<path d="M${x} ${y - 7}v14" stroke="var(${colour})"
       stroke-width="${name === 'before' ? 2 : 4}" stroke-linecap="round"/>${
       label(at, y + 33, words, {css: `fill:var(${colour});font-weight:620`})}`);
-    const x = X(now), colour = `var(--rx-${hand.kind || 'ink'})`;
-    const change = `<tspan dx="7" style="fill:${colour}">${text(hand.change)}</tspan>`;
+    const x = X(now), colour = 'var(--rx-ink)', change = `<tspan dx="7">${text(hand.change)}</tspan>`;
     return `<path d="M${from} ${y}H${to}" stroke="var(--rx-faint)" stroke-width="1.5"/>${ticks.join('')}
       ${named.join('')}
       <g opacity="${RX.state.line?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>

@@ -29,6 +29,7 @@ from rotor.optimisation.limits import Limits
 from rotor.support.bytes_cache import CACHE_BYTES, limit_caches
 from rotor.trim import DEFAULT_OPTIONS, SolverOptions, analyse, power_gradient
 from rotor.trim.doubt import Doubt
+from rotor.trim.newton import FEW_DIGITS
 
 _NICE = 5
 """Lower priority than the server, so that frames come before searches where processors are short."""
@@ -53,16 +54,9 @@ def prepare_worker(cache_bytes: int = CACHE_BYTES) -> None:
         doubt(trim)
 
 
-MOVING = SolverOptions(
-    residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
-    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
-)  # fmt: skip
-"""While a slider moves: the same equations, solved to the digits that are shown."""
-
-
 def tries(moving: bool) -> tuple[SolverOptions, ...]:
     """How a design is solved: what moves is refused only by a trim that was solved to the end."""
-    return (MOVING, DEFAULT_OPTIONS) if moving else (DEFAULT_OPTIONS,)
+    return (FEW_DIGITS, DEFAULT_OPTIONS) if moving else (DEFAULT_OPTIONS,)
 
 
 Solve = Callable[[Design, Solution | None, SolverOptions], Solution]
@@ -83,7 +77,7 @@ class BaselineCache:
         if self.solution is None or design != self.design or (self.rough and not moving):
             start = self.solution if self.solution and self.solution.converged else None
             for options in tries(moving):
-                self.solution, self.design, self.rough = self.by(design, start, options), design, options is MOVING
+                self.solution, self.design, self.rough = self.by(design, start, options), design, options is FEW_DIGITS
                 if self.solution.converged:
                     break
             assert self.solution is not None

@@ -9,14 +9,16 @@ No measured power of a rotor with active twist was to be had; published savings 
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from rotor.actuator.kind import InstalledActuator
 from rotor.aero.bending import can_bend
 from rotor.design.design import Design
+from rotor.trim.doubt import doubt
 from rotor.trim.hub_loads import band_inflows, hub_index
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.solution import Solution
-from rotor.trim.solve import analyse, solve
+from rotor.trim.solve import analyse
 
 
 def tip_amplitude(installed: InstalledActuator) -> float:
@@ -81,10 +83,16 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     return EffectInFlight(tuple(power), tuple(index))
 
 
-def powers(designs: Sequence[Design]) -> tuple[float, ...]:
-    """Power of each design [W]. Raises RuntimeError where one does not trim."""
-    known = {design: solve(design).require().power.total for design in dict.fromkeys(designs)}
-    return tuple(known[design] for design in designs)
+def powers(designs: Sequence[Design]) -> tuple[tuple[float, float], ...]:
+    """Power of each design, and the band of its change from the one before, 0 for the first [W].
+
+    Raises RuntimeError where one does not trim.
+    """
+    known = {design: analyse(design) for design in dict.fromkeys(designs)}
+    trims = [known[design] for design in designs]
+    total = [trim.solution.require().power.total for trim in trims]
+    bands = (doubt(here, before).change_band or 0.0 for before, here in pairwise(trims))
+    return tuple(zip(total, (0.0, *bands), strict=True))
 
 
 def pitching_power(solution: Solution) -> float:

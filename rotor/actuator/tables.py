@@ -110,8 +110,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
         "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
         "whole voltage range.",
         f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
-        "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net. Ideal: gross "
-        "with unlimited twist in flight.",
+        "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net, their "
+        "bands do not. Ideal: gross with unlimited twist in flight. Sign: that of net.",
     )
     title = f"Table 5.2  Actuators and concepts compared, advance ratios {mu}"
     return table_of(title, [_comparison(verdict) for verdict in verdicts], notes, keys=2)
@@ -129,16 +129,21 @@ def _comparison(verdict: Verdict) -> Row:
         "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
         "mass kg": f"{installed.masses.aircraft:.0f}",
         "torsion /rev": f"{installed.frequency:.2f}",
-        "ideal kW": kilowatts(verdict.ideal_saving),
-        "gross kW": kilowatts(verdict.gross_saving),
-        "stiffness kW": kilowatts(-verdict.stiffness_cost),
-        "mass kW": kilowatts(-verdict.mass_cost),
+        "ideal kW": _banded(verdict, "ideal", verdict.ideal_saving),
+        "gross kW": _banded(verdict, "gross", verdict.gross_saving),
+        "stiffness kW": _banded(verdict, "stiffness", -verdict.stiffness_cost),
+        "mass kW": _banded(verdict, "mass", -verdict.mass_cost),
         "drive kW": kilowatts(-verdict.drive_cost),
-        "net kW": kilowatts(verdict.net_saving),
-        "± kW": NONE if verdict.net_band is None else kilowatts(verdict.net_band),
+        "net kW": _banded(verdict, "net", verdict.net_saving),
         "sign": NONE if verdict.net_band is None else sureness(verdict.net_saving, verdict.net_band),
         "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
     }
+
+
+def _banded(verdict: Verdict, name: str, saving: float) -> str:
+    """A saving with its band, where that is not zero [kW]."""
+    band = verdict.band_of(name)
+    return f"{kilowatts(saving)} ± {kilowatts(band)}" if band else kilowatts(saving)
 
 
 def kilowatts(power: float) -> str:

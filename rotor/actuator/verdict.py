@@ -57,7 +57,7 @@ class Verdict:
     doubt: Doubt | None
     """How sure the saving is, before the drive."""
     parts_doubt: Mapping[str, Doubt | None]
-    """How sure its parts are, by the names of `savings`; the drive's is known as well as the drive."""
+    """How sure its parts are, by the names of `savings`, and `ideal`; the drive's is known as well as the drive."""
     limits: tuple[Limit, ...]
     caveats: tuple[str, ...]
 
@@ -106,7 +106,12 @@ class Verdict:
     @property
     def net_band(self) -> float | None:
         """Uncertainty of `net_saving`, ± [W]; None where it is not known."""
-        return None if self.doubt is None else self.doubt.change_band
+        return self.band_of("net")
+
+    def band_of(self, name: str) -> float | None:
+        """Uncertainty of a part of `savings`, of the `ideal` saving or of `net`, ± [W]; None where it is not known."""
+        doubt = self.doubt if name == "net" else self.parts_doubt.get(name)
+        return None if doubt is None else doubt.change_band
 
     @property
     def gross_saving(self) -> float:
@@ -154,6 +159,11 @@ class Verdict:
         if self.stiffness_cost:
             parts.append(("stiffness", -self.stiffness_cost))
         return (*parts, ("mass", -self.mass_cost), ("drive", 0.0 - self.drive_cost))
+
+    @property
+    def bands(self) -> tuple[float, ...]:
+        """Bands [W] of `savings`; 0 of the drive's, and where one is not known."""
+        return tuple(self.band_of(name) or 0.0 for name, _ in self.savings)
 
     @property
     def fuel_saving(self) -> float | None:
@@ -239,23 +249,24 @@ def judge(
             resting, near = TwistOptimum((), (), (), pair.mean(_totals(built))), built
         if against == "same-blade":
             counted_from = built
-    bare, bare_power, free = near, resting.power, [best.power for best in base.best]
+    bare, bare_power, free = near, resting.power, [best.solutions[0] for best in base.best]
     if pair.design.elastic:
         resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near)
         near = resting.solutions
         free = [
-            best_twist(installed.on(design), base.concept, [best.values], alone=True).power
+            best_twist(installed.on(design), base.concept, [best.values], alone=True).solutions[0]
             for design, best in zip(pair.designs(), base.best, strict=True)
         ]
     reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
     required = base.segment_changes(installed.placement.divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
-    blades = reached.solutions, near, bare, counted_from, heavy
+    free = [min(two, key=lambda trim: trim.power.total) for two in zip(free, reached.solutions, strict=True)]
+    blades = reached.solutions, near, bare, counted_from, heavy, free
     known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
-    flown, still, own, other, loaded = ([known[id(trim)] for trim in trims] for trims in blades)
+    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
     alike = own == other or against == "best-fixed"
     steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
-    steps |= {"stiffness": (still, own), "mass": (loaded, flown)}
+    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -266,9 +277,7 @@ def judge(
         resting=resting,
         reference_powers=_totals(counted_from),
         bare_power=bare_power,
-        free_power=pair.mean(
-            min(best, solution.power.total) for best, solution in zip(free, reached.solutions, strict=True)
-        ),
+        free_power=pair.mean(_totals(free)),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
         doubt=difference_doubt(pair.shares, loaded, other),
@@ -361,8 +370,7 @@ def _savings(verdict: Verdict) -> str:
 
 
 def part_words(verdict: Verdict, name: str, saving: float) -> str:
-    verb, size, doubt = "costs" if saving <= -MIN_SHOWN_W else "saves", abs(saving), verdict.parts_doubt.get(name)
-    band = verdict.net_band if name == "net" else doubt and doubt.change_band
+    verb, size, band = "costs" if saving <= -MIN_SHOWN_W else "saves", abs(saving), verdict.band_of(name)
     if not band or size < MIN_SHOWN_W:
         return f"{verb} {kilowatt_text(size)}"
     return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1)}"

@@ -2,10 +2,12 @@
 
 An uncertain input adds δ(x) to the power P(x) of twist parameters x, to first order (`rotor.trim.doubt`). The least of
 P + δ lies beside that of P by s = −H⁻¹ ∇δ with H = ∇²P, both by central differences: of the exact gradient of P, and of
-δ. Another inflow model has its own P and H; its least, by one step of Newton's method, is a shift as well. Inputs are
-independent, so the shifts of a parameter are summed as squares. A twist that is off by s needs ½ sᵀ H s more power.
+δ. Another inflow model has its own P and H; its least, by one step of Newton's method, is a shift as well, to its own
+side only. Inputs are independent, so the shifts of a parameter are summed as squares. A twist that is off by s needs
+½ sᵀ H s more power.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -121,19 +123,22 @@ def best_twist_doubt(
     others = [with_other_inflow(each) for each in designs]
     flies = not all(solution.design.hovering for solution in found[0].solutions)
     there = gradients(evaluate_objectives(objective, others, [()] * len(others))) if flies else None
+    below = above = np.square(shifts).sum(axis=1)
     if there is not None:
-        shifts = np.column_stack((shifts, _solved(slopes(there), -there.mean(axis=0))))
+        aside = _solved(slopes(there), -there.mean(axis=0))
+        below, above = below + np.square(np.minimum(aside, 0.0)), above + np.square(np.maximum(aside, 0.0))
+        shifts = np.column_stack((shifts, aside))
         names.append(f"inflow {others[0].models.inflow}")
         words[names[-1]] = names[-1]
     bands = tuple(
         ParameterBand(
             parameter.name,
-            float(max(centre - half, least)),
-            float(min(centre + half, most)),
+            float(max(centre - math.sqrt(down), least)),
+            float(min(centre + math.sqrt(up), most)),
             tuple((words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST_INPUTS]),
         )
-        for parameter, centre, shift, half, least, most in zip(
-            concept.parameters, x, shifts, np.sqrt(np.square(shifts).sum(axis=1)), low, high, strict=True
+        for parameter, centre, shift, down, up, least, most in zip(
+            concept.parameters, x, shifts, below, above, low, high, strict=True
         )
     )
     return BestTwistDoubt(bands, 0.5 * float(np.sum(shifts * (hessian @ shifts))))

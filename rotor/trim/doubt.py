@@ -10,7 +10,7 @@ They say little about how induced power differs between two designs. For that in
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from rotor.aero.inflow import INFLOW_MODELS
@@ -20,6 +20,7 @@ from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
 from rotor.trim.low_speed import hover_share
+from rotor.trim.newton import FEW_DIGITS, Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -260,7 +261,7 @@ def _inflow_differences(here: Solution, there: Solution) -> dict[str, float]:
     designs = here.design, there.design
     size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
     hovering = any(design.hovering for design in designs)
-    first, second = (None if hovering else _power_with_other_inflow(design) for design in designs)
+    first, second = (None if hovering else _power_with_other_inflow(each) for each in (here, there))
     induced = size["hover_wake_percent"] * (here.power.induced - there.power.induced)
     if first is None or second is None:
         return {"hover_wake_percent": induced}
@@ -276,10 +277,21 @@ def with_other_inflow(design: Design) -> Design:
     return replace(design, models=replace(design.models, inflow=inflow))
 
 
-@lru_cache(maxsize=64)
-def _power_with_other_inflow(design: Design) -> float | None:
+@dataclass(frozen=True)
+class _Asked:
+    design: Design
+    start: Guess = field(compare=False)
+    """Of the trim of the same design."""
+
+
+def _power_with_other_inflow(solution: Solution) -> float | None:
     """[W]; None where it does not trim."""
-    other = solve(with_other_inflow(design))
+    return _power(_Asked(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
+
+
+@lru_cache(maxsize=64)
+def _power(asked: _Asked) -> float | None:
+    other = solve(asked.design, asked.start, FEW_DIGITS)
     return known_power(other) if other.converged else None
 
 

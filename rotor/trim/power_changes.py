@@ -5,8 +5,9 @@ At a trim x of a design, with the multipliers a of power, Jᵀ a = ∂P/∂x, a 
     ΔP = P(d', x) − P(d, x) − a·[R(d', x) − R(d, x)]:
 
 one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay. Only
-another path of the wake has a trim of its own, because its change is not small. Where that trim does not converge, the
-first order stands in the band by a name of its own.
+another path of the wake has a trim x' of its own, because its change is not small. A few steps towards it suffice: with
+P(d', x') in place of P(d', x), and R as well, what is left of R counts to first order. Where that trim does not
+converge, the first order stands in the band by a name of its own.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,7 +28,7 @@ from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import hover_share
-from rotor.trim.newton import newton
+from rotor.trim.newton import FEW_DIGITS, newton
 from rotor.trim.power import outside_power
 from rotor.trim.solution import Solution
 
@@ -89,10 +90,8 @@ class _PowerNearby:
 
     def along_beddoes(self, part: float) -> float | None:
         """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; None without a trim."""
-        there = newton(self.along(part), self._guess)
-        if not there.converged:
-            return None
-        return (self._main(there.problem, there.point.z, there.point.q) - self._start) * self._gain
+        there = newton(self.along(part), self._guess, FEW_DIGITS)
+        return self._difference(there.problem, there.point) if there.converged else None
 
     def along(self, part: float) -> Problem:
         """With the wake moved by that part."""

@@ -20,6 +20,7 @@ from explorer.model.actuator_inputs import (
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.units import SI
 from explorer.parts.actuate import FlightPart
+from explorer.text.readout import needs_words
 from explorer.views.actuator import ACTUATOR
 from explorer.views.flight import (
     FLIGHT,
@@ -140,6 +141,15 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     for bar, value in zip(state.bars, written, strict=True):  # Red is loss and green is gain.
         assert bar.value == pytest.approx(value, abs=1.0)
         assert bar.kind == ("" if value == 0.0 else "loss" if value > 0.0 else "gain")
+    bands = {bar.name: bar.band for bar in state.bars}
+    assert bands.pop("drive") == 0.0
+    assert verdict.net_band is not None
+    assert bands["total"] == pytest.approx(1e-3 * verdict.net_band, abs=1e-3)
+    assert bands["mass"] == pytest.approx(
+        1e-3 * verdict.bands[[name for name, _ in verdict.savings].index("mass")], abs=1e-3
+    )
+    assert all(bands.values())
+    assert total.title == f"total {needs_words(verdict.net_saving, verdict.net_band, SI)}"
     assert verdict.fuel_saving is not None
     burnt = -3600.0 * verdict.fuel_saving
     assert state.fuel.replace("−", "-") == f"{burnt:+.1f} kg/h of fuel"

@@ -20,9 +20,10 @@ from explorer.session import Session
 from explorer.text.readout import TRIM_ROWS
 from explorer.views.page_state import PageState
 from explorer.workers.newest_wins import NewestWins, UpdatePool
-from explorer.workers.solver import MOVING, BaselineCache
+from explorer.workers.solver import BaselineCache
 from rotor import Design, Solution, make_design, solve
 from rotor.trim import DEFAULT_OPTIONS, SolverOptions, analyse
+from rotor.trim.newton import FEW_DIGITS
 from rotor.trim.solution import Status
 from tests.fake_bridge import Bridge
 from tests.solved import assert_same_trim
@@ -200,7 +201,7 @@ def test_a_moving_slider_refuses_only_what_is_solved_to_the_end(session: Session
 
     monkeypatch.setattr(Analyses, "solve", hardly)
     assert moved_quickly(session, mass_t=8.6).converged
-    assert tried == [MOVING.residual_tolerance, DEFAULT_OPTIONS.residual_tolerance]
+    assert tried == [FEW_DIGITS.residual_tolerance, DEFAULT_OPTIONS.residual_tolerance]
     assert "show_failure" not in page.calls
 
 
@@ -233,7 +234,7 @@ def test_no_digit_changes_when_a_slider_comes_to_rest():
             continue
         for law in ("two", "three") if "_" in name else ("linear",):
             changed = replace(begun, law=law, **{name: value + 0.2 * slider.natural})
-            moving = analyse(changed.design(), start, MOVING).solution.require()
+            moving = analyse(changed.design(), start, FEW_DIGITS).solution.require()
             rest = solve(changed.design(), moving)
             assert moving.power.total == pytest.approx(rest.power.total, rel=1e-6)
             for key, (_, _, digits, _, read) in TRIM_ROWS.items():

@@ -118,11 +118,16 @@ def compared(preset: str) -> actuator_tables.ActuatorTable:
 COMPARED: Call = (compared, ("flight",))
 
 
+def _saving(cell: str) -> float:
+    """A number, with its band or without."""
+    return float(cell.partition(" ± ")[0])
+
+
 def table_5_2() -> Report:
     """Actuators and concepts compared."""
     rows = compared("flight")
     place = {column: k for k, column in enumerate(rows.columns)}
-    best, gains = rows.rows[0], [float(row[place["net kW"]]) for row in rows.rows]
+    best, gains = rows.rows[0], [_saving(row[place["net kW"]]) for row in rows.rows]
     fitted = next(row for row in rows.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
     columns = {"needed": "needed °", "reach": "nominal °", "net_kw": "net kW", "ideal_kw": "ideal kW"}
     return report(
@@ -131,9 +136,9 @@ def table_5_2() -> Report:
         numbers={
             "rows": float(len(gains)),
             "best_kw": gains[0],
-            "best_band_kw": float(best[place["± kW"]]),
+            "best_band_kw": float(best[place["net kW"]].partition(" ± ")[2]),
             "actuators": float(len({row[0].partition(",")[0] for row in rows.rows})),
-            **{key: float(fitted[place[column]]) for key, column in columns.items()},
+            **{key: _saving(fitted[place[column]]) for key, column in columns.items()},
         },
         positive=sum(gain > 0.0 for gain in gains),
         actuator=best[0],

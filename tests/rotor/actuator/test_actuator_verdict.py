@@ -236,7 +236,10 @@ def test_table_of_verdicts():
     names = ("ideal", "gross", "stiffness", "mass", "drive", "net")
     columns = [table.columns.index(f"{name} kW") for name in names]
     for row in table.rows:
-        ideal, *parts, net = (float(row[k]) for k in columns)
+        ideal, *parts, net = (float(row[k].partition(" ± ")[0]) for k in columns)
+        assert [" ± " in row[k] for k in columns] == [
+            name != "drive" and float(row[k].split()[0]) != 0.0 for name, k in zip(names, columns, strict=True)
+        ]
         assert ideal >= parts[0]  # Free twist saves most, against the same blade.
         assert_allclose(sum(parts), net, atol=0.26)  # Each is rounded to 0.1 kW.
 

@@ -3,18 +3,21 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
 
 import rotor
 from rotor import Design, doubt
+from rotor.aero.lifting_line import WakeCourse
 from rotor.design.uncertain import UNCERTAIN
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.objective import at_condition, over_conditions
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.optimisation.search import Search, best_linear_twist, nearby_flights, run_search
+from rotor.trim.doubt import with_other_inflow
 from tests.patched import Patch
 from tests.uncertain import either_side
 
@@ -44,6 +47,29 @@ def test_the_best_twist_moves_as_new_searches_find(name: str, condition: str, pa
         f"{name} {condition}: {math.degrees(0.5 * (ends[0] - ends[1])):.2f}, first order {math.degrees(expected):.2f}°"
     )
     assert 0.5 * (ends[0] - ends[1]) == pytest.approx(expected, abs=0.15 * 0.5 * (band.high - band.low))
+
+
+@pytest.mark.parametrize(
+    "mu", [0.1, pytest.param(0.2, marks=pytest.mark.slow), pytest.param(0.3, marks=pytest.mark.slow)]
+)
+def test_the_range_holds_the_best_twists_of_other_wakes(mu: float, patch: Patch):
+    """Of Pitt and Peters' inflow, and of a wake along Beddoes' path; each shift as a new search finds it."""
+    design = rotor.make_design(mu=mu)
+    patch("rotor.optimisation.doubt.MOST_INPUTS", 99)
+    best = rotor.optimise(design, "linear", starts=1)
+    (band,), (rate,), shifts = best.doubt_band, best.best.parameters, dict(best.doubt_band[0].causes)
+    found = {"inflow pitt-peters": best_rate(with_other_inflow(design)) - rate}
+    patch("rotor.aero.problem.WakeCourse", partial(WakeCourse, beddoes=1.0))
+    found["path of the wake"] = best_rate(design) - rate
+    for name, shift in found.items():
+        print(f"mu {mu}, {name}: {math.degrees(shift):.2f}, stated {math.degrees(shifts[name]):.2f}°")
+        assert band.low < rate + shift < band.high
+        assert shifts[name] == pytest.approx(shift, abs=0.15 * 0.5 * (band.high - band.low))
+    # Another model is right or it is not: it widens the range to its own side only.
+    model, size = shifts.pop("inflow pitt-peters"), math.hypot(*shifts.values())
+    assert model > 0.0
+    assert rate - band.low == pytest.approx(size)
+    assert band.high - rate == pytest.approx(math.hypot(size, model))
 
 
 def test_a_search_says_how_sure_its_saving_is():
