@@ -86,4 +86,8 @@ class ActuatorControls:
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in DRIVES:
             self._driven()
+        if by_hand and name == "actuator":  # Each kind is seen as it comes, whatever was tried before.
+            start = ActuatorInputs()
+            self.form.place("plies", start.plies)
+            self.form.place("chord", start.chord)
         self._moved()
