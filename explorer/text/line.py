@@ -83,7 +83,7 @@ def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]
         return [LinePiece(" with its twist "), control(outer, _form(outer), 0.0, AS_BUILT), *_waves(design)]
-    pieces = [LinePiece(" with twist "), *([LinePiece(f"{AS_BUILT} ", WIDE)] if built else [])]
+    pieces = [LinePiece(" with twist "), *([LinePiece(f"{AS_BUILT}, ", WIDE), LinePiece("Δ ")] if built else [])]
     last = {one.shown_unit: name for name, one in turns}
     for k, (name, one) in enumerate(turns):
         pieces += [LinePiece(", ")] if k else []
@@ -147,8 +147,12 @@ def change_pieces(
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
     """The limits that are exceeded."""
-    words = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}" if names else ""
-    return [LinePiece(f"; over its limits in {words}", "exceeded", "bad")] if names else []
+    return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
+
+
+def listed(names: Sequence[str]) -> str:
+    """`fibre strain, temperature and mass`"""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def plain(pieces: Sequence[LinePiece], note: str = "") -> str:

@@ -9,7 +9,7 @@ from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import number
 from explorer.picture.lifted_picture import drive_colour
-from explorer.text.readout import mass_words
+from explorer.text.readout import limit_words, mass_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
 from rotor.actuator.verdict import Verdict
 from rotor.design import Harmonic
@@ -69,11 +69,6 @@ def problem_panel(outcome: Outcome | None) -> Markup:
     if not isinstance(outcome, str):
         return Markup()
     return tag("div.rxa-box.rxa-wrong", outcome, data_explorer="no-verdict")
-
-
-def limit_words(name: str) -> str:
-    """The name of a limit as an engineer reads it."""
-    return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
 
 
 def limits_panel(verdict: Verdict | None) -> Markup:

@@ -7,9 +7,8 @@ from typing import Any
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
-from explorer.text.readout import mass_parts, needs_words, pair_words
+from explorer.text.readout import limit_words, mass_parts, needs_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
-from explorer.views.actuator_words import limit_words
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -75,7 +74,8 @@ def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _limit(limit: Limit) -> str:
-    value, bound = (number(end, 0 if limit.bound >= 20.0 else 2) for end in (limit.value, limit.bound))
+    digits = 0 if max(limit.value, limit.bound) >= 20.0 else 2
+    value, bound = (number(end, digits) for end in (limit.value, limit.bound))
     least = "at least " if limit.value < limit.bound else ""
     return f"{limit_words(limit.name)} {value} of {least}{bound} {limit.unit}"
 

@@ -20,9 +20,9 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
 from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
+from explorer.text.readout import limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.actuator_words import limit_words
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
@@ -202,7 +202,10 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
             None if flown.design == other.design else doubt(flown, other).change_band,
         ),
         "power over the flight": as_said(verdict.net_saving, verdict.net_band),
-        **{f"limit {limit.name}": f"{limit.value:.{0 if limit.bound >= 20.0 else 2}f}" for limit in verdict.broken},
+        **{
+            f"limit {limit.name}": f"{limit.value:.{0 if max(limit.value, limit.bound) >= 20.0 else 2}f}"
+            for limit in verdict.broken
+        },
     }
     if min(index) * max(index) > 0.0:
         found["vibration"] = f"{sum(index) / len(index):+.0f}"

@@ -216,7 +216,7 @@ class LecturePanel:
         """What the control sets of the actuator."""
         facts = None if self.place is None else self._facts(self.place.step)
         actuator = None if facts is None or self.place is None else facts.stops[self.place.stop].actuator
-        return HandSettings() if actuator is None else HandSettings(actuator)
+        return HandSettings() if actuator is None else HandSettings(actuator, here=True)
 
     def _designs(self) -> tuple[Inputs, Inputs | None]:
         """B where the control is, and A beside it."""
