@@ -94,9 +94,12 @@ class ActuatorInputs:
         return installed.tip(self.swings(installed))
 
     def reach(self, installed: InstalledActuator) -> tuple[float, float]:
-        """The twist in flight at either end of its voltage, the lower first [rad]."""
-        low, high = (replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in (-100.0, 100.0))
-        return min(low, high), max(low, high)
+        """The twist in flight at either end of its drive, the lower first [rad]; what turns the tip one way only, the
+        way that it is set."""
+        whole = -100.0 if min(self.drives) < 0.0 else 100.0
+        ends = whole, -whole if installed.actuator.retrofit_swings[0] else 0.0
+        low, high = sorted(replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in ends)
+        return low, high
 
     def apply(self, design: Design) -> Design:
         """The design with the actuator on board, driven; the very same one on a blade of unknown structure."""

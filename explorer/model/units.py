@@ -106,13 +106,14 @@ class Units:
         """A power [W] in the other unit, with hundredths where the main one is the watt."""
         return self.power[1].text(value, 2 if self.power[0] is WATT else 0)
 
-    def in_sliders(self, sentence: str) -> str:
-        """A sentence with its masses [kg] in the unit of the slider, never rounded up: more may not trim."""
+    def in_sliders(self, sentence: str, carried: float = 0.0) -> str:
+        """A sentence with its masses [kg] in the unit of the slider, never rounded up: more may not trim. `carried`:
+        mass of an actuator [kg], which the sentence counts and the slider does not."""
         digits = 2 if self.mass is TONNE else 0
         step = self.mass.size / 10.0**digits
 
         def mass(found: re.Match[str]) -> str:
-            return self.mass.text(step * math.floor(float(found[1]) / step), digits)
+            return self.mass.text(step * math.floor((float(found[1]) - carried) / step), digits)
 
         return re.sub(r"(\d+) kg\b", mass, sentence)
 

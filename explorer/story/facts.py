@@ -24,7 +24,8 @@ from explorer.story.steps import (
     on_one_line,
     speed_words,
 )
-from explorer.text.readout import digits_of
+from explorer.text.line import listed
+from explorer.text.readout import digits_of, limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import FlightLeg, fly, try_actuator
 from rotor.actuator.verdict import net_band_words
@@ -350,15 +351,17 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     installed = verdict.installed
     flown = fly(verdict, [FlightLeg(speed_words(mu), mu) for mu in SPEEDS])
     set_to = [ActuatorInputs(ACTUATOR, **schedule_at(flown, installed, k)) for k in range(len(SPEEDS))]
-    net, twist = list[float](), list[float]()
+    net, twist, flights = list[float](), list[float](), list[Solution]()
     for bare, actuator in zip(flight.b, set_to, strict=True):
-        carrying = actuator.apply(bare.design)
-        twisted = replace(bare.design, twist=carrying.twist)
-        for changes, design in ((net, carrying), (twist, twisted)):
-            changes.append(solve(design, bare).require().power.total - bare.power.total)
+        flights.append(solve(actuator.apply(bare.design), bare).require())
+        twisted = solve(replace(bare.design, twist=flights[-1].design.twist), bare).require()
+        for changes, trim in ((net, flights[-1]), (twist, twisted)):
+            changes.append(trim.power.total - bare.power.total)
     start, reach = step.control.start, [math.degrees(end) for end in set_to[0].reach(installed)]
+    over = [limit_words(limit.name) for limit in verdict.broken if limit.name not in installed.actuator.range_limits]
     numbers = (
-        _said(actuator=installed.actuator.name, sure=net_band_words(verdict).rpartition(": ")[2])
+        _said(sure_here=doubt(flights[start], flight.b[start]).sureness or "", limits=listed(over))
+        | _said(actuator=installed.actuator.name, sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
         | _said(reach_low=f"{number(reach[0], 1, sign=True)}°", reach_high=f"{number(reach[1], 1, sign=True)}°")
         | _of("power", gross=-twist[start], cost=net[start] - twist[start], here=net[start])

@@ -20,6 +20,8 @@ from rotor.trim.doubt import Doubt, decimals, sureness
 from rotor.validation import coverage
 
 _STANDS = {"wind-tunnel": "in the wind tunnel", "free-rotor": "turning freely", "controls": "with given controls"}
+WIDE = "wide"
+"""The part of words that a telephone can do without."""
 _COUNTED = ("no", "one", "two", "three", "four", "five")
 
 
@@ -34,8 +36,8 @@ def control(name: str, form: Slider, value: float, text: str = "", *, sign: bool
 def flight_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
     """Aircraft and flight, or the test of the rotor alone."""
     aircraft, stand, speed = inputs.aircraft, inputs.stand, slider("advance_ratio", units, inputs.aircraft)
-    the = "" if aircraft.isolated or inputs.rotor == OWN else "The "
-    pieces = [LinePiece(the + shorten(aircraft.name, 40))]
+    the = [] if aircraft.isolated or inputs.rotor == OWN else [LinePiece("The ", WIDE)]
+    pieces = [*the, LinePiece(shorten(aircraft.name, 40))]
     if stand is None:
         weight = slider("mass_t", units, aircraft)
         pieces += [LinePiece(" of "), control("mass_t", weight, shown(ROWS["mass_t"], inputs.mass_t, units))]
@@ -81,7 +83,7 @@ def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]
         return [LinePiece(" with its twist "), control(outer, _form(outer), 0.0, AS_BUILT), *_waves(design)]
-    pieces = [LinePiece(f" with twist {AS_BUILT} " if built else " with twist ")]
+    pieces = [LinePiece(" with twist "), *([LinePiece(f"{AS_BUILT}, ", WIDE), LinePiece("Δ ")] if built else [])]
     last = {one.shown_unit: name for name, one in turns}
     for k, (name, one) in enumerate(turns):
         pieces += [LinePiece(", ")] if k else []
@@ -137,7 +139,8 @@ def change_pieces(
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),
         LinePiece(beside, "sure-band", kind, not known),
-        LinePiece(f" {units.power[0].symbol} {'more' if change > 0.0 else 'less'}", "more", kind),
+        LinePiece(f" {units.power[0].symbol}", WIDE, kind),
+        LinePiece(" more" if change > 0.0 else " less", "more", kind),
         LinePiece(f" than {than}{note}", "against"),
         *([LinePiece(f", {word}", "sure", "", not known)] if word else []),
     ]
@@ -145,8 +148,12 @@ def change_pieces(
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
     """The limits that are exceeded."""
-    words = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}" if names else ""
-    return [LinePiece(f"; over its limits in {words}", "exceeded", "bad")] if names else []
+    return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
+
+
+def listed(names: Sequence[str]) -> str:
+    """`fibre strain, temperature and mass`"""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def plain(pieces: Sequence[LinePiece], note: str = "") -> str:

@@ -371,3 +371,8 @@ def pair_words(verdict: Verdict) -> str:
     """The two flight conditions of a verdict."""
     first, second = verdict.baseline.pair.advance_ratios
     return f"mean of µ {first:g} and µ {second:g}"
+
+
+def limit_words(name: str) -> str:
+    """The name of a limit as an engineer reads it."""
+    return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")

@@ -60,7 +60,8 @@ def actuated_blade(now: PageState) -> "ActuatedBlade | None":
 def problem(now: PageState) -> str:
     """Why there is no solution, or no such actuator; empty where there are both."""
     found = now.of(_built)
-    return now.units.in_sliders(now.problem) or (found if isinstance(found, str) else "")
+    carried = found.mass if isinstance(found, ActuatedBlade) else 0.0
+    return now.units.in_sliders(now.problem, carried) or (found if isinstance(found, str) else "")
 
 
 def _built(now: PageState) -> "ActuatedBlade | str":

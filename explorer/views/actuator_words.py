@@ -9,7 +9,7 @@ from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import number
 from explorer.picture.lifted_picture import drive_colour
-from explorer.text.readout import mass_words
+from explorer.text.readout import limit_words, mass_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
 from rotor.actuator.verdict import Verdict
 from rotor.design import Harmonic
@@ -71,19 +71,18 @@ def problem_panel(outcome: Outcome | None) -> Markup:
     return tag("div.rxa-box.rxa-wrong", outcome, data_explorer="no-verdict")
 
 
-def limit_words(name: str) -> str:
-    """The name of a limit as an engineer reads it."""
-    return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
-
-
 def limits_panel(verdict: Verdict | None) -> Markup:
-    """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
+    """Every limit: those broken with their sentence, its own first, the others by name; and the data to be wary of."""
     if verdict is None:
         return Markup()
     kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
     good = tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
+    reach = verdict.installed.actuator.range_limits
+    own, asked = ([limit for limit in verdict.broken if (limit.name in reach) == short] for short in (False, True))
+    more = tag("div.rx-care", tag("span", "▲"), tag("span", "The best twist would take more than it has:"))
     cares = [tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats]
-    return tag("div.rx.rxa-limits", map(_limit, verdict.broken), good, cares, data_explorer="limits")
+    beyond = (more, *map(_limit, asked)) if asked else ()
+    return tag("div.rx.rxa-limits", map(_limit, own), beyond, good, cares, data_explorer="limits")
 
 
 def _limit(limit: Limit) -> Markup:

@@ -7,9 +7,8 @@ from typing import Any
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
-from explorer.text.readout import mass_parts, needs_words
+from explorer.text.readout import limit_words, mass_parts, needs_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
-from explorer.views.actuator_words import limit_words
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -75,8 +74,10 @@ def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _limit(limit: Limit) -> str:
-    value, bound = (number(end, 0 if limit.bound >= 20.0 else 2) for end in (limit.value, limit.bound))
-    return f"{limit_words(limit.name)} {value} of {bound} {limit.unit}"
+    digits = 0 if max(limit.value, limit.bound) >= 20.0 else 2
+    value, bound = (number(end, digits) for end in (limit.value, limit.bound))
+    least = "at least " if limit.value < limit.bound else ""
+    return f"{limit_words(limit.name)} {value} of {least}{bound} {limit.unit}"
 
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:
@@ -93,6 +94,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         mass=total,
         masses=tuple(parts),
         flight="" if whole is None else needs_words(-whole.power, whole.band, units),
+        flights="" if one.verdict is None else pair_words(one.verdict),
         vibration=_vibration(one),
         problem=here_problem(now),
         over=over,
@@ -137,8 +139,8 @@ def _change_words(one: ActuatedBlade, other: ActuatorInputs | None) -> str:
     if other is None:
         return ""
     plies = "" if other.plies == one.inputs.plies else f"{other.plies} {one.installed.actuator.noun[other.plies > 1]}"
-    chord = "" if other.chord == one.inputs.chord else f"from {number(other.chord[0], 2)} c"
-    return " ".join(filter(None, (plies, chord)))
+    chord = "" if other.chord == one.inputs.chord else f"chord from {number(other.chord[0], 2)}"
+    return ", ".join(filter(None, (plies, chord)))
 
 
 def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:

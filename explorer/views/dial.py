@@ -39,7 +39,7 @@ _MIN_AMPLITUDE_DEG = 0.02
 _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
-_URGENCY, _LATER, _DELAY_S = 3, 5, 0.4
+_URGENCY, _LATER, _DELAY_S = 4, 5, 0.4
 """How long the design must stand before it is worked on [s]."""
 
 

@@ -146,7 +146,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     used = None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
     return replace(
         state,
-        where=pair_words(verdict),
+        where=f"by schedule, {pair_words(verdict)}",
         bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands),
         fuel=fuel_words(verdict.fuel_saving),
         fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",

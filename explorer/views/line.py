@@ -18,10 +18,9 @@ from explorer.text.line import (
     than_words,
     twist_pieces,
 )
-from explorer.text.readout import fineness
+from explorer.text.readout import fineness, limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, doubt_here, drive_here, in_actuate
 from explorer.views.actuator import DRIVES
-from explorer.views.actuator_words import limit_words
 from explorer.views.flight import STATES
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.power import status
@@ -41,7 +40,8 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
 
 def line(now: PageState) -> LinePart:
     """What the hand has set, and the answer of the last trim; while there is none of it, why."""
-    one, state, units, problem = _on_board(now), now.state, now.units, now.problem
+    one, state, units = _on_board(now), now.state, now.units
+    problem = units.in_sliders(now.problem, 0.0 if one is None else one.mass)
     pieces = flight_pieces(now.shown, units)
     pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
     said = tuple(piece.control.label for piece in pieces if piece.control is not None)
@@ -66,7 +66,8 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     """Its state, and the voltages as controls."""
     state, drives = one.now.hand.state, one.inputs.drives[: len(one.installed.shapes)]
     word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
-    pieces = [LinePiece(f" with {one.name} {word} ")]
+    late = state == "schedule" and one.flight is None
+    pieces = [LinePiece(f" with {one.name} "), LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
         label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
         pieces += [LinePiece(", ")] if k else []

@@ -48,7 +48,7 @@
     const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
       : text(k ? words.slice(1) : words)).join('');
-    // Where there is little room the line alone names the limits; their values are in the rail.
+    // On a low telephone the line alone names the limits; their values are in the rail.
     const listed = (name, list) => list.length ? `<b>${name}:</b>
       ${list.map(words => `<span>${text(words)}</span>`).join(' ')}` : '';
     const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
@@ -60,12 +60,13 @@
         <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
-          `<span>reach ${text(one.reach)}</span>`,
-          'Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %')}
+          `<span>reach ${text(one.reach)}</span><span>${text(vibration)}</span>`,
+          `Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %.
+          Vibration: mean and range over inflow models, blades bend.`)}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('over the flight', `<b class="rxf-num">${text(one.flight || '…')}</b>`, text(vibration),
-          'By schedule. ± is one standard deviation; vibration here: mean and range over inflow models, blades bend.')}
+        ${column('by schedule, over the flight', `<b class="rxf-num">${text(one.flight || '…')}</b>`, text(one.flights),
+          'Whatever is set here. ± is one standard deviation.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
   });

@@ -100,6 +100,7 @@ interface RxAssessedPart {
   mass: string;
   masses: [string, string][];
   flight: string;
+  flights: string;
   vibration: string;
   problem: string;
   over: string[];

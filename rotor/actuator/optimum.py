@@ -24,6 +24,7 @@ from rotor.optimisation.concepts import Concept, nearest, restrict
 from rotor.optimisation.descent import slsqp
 from rotor.support.arrays import Array
 from rotor.support.bytes_cache import bytes_cache
+from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
@@ -85,15 +86,20 @@ class TwistOptimum:
 
 
 def best_twist(
-    design: Design, concept: Concept, starts: Sequence[Sequence[float]] = (), *, alone: bool = False
+    design: Design,
+    concept: Concept,
+    starts: Sequence[Sequence[float]] = (),
+    *,
+    alone: bool = False,
+    known: "_Known | None" = None,
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: search from these starts only."""
-    return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone)
+    return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone, known=known)
 
 
-def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
+def best_fixed(pair: ConditionPair, concept: Concept, *, known: "_Known | None" = None) -> TwistOptimum:
     """The concept's fixed twist of least mean power."""
-    return _search((pair.designs(), pair.shares, ()), concept, None, starts)
+    return _search((pair.designs(), pair.shares, ()), concept, None, (), known=known)
 
 
 def best_actuated(
@@ -112,7 +118,7 @@ def best_actuated(
 def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
     """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
     nearby. RuntimeError where it does not trim."""
-    reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds).descend(())
+    reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds, {}).descend(())
     if reached is None:
         raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
     return reached
@@ -123,21 +129,30 @@ _Flights = tuple[tuple[Design, ...], tuple[float, ...], Sequence[Solution]]
 _Fitted = tuple[InstalledActuator, float] | None
 """An actuator, and the part of its range that is used."""
 _AT_REST = (0.0, 0.0)
+_Known = dict[Design, tuple[Solution, PitchGradient | None]]
+"""What is trimmed already: searches meet in their starts, and a descent asks for its ends again."""
 
 
 def _search(
-    flights: _Flights, concept: Concept, fitted: _Fitted, starts: Sequence[Sequence[float]], *, alone: bool = False
+    flights: _Flights,
+    concept: Concept,
+    fitted: _Fitted,
+    starts: Sequence[Sequence[float]],
+    *,
+    alone: bool = False,
+    known: _Known | None = None,
 ) -> TwistOptimum:
+    known = {} if known is None else known
     installed, driven = fitted and fitted[0], bool(fitted and fitted[1])
     if installed is not None and installed.host.kind == "retrofit":
         low, high = installed.actuator.retrofit_swings
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
-        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes)) for ends in either]
+        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), known) for ends in either]
         jigs: list[Sequence[float]] = [()]
     else:
         segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
         bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
-        tasks, jigs = [_Task(flights, concept, fitted, bounds)], list(starts)
+        tasks, jigs = [_Task(flights, concept, fitted, bounds, known)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
             flatter = tuple(
@@ -156,9 +171,15 @@ class _Task:
     """One descent; each trim starts from the previous one."""
 
     def __init__(
-        self, flights: _Flights, concept: Concept | None, fitted: _Fitted, swings: Sequence[tuple[float, float]] | Array
+        self,
+        flights: _Flights,
+        concept: Concept | None,
+        fitted: _Fitted,
+        swings: Sequence[tuple[float, float]] | Array,
+        known: _Known,
     ) -> None:
         """concept: of the jig twist; None: the designs keep theirs. swings: bounds of each, condition by condition."""
+        self.known = known
         (self.designs, self.shares, near), self.concept = flights, concept
         self.trims: list[Solution | None] = [*near] or [None] * len(self.designs)
         self.segments, self.shapes = 0, np.zeros((0, len(STATIONS)))
@@ -213,12 +234,14 @@ class _Task:
             flown = self.concept.apply(design, jig) if self.concept else design
             if np.any(swings[k]):
                 flown = replace(flown, twist=twisted(flown.twist, swings[k] @ self.shapes))
-            trim = analyse(flown, self.trims[k])
-            solution = trim.solution
-            if not solution.converged:
+            if (found := self.known.get(flown)) is None:
+                trim = analyse(flown, self.trims[k])
+                found = trim.solution, trim.gradient if trim.solution.converged else None
+                self.known[flown] = found
+            solution, by_pitch = found
+            if by_pitch is None:
                 return None
             self.trims[k] = solution
-            by_pitch = trim.gradient
             power += share * solution.power.total
             if self.concept:
                 by_jig += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))
@@ -303,13 +326,15 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
 
     Raises RuntimeError with one sentence when no twist trims.
     """
-    fixed = best_fixed(pair, concept)
+    known: _Known = {}
+    fixed = best_fixed(pair, concept, known=known)
     named = list(zip(concept.parameters, fixed.values, strict=True))
     breaks = {parameter.name: value for parameter, value in named if parameter.unit == "R"}
     if breaks:
         concept = restrict(concept, breaks)
         fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
-    first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
+    first, second = (best_twist(design, concept, [fixed.values], known=known) for design in pair.designs())
     starts = [fixed.values, first.values, second.values]  # Without breaks the other two are those found above.
-    better = _search((pair.designs(), pair.shares, ()), concept, None, starts, alone=not breaks)
+    flights = pair.designs(), pair.shares, ()
+    better = _search(flights, concept, None, starts, alone=not breaks, known=known)
     return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))

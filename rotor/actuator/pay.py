@@ -241,9 +241,10 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
             f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
+    start, near = [verdict.resting.values], verdict.optimum.solutions
     for stroke in OTHER_STROKES:
-        start = [verdict.resting.values]
-        powers[stroke] = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start).power
+        found = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start, near=near)
+        powers[stroke], near = found.power, found.solutions
     strokes = np.array(sorted(powers))
     power = np.minimum.accumulate([powers[stroke] for stroke in strokes.tolist()])
     saved = verdict.reference_power - verdict.drive.hold_power - power

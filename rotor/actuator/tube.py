@@ -107,5 +107,5 @@ class TorqueTube(Actuator):
         by_space = f"A tube of {1e3 * self.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}."
         return (
             Limit("torque", worst <= 1.0 + 1e-9, worst * moment, moment, "N·m", by_torque),
-            Limit("space", fits, 1e3 * self.diameter, 1e3 * height, "mm", by_space),
+            Limit("space", fits, 1e3 * self.diameter, 0.0 if retrofit else 1e3 * height, "mm", by_space),
         )

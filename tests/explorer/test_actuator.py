@@ -29,7 +29,7 @@ from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
 from explorer.picture.picture import make_picture
 from explorer.sharing.share import within
-from explorer.text.readout import balance
+from explorer.text.readout import balance, limit_words
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
@@ -188,7 +188,7 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     numbers = actuator_words.fit_panel(verdict.installed, verdict)
     assert re.search(r"twist required \d", numbers)
     limits = actuator_words.limits_panel(verdict)
-    assert all(actuator_words.limit_words(limit.name) in limits for limit in verdict.limits)
+    assert all(limit_words(limit.name) in limits for limit in verdict.limits)
     assert "torsion least" not in limits
     assert "▲" in limits  # Recalled data are marked.
 

@@ -20,9 +20,9 @@ from explorer.model.inputs import Inputs
 from explorer.model.units import SI, adding
 from explorer.parts.actuate import AssessedPart
 from explorer.picture.lifted_picture import lifted_picture
+from explorer.text.readout import limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
-from explorer.views.actuator_words import limit_words
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
@@ -161,7 +161,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.asked):
         (name,) = [limit.name for limit in verdict.broken if words.startswith(f"{limit_words(limit.name)} ")]
-        read(f"limit {name}", f"({NUMBER}) of {NUMBER} ", words.replace("\u2009", ""))
+        read(f"limit {name}", f"({NUMBER}) of (?:at least )?{NUMBER} ", words.replace("\u2009", ""))
     assert not {limit.split()[0] for limit in part.over} & {"voltage", "field"}
     return found
 
@@ -189,19 +189,23 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
     other = trimmed(blade)
     bent = [replace(one, models=replace(one.models, bending=True)) for one in (flown.design, blade)]
     index = run(Call(effect, tuple(bent))).index
-    ends = [installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes)) for end in (-1.0, 1.0)]
+    least = -1.0 if id in ("MFC_P1", "AFC") else 0.0  # A tube turns the tip one way.
+    ends = [installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes)) for end in (least, 1.0)]
     tip = math.degrees(installed.tip([installed.actuator.swing_at(0.01 * drive)] * len(installed.shapes)))
     found = {
         "mass": f"{installed.masses.aircraft:.0f}",
         "tip": f"{tip:+.2f}°" if drive else "0.00°",
-        "reach": "…".join(f"{math.degrees(end):+.2f}" for end in sorted(ends)) + "°",
+        "reach": "…".join(f"{math.degrees(end):+.2f}" if end else "0.00" for end in sorted(ends)) + "°",
         "power": f"{1e-3 * flown.power.total:.0f}",
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
             None if flown.design == other.design else doubt(flown, other).change_band,
         ),
         "power over the flight": as_said(verdict.net_saving, verdict.net_band),
-        **{f"limit {limit.name}": f"{limit.value:.{0 if limit.bound >= 20.0 else 2}f}" for limit in verdict.broken},
+        **{
+            f"limit {limit.name}": f"{limit.value:.{0 if max(limit.value, limit.bound) >= 20.0 else 2}f}"
+            for limit in verdict.broken
+        },
     }
     if min(index) * max(index) > 0.0:
         found["vibration"] = f"{sum(index) / len(index):+.0f}"
@@ -288,7 +292,7 @@ def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
 def test_one_press_makes_it_feasible():
     """The actuator that it sets has no limit exceeded but those of the range, which the voltage keeps."""
     now = answered("same-blade", DRIVEN)
-    assert card(now).feasible == "1 ply from 0.15 c"
+    assert card(now).feasible == "1 ply, chord from 0.15"
     moved = done(now, ACTUATOR_CARD.presses["feasible"](now, None)).hand.actuator
     one = judged("same-blade")
     other = replace(one.installed.placement, plies=moved.plies, chord=moved.chord)

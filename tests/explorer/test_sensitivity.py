@@ -163,6 +163,7 @@ def test_the_nearest_design_that_trims_has_what_its_sentence_names():
     assert (nearest.altitude_m, nearest.advance_ratio) == (3000.0, 0.3)
     assert 0.0 <= 1e-3 * float(found[1]) - nearest.mass_t < slider("mass_t", SI).step
     assert f"{math.floor(0.1 * float(found[1])) / 100.0:.2f} t at this speed" in SI.in_sliders(sentence)
+    assert f"{math.floor(0.1 * float(found[1]) - 10.0) / 100.0:.2f} t at" in SI.in_sliders(sentence, 100.0)
     assert "lb at this speed" in UNITS["Aviation"].in_sliders(sentence)
     both = nearest_trim(
         good, wanted, lambda _: True, "The last trim found on the way there is at 9431 kg and advance ratio 0.279."

@@ -1,5 +1,6 @@
 """The widgets of Actuate, from top to bottom."""
 
+import threading
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
@@ -22,6 +23,8 @@ class ActuatorControls:
     def __init__(self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]) -> None:
         """`moved`: something changed. `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
+        self._placing = threading.RLock()
+        """Held while widgets are read or moved together: nobody reads half of a change, which undo would take apart."""
         texts: dict[str, viser.GuiHtmlHandle] = {}
 
         def text(name: str) -> None:
@@ -61,20 +64,22 @@ class ActuatorControls:
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
-        values = self.form.values()
+        with self._placing:
+            values = self.form.values()
         drives = tuple(float(values.pop(name)) for name in DRIVES)
         return ActuatorInputs(**values, drives=drives, against=self._against)
 
     def place(self, changes: Mapping[str, Any]) -> None:
         """Move widgets: these fields of `ActuatorInputs`."""
-        for name, value in changes.items():
-            if name == "drives":
-                for each, drive in zip(DRIVES, value, strict=True):
-                    self.form.place(each, round(drive))
-            elif name == "against":
-                self._against = value
-            else:
-                self.form.place(name, value)
+        with self._placing:
+            for name, value in changes.items():
+                if name == "drives":
+                    for each, drive in zip(DRIVES, value, strict=True):
+                        self.form.place(each, round(drive))
+                elif name == "against":
+                    self._against = value
+                else:
+                    self.form.place(name, value)
         self._moved()
 
     def _arrange(self, look: FormLook) -> None:
@@ -86,4 +91,8 @@ class ActuatorControls:
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in DRIVES:
             self._driven()
+        if by_hand and name == "actuator":  # Each kind is seen as it comes, whatever was tried before.
+            start = ActuatorInputs()
+            self.place({"plies": start.plies, "chord": start.chord})
+            return
         self._moved()

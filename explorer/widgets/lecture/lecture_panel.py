@@ -183,8 +183,9 @@ class LecturePanel:
             layout.show_drawer("")
 
     def _stand_at(self, place: StoryPlace | None) -> None:
-        if place is not None and self.place is None:
-            self._answers.ask(tuple(map(_task, range(len(STEPS)))), 0.0)
+        if place is not None:  # The step that stands first, then those after it.
+            steps = (*range(place.step, len(STEPS)), *range(place.step))
+            self._answers.ask(tuple(map(_task, steps)), 0.0)
         self.place, self._state = place, None
         self._begin.label = "Start the lecture" if place is None else "End the lecture"
         self._show()
@@ -215,7 +216,7 @@ class LecturePanel:
         """What the control sets of the actuator."""
         facts = None if self.place is None else self._facts(self.place.step)
         actuator = None if facts is None or self.place is None else facts.stops[self.place.stop].actuator
-        return HandSettings() if actuator is None else HandSettings(actuator)
+        return HandSettings() if actuator is None else HandSettings(actuator, here=True)
 
     def _designs(self) -> tuple[Inputs, Inputs | None]:
         """B where the control is, and A beside it."""
