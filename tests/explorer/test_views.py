@@ -185,7 +185,7 @@ class TestWithoutATrim:
         lost = replace(good, problem=SENTENCE)
         assert line(lost).problem == SENTENCE
         assert line(lost).status.kind == "problem"
-        assert pieces(lost).keys() == {"", "problem"}
+        assert pieces(lost).keys() == {"", "wide", "problem"}
         assert pieces(lost)["problem"].text == f" has no trim: {SENTENCE.rstrip('.')}"
         assert power_card(lost) == power_card(good)
         assert {one.faded for one in strip(lost)["strip"]} == {True}
