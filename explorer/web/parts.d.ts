@@ -51,8 +51,9 @@ interface RxPresses {
   aim: null;
   taken: null;
   beat: null;
-  rival_take: null;
-  rival_end: null;
+  game_link: null;
+  game_take: null;
+  game_end: null;
   feasible: null;
   along: boolean;
   hold: boolean;
