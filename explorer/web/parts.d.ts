@@ -400,8 +400,9 @@ interface RxPlanPart {
   flight: string;
   around: RxDrawnChart;
   mu: number;
-  values: Record<string, RxPackedTable> | null;
-  alpha_a: RxPackedTable | null;
+  values: RxStationValues | null;
+  before: RxStationValues | null;
+  coloured: RxPackedTable | null;
   held: string | null;
 }
 
@@ -420,6 +421,12 @@ interface RxPlanRegion {
   words: string;
   lines: number[][][];
   before: number[][][];
+}
+
+interface RxStationValues {
+  r: number[];
+  first: number;
+  tables: Record<string, RxPackedTable>;
 }
 
 interface RxPackedTable {
