@@ -5,7 +5,7 @@ from typing import Any
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
 from explorer.parts.stage import SceneLabel
-from explorer.text.readout import banded
+from explorer.text.readout import banded, total_words
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
@@ -26,7 +26,9 @@ def notice(now: PageState) -> dict[str, Any]:
     words, state, game, units = now.searching, now.state, now.game, now.units
     if words is None and state is not None and game is not None:
         band, _ = now.latest(game_doubt(now)[0])
-        link = [] if game.best is game.start else [("game_link", f"I reached {units.watts(game.best.power.total)}")]
+        link = (
+            [] if game.best is game.start else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
+        )
         actions = [*link, ("game_take", "Take its twist"), ("game_end", "End")]
         sentence = comparison(state.solution, game.least, band, units)
         if game.to_beat is not None:
@@ -38,14 +40,14 @@ def notice(now: PageState) -> dict[str, Any]:
 def score(best: Solution, to_beat: Solution, units: Units) -> str:
     """Whether somebody else's score is beaten, and by how much."""
     gain = to_beat.power.total - best.power.total
-    words = units.watts(to_beat.power.total)
+    words = total_words(to_beat.power.total, units)
     return f"To beat {words}" if gain < _EQUAL else f"{words} beaten by {units.watts(gain, 1)}"
 
 
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
     """One's own power against the least by the same sliders, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    power, way = f"Least by these sliders {units.watts(other.power.total)}", "more" if change > 0.0 else "less"
+    power, way = f"Least by these sliders {total_words(other.power.total, units)}", "more" if change > 0.0 else "less"
     if abs(change) < _EQUAL:
         return f"{power}, yours the same"
     if band is None:

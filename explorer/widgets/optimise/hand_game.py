@@ -5,6 +5,7 @@ from explorer.model.inputs import inputs_of, with_optimum
 from explorer.model.session_state import SessionState
 from explorer.sharing.game import Game, Standing, game_from, same_but_twist
 from explorer.sharing.share import DESIGN, Address, code_of, with_parameter
+from explorer.text.readout import total_words
 from explorer.widgets.context import TabContext
 from explorer.workers.solver import BaselineCache
 from rotor import Design, Solution
@@ -69,7 +70,7 @@ class HandGame:
             self._context.notify("No link", str(error))
             return
         browser.copy_link(self._context.client, query)
-        reached = self._context.units.watts(best.power.total)
+        reached = total_words(best.power.total, self._context.units)
         self._context.notify("Link copied", f"It opens this game with {reached} to beat.")
 
     def _take(self) -> None:

@@ -14,6 +14,7 @@ from explorer.sharing.game import Game, game_of
 from explorer.sharing.share import Address
 from explorer.text import search_words as text
 from explorer.text.glossary import hint
+from explorer.text.readout import total_words
 from explorer.widgets.context import TabContext
 from explorer.widgets.elements import WorkButtons
 from explorer.widgets.form import WidgetForm
@@ -226,7 +227,7 @@ class OptimisePanel:
         best, units = run.best, self._context.units
         close = [("apply", "Apply"), ("discard", "Discard")]
         if run.under_way:
-            words = " …" if best is None else f": {units.watts(best.power)}"
+            words = " …" if best is None else f": {total_words(best.power, units)}"
             return NoticePart(f"Searching{words}", [("halt", "Stop"), *(close if best else close[1:])])
         if len(run.frames) < 2:
             return None
