@@ -109,13 +109,14 @@ class TestWords:
         assert said in search_text.headline(run)
 
     @pytest.mark.parametrize(
-        ("half", "rate", "place"), [(0.04, "−8.3", "0.46"), (3.0, "−8", "0"), (0.4, "−8.3", "0.5")]
+        ("half", "rate", "place"), [(0.04, "−8.3", "0.46"), (3.0, "−8", "0.5"), (0.4, "−8.3", "0.46")]
     )
     def test_an_optimum_has_the_digits_that_its_range_allows(self, run: SearchRun, half: float, rate: str, place: str):
         free, values = CONCEPTS["two-segment-free"], (math.radians(-8.26), math.radians(-1.0), 0.456)
         bands = tuple(
-            ParameterBand(each.name, value - each.from_shown(half), value + each.from_shown(half))
+            ParameterBand(each.name, value - within, value + within)
             for each, value in zip(free.parameters, values, strict=True)
+            for within in [each.from_shown(half if each.angular else 0.1 * half)]
         )
         best = replace(run.optimum.best, parameters=values)
         told = replace(run.optimum, best=best, doubt_band=bands, doubt_cost=1.0)
