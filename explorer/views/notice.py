@@ -29,7 +29,7 @@ def notice(now: PageState) -> dict[str, Any]:
         link = (
             [] if game.best is game.start else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
         )
-        actions = [*link, ("game_take", "Take its twist"), ("game_end", "End")]
+        actions = [*link, ("game_take", "Take it"), ("game_end", "End")]
         sentence = comparison(state.solution, game.least, band, units)
         if game.to_beat is not None:
             sentence = f"{score(game.best, game.to_beat, units)} · {sentence}"

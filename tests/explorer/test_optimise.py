@@ -118,6 +118,8 @@ class TestWords:
             for each, value in zip(free.parameters, values, strict=True)
             for within in [each.from_shown(half if each.angular else 0.1 * half)]
         )
+        assert run.optimum is not None
+        assert run.optimum.best is not None
         best = replace(run.optimum.best, parameters=values)
         told = replace(run.optimum, best=best, doubt_band=bands, doubt_cost=1.0)
         task = replace(run.record.task, search=replace(run.search, concept=free))

@@ -41,6 +41,8 @@ def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Soluti
 
 def test_values_under_the_pointer_are_those_of_the_stations_and_of_the_field(solution: Solution):
     shown, disk = plan(solution, ViewState(), MACH, (0.0, 0.9), at_rest=True), solution.disk
+    assert shown.coloured is not None
+    assert shown.values is not None
     coloured = MACH.sample(DrawnSolution(solution), polar_grid(disk, 40, 120))
     assert np.abs(table(shown.coloured, coloured) - coloured).max() <= 0.51 * shown.coloured.step + 1e-9
     assert shown.values.r == pytest.approx(disk.r, abs=1e-6)
@@ -71,6 +73,7 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
     assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
+    assert shown.before is not None
     assert np.abs(table(shown.before.tables["mach"], other.disk.mach) - other.disk.mach).max() < 1e-4
 
 
