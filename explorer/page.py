@@ -168,7 +168,7 @@ class Page:
         )
         context.following += [probe.show, settings.show, self.history.show, lecture.show, presentation.show]
         with layout.drawers["lecture"]:
-            presentation.begin(lecture, self._views, partial(self._hold, lecture))
+            presentation.begin(lecture, self._views, self.optimise.hand, partial(self._hold, lecture))
 
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
@@ -265,7 +265,7 @@ class Page:
             steps=self.history.steps,
             station=self._curve.held,
             change=context.tracker.change,
-            optimised=self.optimise.rival.solution,
+            game=self.optimise.hand.standing,
             searching=self.optimise.notice(self.latest.sliders),
             memory=self.follower.memory,
             answers=self.follower.answers(),
@@ -288,7 +288,7 @@ class Page:
                 follow(lambda panel: panel.turns)
                 self._views.probe.show(state)
             case "address":
-                context.analyses.forget_others(state.solution, state.reference, self.optimise.rival.solution)
+                context.analyses.forget_others(state.solution, state.reference, *self.optimise.hand.solutions)
                 self.follower.memory = self.follower.memory.then(state, last)
                 self.file.follow(state)
             case "number":
@@ -296,7 +296,7 @@ class Page:
                 follow(_NUMBER.__contains__)
             case "results":
                 with context.client.atomic():  # Each message by itself would wake the thread that sends.
-                    self.optimise.rival.show(state)
+                    self.optimise.hand.show(state)
                     self._refresh()
                     self._curve.show(state)
                     self._learn()
@@ -428,6 +428,6 @@ class Page:
         self.context.tracker.reset()
         self.optimise.withdraw()
         self.actuator.perform(SetHand(BY_HAND, {"drives": AT_REST}))
-        self.optimise.rival.begin(None)
+        self.optimise.hand.begin(None)
         self.context.display.turn(ViewState.azimuth_deg)
         self.context.controls.set_inputs(opening)

@@ -12,6 +12,7 @@ from explorer.charts import svg
 from explorer.colours import NOW, colour_map, css
 from explorer.model.units import Units, number
 from explorer.picture.disk_image import encode_png
+from explorer.text.readout import total_words
 from explorer.workers.solver import MapTask
 from rotor import Design
 from rotor.design import TwistLaw
@@ -117,7 +118,7 @@ def least_words(drawn: PowerMap, units: Units) -> str:
         if part in (0.0, 1.0)
     ]
     beyond = f" It lies at the bound of {' and '.join(ends)}: less may lie beyond." if ends else ""
-    return f"Least {units.watts(drawn.least[2], 1)} at {best}.{beyond}"
+    return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"
 
 
 def refined(powers: Array, wide: int, high: int) -> Array:

@@ -105,7 +105,7 @@ def _row(name: str, one: Parameter) -> Quantity:
         low, high = (round(one.shown(end), 9) for end in (one.low, one.high))
         form = Slider(f"{label} [{unit}]", low, high, 0.5 if unit == "°/R²" else 0.1, per=f" per {unit}")
     else:
-        form = Slider(f"{label} [r/R]", 0.2, 0.95, 0.01, 0.1, "/0.1 R")
+        form = Slider(f"{label} [r/R]", one.low, one.high, 0.01, 0.1, "/0.1 R")
     return Quantity(name, "number", default=one.start, input=name, slider=form, hint=one.help)
 
 

@@ -421,6 +421,11 @@ def drag_from(inputs: Inputs, r: float) -> StationDrag | None:
     return StationDrag(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
 
 
+def on_steps(inputs: Inputs) -> Inputs:
+    """The inputs with the twist at the nearest places that its sliders have."""
+    return replace(inputs, **{name: _onto(name, getattr(inputs, name)) for name in LAWS[inputs.law].inputs})
+
+
 def _onto(name: str, value: float) -> float:
     """The nearest place that the slider has."""
     step = slider(name, SI).step

@@ -65,6 +65,17 @@ class PackedTable:
 
 
 @dataclass(frozen=True)
+class StationValues:
+    """What is read under the pointer: `tables` by name at the solver's own stations, `r` of the rows [R], azimuths at
+    even steps from `first` [°]. Between them the page goes as `explorer.picture.element.probe` does.
+    """
+
+    r: Sequence[float]
+    first: float
+    tables: Mapping[str, PackedTable]
+
+
+@dataclass(frozen=True)
 class PlanRegion:
     """A region with its shares of disk and thrust in words; its outline, and that of A, as polylines of points
     (right, down), in radii.
@@ -99,9 +110,9 @@ class PlanPart:
 
     `root`: where the blade begins. `sides`: what lies at ψ = 0°, 90°, 180° and 270°. `flight`: airspeed in
     words. `around`: the axes of the angle of attack over azimuth. `mu`: advance ratio along the disk. `values`: what is
-    read under the pointer, by name, once nothing moves: `psi` of the columns begins at zero, `r` of the rows goes from
-    `root` to 1. `alpha_a`: angle of attack of A [°]. `held`: what the outlines beside are of while the blade is in the
-    hand; None: it is not.
+    read under the pointer once nothing moves, `before` that of A. `coloured`: the field itself; `psi` of the columns
+    begins at zero, `r` of the rows goes from `root` to 1. `held`: what the outlines beside are of while the blade is in
+    the hand; None: it is not.
     """
 
     disk: PlanDisk
@@ -114,8 +125,9 @@ class PlanPart:
     flight: str
     around: DrawnChart
     mu: float
-    values: Mapping[str, PackedTable] | None = None
-    alpha_a: PackedTable | None = None
+    values: StationValues | None = None
+    before: StationValues | None = None
+    coloured: PackedTable | None = None
     held: str | None = None
 
 

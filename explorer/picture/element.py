@@ -14,7 +14,7 @@ from explorer.colours import THIS
 from explorer.model.units import number
 from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
-from explorer.picture.polar import DRAG_DIVERGENCE
+from explorer.picture.polar import DRAG_DIVERGENCE, stall_angles
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.aero.display import STALLED
@@ -42,12 +42,6 @@ class SectionBlend:
 
     parts: tuple[tuple[Section, float], ...]
     """The sections that take part, with their shares."""
-
-    def stall_angles(self, mach: float) -> tuple[float, float]:
-        """Negative and positive stall angle [rad] about the blade's reference line."""
-        ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.parts]
-        low, high = (sum(share * (float(end[k]) + offset) for end, offset, share in ends) for k in (0, 1))
-        return low, high
 
     def lift_curve(self, alpha: Array, mach: float) -> Array:
         """C_l at angles of attack [rad] about the blade's reference line."""
@@ -110,7 +104,7 @@ class Probe:
     power: float
     """Ω y times the pull [W/m]."""
     stall: tuple[float, float]
-    """Negative and positive stall angle at `table_mach`."""
+    """Negative and positive stall angle, as the disk marks them [rad]."""
     cd_mach: float
     """∂C_d/∂M"""
     idle: bool
@@ -160,6 +154,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
     alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
     chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.parts)
+    lower, upper = stall_angles(solution)
     unsteady = disk.unsteady
     idle = u_t < 0.0 and not design.models.reverse_flow
     return Probe(
@@ -184,7 +179,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         thrust=thrust,
         pull=pull,
         power=pull * r * speed,
-        stall=section.stall_angles(table_mach),
+        stall=(at.held(lower), at.held(upper)),
         cd_mach=at.held(disk.cd_mach),
         idle=idle,
         unsteady=None if unsteady is None else _around(disk, unsteady, at, r),

@@ -9,10 +9,10 @@ import numpy as np
 from explorer.colours import VOID, colour_map
 from explorer.model.inputs import ViewState
 from explorer.model.units import UNITS, number
-from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion
+from explorer.parts.stage import PackedTable, PlanDisk, PlanPart, PlanRegion, StationValues
 from explorer.picture.disk_image import sides
 from explorer.picture.disk_numbers import disk_numbers
-from explorer.picture.fields import FIELDS, Field
+from explorer.picture.fields import Field
 from explorer.picture.polar import (
     DrawnSolution,
     PolarGrid,
@@ -21,6 +21,7 @@ from explorer.picture.polar import (
     divergence_margin,
     polar_grid,
     region_masks,
+    stall_angles,
 )
 from rotor import Solution
 from rotor.support.arrays import Array
@@ -133,7 +134,7 @@ def joined_lines(segments: Array) -> list[Array]:
 
 
 _RADII, _AZIMUTHS = 40, 120
-"""Points of the values under the pointer."""
+"""Points of the field under the pointer."""
 _FINE = 120, 480
 """Points at which shares of area and lift are summed."""
 _REGIONS: dict[str, tuple[str, Callable[[Solution], Array]]] = {
@@ -142,8 +143,6 @@ _REGIONS: dict[str, tuple[str, Callable[[Solution], Array]]] = {
     "drag_divergence": ("Drag divergence", drag_divergence_segments),
 }
 """Title and outline of each region, by its switch in `ViewState`."""
-_READ = {"alpha": "Angle of attack", "mach": "Mach number", "cl": "Lift coefficient"}
-"""What is read under the pointer in every field, by the name it has in the page."""
 
 
 def plan(
@@ -158,11 +157,7 @@ def plan(
 
     Values under the pointer only when `at_rest`, and outlines of A where there is one.
     """
-    alpha_a = None
-    if at_rest and pinned is not None:
-        alpha_a = _packed(
-            FIELDS[_READ["alpha"]].sample(DrawnSolution(pinned), polar_grid(pinned.disk, _RADII, _AZIMUTHS))
-        )
+    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
     return PlanPart(
         disk=_disk(solution, field, colour_range),
         root=round(solution.design.rotor.blade.root_cutout, 4),
@@ -174,8 +169,9 @@ def plan(
         flight=UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
         around=drawn_chart(around_chart(solution)),
         mu=round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
-        values=_values(solution, field) if at_rest else None,
-        alpha_a=alpha_a,
+        values=_values(solution) if at_rest else None,
+        before=_values(pinned) if at_rest and pinned is not None else None,
+        coloured=_packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
     )
 
 
@@ -234,12 +230,16 @@ def _lines(segments: Array) -> list[list[list[float]]]:
     return [np.round(line[:, ::-1], 3).tolist() for line in joined_lines(segments)]
 
 
-def _values(solution: Solution, field: Field) -> dict[str, PackedTable]:
-    drawn, grid = DrawnSolution(solution), polar_grid(solution.disk, _RADII, _AZIMUTHS)
-    tables = {name: FIELDS[title].sample(drawn, grid) for name, title in _READ.items()}
-    lower, upper = np.degrees(drawn.flow(grid).limits)
-    tables |= {"lower": lower, "upper": upper, "field": field.sample(drawn, grid)}
-    return {name: _packed(values) for name, values in tables.items()}
+def _values(solution: Solution) -> StationValues:
+    """Angles [°], velocities over ΩR, and coefficients, as `probe` reads them."""
+    disk = solution.disk
+    ahead = disk.pitch_of_alpha - disk.theta
+    lower, upper = stall_angles(solution)
+    angles = {"theta": disk.theta, "ahead": ahead, "lower": lower, "upper": upper}
+    tables = {name: np.degrees(each) for name, each in angles.items()}
+    tables |= {"u_t": disk.u_t, "u_p": disk.u_p, "mach": disk.mach, "cl": disk.cl}
+    packed = {name: _packed(np.broadcast_to(each, disk.mach.shape)) for name, each in tables.items()}
+    return StationValues([round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), packed)
 
 
 def _packed(values: Array | Single) -> PackedTable:

@@ -4,11 +4,12 @@ import hashlib
 import logging
 import secrets
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from explorer.model.session_state import ScreenState
+from explorer.sharing.game import Game
 
 _log = logging.getLogger(__name__)
 
@@ -38,9 +39,13 @@ class PresentedView:
 
     screen: ScreenState
     place: StoryPlace | None = None
+    game: Game | None = None
+    """What followers play meanwhile, each with sliders of their own."""
     camera: tuple[Point, Point] | None = None
 
 
+Watcher = Callable[[int, Sequence[float]], None]
+"""Called with how many follow, and with the least power of each who plays [W]."""
 Listener = Callable[[PresentedView | Literal["away", "over"]], None]
 """Called with what is shown, or that the presenter's page is closed, or that the presentation has ended."""
 
@@ -59,7 +64,9 @@ class Presentations:
         self._lock = threading.Lock()
         self._shown: dict[str, PresentedView] = {}
         self._listeners: dict[str, dict[int, Listener]] = {}
-        self._watchers: dict[str, Callable[[int], None]] = {}
+        self._watchers: dict[str, Watcher] = {}
+        self._results: dict[str, tuple[Game | None, dict[object, float]]] = {}
+        """The game, and what each player has reached [W]."""
         self._presenters: dict[str, tuple[str, object]] = {}
         """Page and session that present, by name."""
         self._next = 0
@@ -89,8 +96,8 @@ class Presentations:
                     listeners += self._listeners.get(name, {}).values()
         _tell(listeners, "away")
 
-    def watch(self, secret: str, watcher: Callable[[int], None]) -> None:
-        """Tell a presenter how many follow, now and whenever that changes."""
+    def watch(self, secret: str, watcher: Watcher) -> None:
+        """Tell a presenter how many follow and what they reach, now and whenever that changes."""
         with self._lock:
             self._watchers[follow_name(secret)] = watcher
         self._count(follow_name(secret))
@@ -101,15 +108,30 @@ class Presentations:
         with self._lock:
             if self._shown.get(name) == shown:
                 return
+            begun = self._results.get(name, (None,))[0] != shown.game
+            if begun:
+                self._results[name] = shown.game, {}
             self._shown[name] = shown
             listeners = tuple(self._listeners.get(name, {}).values())
         _tell(listeners, shown)
+        if begun:
+            self._count(name)
+
+    def report(self, name: str, player: object, power: float) -> None:
+        """The least power that a follower has reached in the present game [W]."""
+        with self._lock:
+            _, results = self._results.get(name, (None, {}))
+            if results.get(player) == power:
+                return
+            results[player] = power
+        self._count(name)
 
     def end(self, secret: str) -> None:
         """The presenter has stopped; followers keep what was shown last."""
         name = follow_name(secret)
         with self._lock:
             self._shown.pop(name, None)
+            self._results.pop(name, None)
             self._watchers.pop(name, None)
             listeners = tuple(self._listeners.get(name, {}).values())
         _tell(listeners, "over")
@@ -143,8 +165,9 @@ class Presentations:
     def _count(self, name: str) -> None:
         with self._lock:
             watcher, count = self._watchers.get(name), len(self._listeners.get(name, {}))
+            results = tuple(self._results.get(name, (None, {}))[1].values())
         if watcher is not None:
-            watcher(count)
+            watcher(count, results)
 
 
 def _tell(listeners: Iterable[Listener], shown: PresentedView | Literal["away", "over"]) -> None:

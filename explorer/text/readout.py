@@ -112,7 +112,16 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
     """Decimals of a power: one for a light helicopter, none for a heavy one; in watts likewise."""
-    return 1 if abs(power.total) < (200.0 if units.power[0] is WATT else 2e5) else 0
+    return _fineness(power.total, units)
+
+
+def total_words(total: float, units: Units = SI) -> str:
+    """Total power [W] with the decimals of the line: that of an optimum has none that its band does not allow."""
+    return units.watts(total, _fineness(total, units))
+
+
+def _fineness(total: float, units: Units) -> int:
+    return 1 if abs(total) < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
 def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:

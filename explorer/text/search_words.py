@@ -2,12 +2,13 @@
 
 from explorer.model.search_run import SearchRun
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import banded
+from explorer.text.readout import banded, total_words
 from rotor import Optimum
 from rotor.optimisation import Concept
 from rotor.optimisation.concept import Parameter
 from rotor.optimisation.results import ParameterBand
 from rotor.support.markup import Content, Markup, tag
+from rotor.trim.doubt import decimals
 
 _EQUAL = 50.0
 """Powers closer than this [W] read the same."""
@@ -26,7 +27,7 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     mean += ", best so far" if run.under_way else ", best found"
     return tag(
         "div.rxp-big",
-        tag("b", units.watts(best.power, 1), data_explorer="best"),
+        tag("b", total_words(best.power, units), data_explorer="best"),
         tag("em", None if change is None else _moved(change, run.optimum, units), class_=kind),
         tag("div.rx-dim", mean, "" if run.start_power else "; the starting design has no trim"),
     )
@@ -91,17 +92,25 @@ def _block(parts: list[Markup], name: str = "found") -> Markup:
 
 
 def _range(parameter: Parameter, band: ParameterBand) -> str:
-    digits = 1 if parameter.angular else 2
+    digits = _digits(parameter, band)
     low, high = (number(parameter.shown(end), digits) for end in (band.low, band.high))
     return f"{parameter.title.lower()} {low} … {high} {parameter.shown_unit}".rstrip()
+
+
+def _digits(parameter: Parameter, band: ParameterBand | None) -> int:
+    """Decimals of a parameter: those that its range allows, at most those of its slider."""
+    most = 1 if parameter.angular else 2
+    half = 0.5 * (parameter.shown(band.high) - parameter.shown(band.low)) if band is not None else 0.0
+    return min(most, decimals(half)) if half > 0.0 else most
 
 
 def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     best = optimum.best
     assert best is not None
     rows, notes = list[Content](), [optimum.message]
+    ranges = {band.parameter: band for band in optimum.doubt_band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
-        digits = 1 if parameter.angular else 2
+        digits = _digits(parameter, ranges.get(parameter.name))
         rows.append(
             tag(
                 "tr",
@@ -110,7 +119,6 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
                 tag("td.rx-dim.rx-unit", parameter.shown_unit),
             )
         )
-    ranges = {band.parameter: band for band in optimum.doubt_band}
     if ranges and optimum.doubt_cost is not None:
         moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
         notes.append(f"With other inputs or inflow: {moved}.")
@@ -127,5 +135,5 @@ def frame_line(run: SearchRun, cursor: int, units: Units = SI) -> Markup:
     frame = run.frames[cursor]
     power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
     what = "starting design" if cursor == 0 else f"design {frame.evaluation}"
-    line = tag("span", what), tag("span", units.watts(power, 1))
+    line = tag("span", what), tag("span", None if power is None else total_words(power, units))
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")

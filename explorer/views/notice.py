@@ -1,11 +1,11 @@
-"""The bar over the scene, for a search or for the optimiser's blade beside the one in the hand; what to do first."""
+"""The bar over the scene, for a search or for a game against what it found; what to do first."""
 
 from typing import Any
 
 from explorer.model.units import Units, number
 from explorer.parts.frame import NoticePart
 from explorer.parts.stage import SceneLabel
-from explorer.text.readout import banded
+from explorer.text.readout import banded, total_words
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work
 from rotor import Solution
@@ -15,30 +15,39 @@ _EQUAL = 50.0
 """Changes of power below this [W] are none."""
 
 
-def optimised_doubt(now: PageState) -> tuple[PanelWork, ...]:
-    """How sure the difference from the optimiser's blade is."""
-    state, optimised = now.state, now.optimised
-    return (
-        ()
-        if state is None or optimised is None
-        else (doubt_work("optimised", state.solution, optimised, now.analyses),)
-    )
+def game_doubt(now: PageState) -> tuple[PanelWork, ...]:
+    """How sure the difference from what the search found is."""
+    state, game = now.state, now.game
+    return () if state is None or game is None else (doubt_work("game", state.solution, game.least, now.analyses),)
 
 
 def notice(now: PageState) -> dict[str, Any]:
     """While the blade moves, the difference of the two powers has the band of the step before."""
-    words, state, optimised = now.searching, now.state, now.optimised
-    if words is None and state is not None and optimised is not None:
-        band, _ = now.latest(optimised_doubt(now)[0])
-        actions = [("rival_take", "Take its twist"), ("rival_end", "End")]
-        words = NoticePart(comparison(state.solution, optimised, band, now.units), actions)
+    words, state, game, units = now.searching, now.state, now.game, now.units
+    if words is None and state is not None and game is not None:
+        band, _ = now.latest(game_doubt(now)[0])
+        link = (
+            [] if game.best is game.start else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
+        )
+        actions = [*link, ("game_take", "Take it"), ("game_end", "End")]
+        sentence = comparison(state.solution, game.least, band, units)
+        if game.to_beat is not None:
+            sentence = f"{score(game.best, game.to_beat, units)} · {sentence}"
+        words = NoticePart(sentence, actions)
     return {"notice": words}
 
 
+def score(best: Solution, to_beat: Solution, units: Units) -> str:
+    """Whether somebody else's score is beaten, and by how much."""
+    gain = to_beat.power.total - best.power.total
+    words = total_words(to_beat.power.total, units)
+    return f"To beat {words}" if gain < _EQUAL else f"{words} beaten by {units.watts(gain, 1)}"
+
+
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
-    """One's own power against the optimiser's, with the band of the difference where it is known."""
+    """One's own power against the least by the same sliders, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    power, way = f"Optimiser {units.watts(other.power.total, 1)}", "more" if change > 0.0 else "less"
+    power, way = f"Least by these sliders {total_words(other.power.total, units)}", "more" if change > 0.0 else "less"
     if abs(change) < _EQUAL:
         return f"{power}, yours the same"
     if band is None:
@@ -54,5 +63,5 @@ def prompt(now: PageState) -> dict[str, SceneLabel | None]:
     return {"prompt": None if any(now.steps) else label}
 
 
-NOTICE = Panel(notice, works=optimised_doubt)
+NOTICE = Panel(notice, works=game_doubt)
 PROMPT = Panel(prompt, lambda ui: ui.mode == "explore" and not ui.held)

@@ -12,8 +12,9 @@ from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionSta
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
+from explorer.sharing.game import Standing
 from explorer.workers.call import Call
-from rotor import Design, Solution
+from rotor import Design
 
 T = TypeVar("T")
 
@@ -76,8 +77,8 @@ class PageState:
     station: HeldStation | None = None
     change: float | None = None
     """Power less that before the grab [W]; None while nothing was moved."""
-    optimised: Solution | None = None
-    """The trim of the optimiser's design in the present flight, where the hand is measured against it."""
+    game: Standing | None = None
+    """Where the hand is measured against what a search found."""
     searching: NoticePart | None = None
     """The bar over the scene while a search is shown in place of the sliders."""
     curve: PowerCurve | None = None

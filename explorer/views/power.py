@@ -87,7 +87,7 @@ def held_power(now: PageState) -> dict[str, Any]:
         digits=digits,
         place=now.station.place,
         best=now.station.best and replace(now.station.best, power=round(unit.of(now.station.best.power), 2)),
-        optimised=None if now.optimised is None else round(unit.of(now.optimised.power.total), 2),
+        optimised=None if now.game is None else round(unit.of(now.game.least.power.total), 2),
     )
     return {"hand": shown}
 

@@ -51,8 +51,9 @@ interface RxPresses {
   aim: null;
   taken: null;
   beat: null;
-  rival_take: null;
-  rival_end: null;
+  game_link: null;
+  game_take: null;
+  game_end: null;
   feasible: null;
   along: boolean;
   hold: boolean;
@@ -402,8 +403,9 @@ interface RxPlanPart {
   flight: string;
   around: RxDrawnChart;
   mu: number;
-  values: Record<string, RxPackedTable> | null;
-  alpha_a: RxPackedTable | null;
+  values: RxStationValues | null;
+  before: RxStationValues | null;
+  coloured: RxPackedTable | null;
   held: string | null;
 }
 
@@ -422,6 +424,12 @@ interface RxPlanRegion {
   words: string;
   lines: number[][][];
   before: number[][][];
+}
+
+interface RxStationValues {
+  r: number[];
+  first: number;
+  tables: Record<string, RxPackedTable>;
 }
 
 interface RxPackedTable {

@@ -12,13 +12,15 @@
   };
   const DASHES = {drag_divergence: '3 4'};
   /** @type {[string, string, number, string][]} */
-  const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 2, ''], ['margin', 'To stall', 1, '°']];
+  const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 3, ''], ['margin', 'To stall', 1, '°']];
   const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
   // `pointer` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
   // In a tree of its own: the first canvas of the page is the scene.
   const shown = place.querySelector('[data-colours]');
   shown.attachShadow({mode: 'open'}).innerHTML = '<canvas style="width: 100%; height: 100%"></canvas>';
-  let layout = null, tables = {}, pointer = null, circle = 0.75, pressed = null;
+  /** @type {any} */
+  let values = null;
+  let layout = null, pointer = null, circle = 0.75, pressed = null;
 
   const unpack = ({low, step, data}) => {
     const bytes = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
@@ -32,11 +34,22 @@
     const along = n => lerp(table[n * AZIMUTHS + j], table[n * AZIMUTHS + k], share);
     return lerp(along(i), along(i + 1), row - i);
   }
-  function read(spot) {
-    /** @type {Record<string, number>} */
-    const value = Object.fromEntries(Object.entries(tables).map(([name, table]) => [name, at(table, spot)]));
-    value.margin = Math.min(value.upper - value.alpha, value.alpha - value.lower);
-    return value;
+  const unpacked = ({r, first, tables}) =>
+    ({r, first, ...Object.fromEntries(Object.entries(tables).map(([name, table]) => [name, unpack(table)]))});
+  // As `probe` of explorer/picture/element.py: what a click shows is what stood under the pointer.
+  function read({r, psi}, from) {
+    const {r: stations, first} = from, columns = from.u_t.length / stations.length;
+    const row = clamp(stations.filter(station => station <= r).length - 1, 0, stations.length - 2);
+    const out = (r - stations[row]) / (stations[row + 1] - stations[row]), held = clamp(out, 0, 1);
+    const turn = turned(psi - first) / 360 * columns, j = Math.floor(turn) % columns, k = (j + 1) % columns;
+    const late = turn - Math.floor(turn);
+    const along = (name, n) => lerp(from[name][n * columns + j], from[name][n * columns + k], late);
+    const value = (name, share) => lerp(along(name, row), along(name, row + 1), share);
+    const phi = Math.atan2(value('u_p', out), value('u_t', out)) / DEGREE;
+    const alpha = 180 - turned(180 - value('theta', out) - value('ahead', held) + phi);
+    const upper = value('upper', held), lower = value('lower', held);
+    return {alpha, upper, lower, margin: Math.min(upper - alpha, alpha - lower),
+      mach: Math.max(value('mach', out), 0), cl: value('cl', held)};
   }
   const reversed = ({r, psi}) => RX.shown('plan').mu * Math.sin(psi * DEGREE) + r < 0;
   // Nose up, advancing side right.
@@ -174,10 +187,9 @@
       return;
     }
     if (!plan.held && !around.childElementCount) around.innerHTML = '<div class="rxf-chart"></div>';
-    if (plan.values) {
-      const packed = Object.entries({...plan.values, ...(plan.alpha_a ? {before: plan.alpha_a} : {})});
-      tables = Object.fromEntries(packed.map(([name, table]) => [name, unpack(table)]));
-    }
+    if (plan.values && plan.coloured) values = {
+      own: unpacked(plan.values), before: plan.before && unpacked(plan.before), coloured: unpack(plan.coloured),
+    };
     place.toggleAttribute('data-moving', !plan.values);
     layout = arrange();
     const {x, y, radius, width, height} = layout, svg = place.querySelector('svg'), edge = 2 * radius;
@@ -219,8 +231,8 @@
   RX.paint('turn', drawBlades);
 
   function rows(spot) {
-    const value = read(spot), {field, unit} = RX.shown('plan');
-    const number = fixed(value.field, Math.abs(value.field) < 1 ? 3 : 1);
+    const value = read(spot, values.own), {field, unit} = RX.shown('plan'), colour = at(values.coloured, spot);
+    const number = fixed(colour, Math.abs(colour) < 1 ? 3 : 1);
     const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
     if (reversed(spot)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.map(([name, title, decimals, of]) => {
@@ -253,28 +265,31 @@
     cursor.innerHTML = (RX.shown('plan').held ? '' : circleAt([layout.x, layout.y], circle * layout.radius, ring))
       + (spot ? circleAt(spot, 5, 'fill="none" stroke="#fff" stroke-width="2"')
         + circleAt(spot, 6.5, 'fill="none" stroke="#000" stroke-opacity=".5"') : '');
-    reading.hidden = !spot || !tables.alpha;
+    reading.hidden = !spot || !values;
     if (reading.hidden) return;
     reading.innerHTML = card(pointer);
     placeReading(reading, pointer);
   }
   // α around the circle, with the stall angles there.
   function drawAround() {
-    if (!tables.alpha || !layout.chart) return;
+    if (!values || !layout.chart) return;
     const x = Array.from({length: 121}, (_, k) => 3 * k), {around: chart} = RX.shown('plan');
-    const onCircle = table => x.map(psi => reversed({r: circle, psi}) ? null : at(table, {r: circle, psi}));
-    const [alpha, upper, lower] = [tables.alpha, tables.upper, tables.lower].map(onCircle);
+    const turn = from => x.map(psi => reversed({r: circle, psi}) ? null : read({r: circle, psi}, from));
+    const own = turn(values.own), of = (all, name) => all.map(here => here && here[name]);
+    const [lowest, highest] = chart.y.range;  // Beside reverse flow α leaves the axes.
+    const inside = angles => angles.map(angle => angle < lowest || angle > highest ? null : angle);
+    const [alpha, upper, lower] = ['alpha', 'upper', 'lower'].map(name => inside(of(own, name)));
     const line = (y, colour, width, dashes) => ({kind: 'line', x, y, colour: `var(--rx-${colour})`, width, dashes});
     /** @type {any[]} */
     const series = [line(upper, 'stall', 1.3, '3 3'), line(lower, 'stall', 1.3, '3 3')];
-    if (tables.before) series.push(line(onCircle(tables.before), 'pinned', 1.7, '6 3'));
-    const [lowest, highest] = chart.y.range;  // Beside reverse flow α leaves the axes.
-    series.push(line(alpha.map(angle => angle < lowest || angle > highest ? null : angle), 'blade', 2.1));
+    if (values.before) series.push(line(inside(of(turn(values.before), 'alpha')), 'pinned', 1.7, '6 3'));
+    series.push(line(alpha, 'blade', 2.1));
     const here = pointer && !reversed({r: circle, psi: pointer.psi}) ? [pointer.psi] : [];
-    for (const psi of here)
-      series.push({kind: 'points', x: here, y: [at(tables.alpha, {r: circle, psi})], colour: 'var(--rx-blade)'});
-    const margin = Math.min(...alpha.map((angle, k) =>
-      angle === null ? Infinity : Math.min(upper[k] - angle, angle - lower[k])));
+    for (const psi of here) {
+      const y = inside([read({r: circle, psi}, values.own).alpha]);
+      series.push({kind: 'points', x: here, y, colour: 'var(--rx-blade)'});
+    }
+    const margin = Math.min(...own.map(there => there ? there.margin : Infinity));
     const narrow = layout.chart.width < 480;  // Else the words of its heading are cut.
     const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the circle under the pointer'}`;
     Charts.fill(around.firstElementChild, {
@@ -287,11 +302,14 @@
   RX.paint('line', line => place.toggleAttribute('data-faded', Boolean(line.problem)));
 
   const redraw = soon(() => { if (RX.state.plan) { drawCursor(); drawAround(); } });
+  const onStep = r => clamp(Math.round(100 * r), Math.ceil(100 * RX.shown('plan').root - 1e-7), 100) / 100;
   function find(event) {
     const box = place.getBoundingClientRect();
     const x = event.clientX - box.left - layout.x, y = event.clientY - box.top - layout.y;
     const r = Math.hypot(x, y) / layout.radius;
-    return r >= RX.shown('plan').root && r <= 1 ? {r, psi: turned(Math.atan2(x, y) / DEGREE)} : null;
+    const {root} = RX.shown('plan');
+    if (r < root || r > 1) return null;  // Else where a click opens the section: at the steps of its sliders.
+    return {r: onStep(r), psi: turned(Math.round(Math.atan2(x, y) / DEGREE))};
   }
   place.addEventListener('pointermove', event => {
     if (!layout || !RX.state.plan) return;
@@ -314,7 +332,7 @@
     event.preventDefault();
     event.stopPropagation();
     pointer ??= {r: circle, psi: 90};
-    if (step) pointer = {r: clamp(pointer.r + step[0], plan.root, 1), psi: turned(pointer.psi + step[1])};
+    if (step) pointer = {r: onStep(pointer.r + step[0]), psi: turned(pointer.psi + step[1])};
     else open(pointer);
     circle = pointer.r;
     drawCursor();

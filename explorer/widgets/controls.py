@@ -67,7 +67,7 @@ class DesignControls:
         """Units of the sliders of mass, altitude and climb now."""
         form = self.form = WidgetForm(gui, self._heard, ROWS, at_once=True)
         curve = tag("div.rxp-curve", data_curve=True)
-        gui.add_html(tag("div.rxp-head", "BUILT-IN TWIST", tag("span", "slopes in °/R")) + curve)
+        gui.add_html(tag("div.rxp-head", "BUILT-IN TWIST", tag("span", "rates in °/R")) + curve)
         form.menu("law", "Twist concept", _laws_of(start), start.law)
         self._sliders(_LAW_INPUTS, LAWS[start.law].inputs)
         self._speed = gui.add_html(_flight_heading(0.0, SI))

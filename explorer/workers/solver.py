@@ -111,9 +111,7 @@ class SearchTask:
         """Reports `StartPower`, every `Progress`, and where the reference is another design, `ReferenceSaving`."""
         search = self.search
         objective = search.objective or at_condition(search.design)
-        begin = evaluate_objective(objective, search.design, gradient=False)
-        tell(StartPower(begin.power))
-        optimum = run_search(search, tell, stop)
+        optimum = run_search(search, tell, stop, begun=lambda power: tell(StartPower(power)))
         if self.reference != search.design and optimum.best is not None:
             tell(ReferenceSaving(saving_doubt(objective, optimum.design, self.reference)))
         return optimum

@@ -170,6 +170,8 @@ class Evaluator:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
         self._check()
         x = np.clip(x, 0.0, 1.0)
+        if self.records and np.array_equal(self.records[-1].x, x):
+            return self.records[-1]
         values = self.values(x)
         blade = self._trim(self.concept.apply(self.design, values))
         margins = self.cheap_margins(x)[0]

@@ -79,10 +79,12 @@ def run_search(
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
     trimmed: TrimHistory | None = None,
+    begun: Callable[[float | None], None] | None = None,
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
     trimmed: blades of earlier searches with the same objective and limits, for the model; those of this one are added.
+    begun: called with the power of the design [W], None where it does not trim.
     Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
@@ -93,6 +95,8 @@ def run_search(
     run = _Run(search, evaluate)
     try:
         run.baseline = evaluate.baseline()
+        if begun is not None:
+            begun(run.baseline.power)
         if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
             return run.result(
                 refusal=(
@@ -103,6 +107,7 @@ def run_search(
         evaluate.phase = "search"
         starts = _starts(search, evaluate)
         if objective.quantity != "vibration" and not len(evaluate.largest):
+            evaluate(starts[0])  # By itself, so that who watches sees the blade move at once.
             evaluate.trim_ahead(starts[:_TRIMMED_STARTS])
         for k, x in enumerate(starts):
             evaluate.start = k

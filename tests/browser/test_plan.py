@@ -9,6 +9,8 @@ from watched import MEDIUM, Watched, opened
 
 from explorer.app import App
 from explorer.model.inputs import OPENING
+from explorer.model.units import number
+from explorer.picture.element import probe
 from rotor.trim.solve import solve
 
 _READY = "() => RX.state.plan?.values && !document.querySelector('.rxf-plan').hasAttribute('data-moving')"
@@ -53,6 +55,10 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
 
     watched.until(lambda: np.allclose(opened_at(), (r, psi), rtol=0.0, atol=(0.02, 2.0)))
     clicked = opened_at()
+    there = probe(solution, clicked[0], math.radians(clicked[1]))  # As the section says it, to the last digit.
+    said = number(math.degrees(there.alpha), 1), number(there.mach, 3), number(there.cl, 3)
+    assert (shown["α"].rstrip("°"), shown["M"], shown["Cl"]) == said
+    assert shown["To stall"].rstrip("°") == number(math.degrees(there.stall_margin or 0.0), 1)
     # By key, and spoken.
     page.locator(".rxf-plan").focus()
     page.keyboard.press("ArrowRight")
@@ -60,9 +66,9 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     watched.until(lambda: "R · ψ" in page.locator(".rxf-said").inner_text())
     watched.until(lambda: opened_at() != clicked)
     # Another design's values follow; and the scene comes back.
-    before = page.evaluate("() => RX.state.plan.values.alpha.data")
+    before = page.evaluate("() => RX.state.plan.values.tables.cl.data")
     watched.press("Mass [t]", "ArrowRight", 5)
-    page.wait_for_function(f"before => ({_READY})() && RX.state.plan.values.alpha.data !== before", arg=before)
+    page.wait_for_function(f"before => ({_READY})() && RX.state.plan.values.tables.cl.data !== before", arg=before)
     page.get_by_role("button", name="Aircraft").click()
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')")
     assert watched.complaints == []

@@ -100,7 +100,7 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
     view, hand = page.context.display.view, page.actuator.hand()
-    run, optimised, place = page.optimise.run, page.optimise.rival.solution, part_of(page, LecturePanel).place
+    run, optimised, place = page.optimise.run, page.optimise.hand.standing, part_of(page, LecturePanel).place
     return (page.context.controls.inputs(), page.context.pinboard.pinned, run, optimised, hand.on_stage,
             hand.actuator.drives, view.field, view.difference, place)  # fmt: skip
 

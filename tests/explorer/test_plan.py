@@ -1,19 +1,21 @@
 """The plan of the disk: values under the pointer, shares of the regions, and fields whose sum is known."""
 
 import base64
+import math
 
 import numpy as np
 import pytest
 
 from explorer.model.inputs import ViewState
 from explorer.parts.stage import PackedTable
+from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
-from explorer.picture.polar import DrawnSolution, polar_grid
+from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, polar_grid
 from rotor import Solution, make_design, solve
 from rotor.support.arrays import Array
 
-ALPHA = FIELDS["Angle of attack"]
+ALPHA, MACH = FIELDS["Angle of attack"], FIELDS["Mach number"]
 
 
 @pytest.fixture(scope="module", params=[(0.2, 8322.0), (0.4, 10000.0)], ids=["mu 0.2", "mu 0.4, heavy"])
@@ -22,8 +24,8 @@ def solution(request: pytest.FixtureRequest) -> Solution:
     return solve(make_design(mu=mu, mass_kg=mass))
 
 
-def table(packed: PackedTable | None) -> Array:
-    steps = np.frombuffer(base64.b64decode(packed.data), "<u2").reshape(40, 120)
+def table(packed: PackedTable, like: Array) -> Array:
+    steps = np.frombuffer(base64.b64decode(packed.data), "<u2").reshape(like.shape)
     return packed.low + packed.step * steps
 
 
@@ -37,20 +39,25 @@ def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Soluti
     assert shares["reverse_flow"][1] < 0.0  # Air from behind presses the blade down there.
 
 
-def test_values_under_the_pointer_are_those_of_the_fields(solution: Solution):
-    shown = plan(solution, ViewState(), FIELDS["Mach number"], (0.0, 0.9), at_rest=True)
-    grid = polar_grid(solution.disk, 40, 120)
-    for name, field in (("alpha", ALPHA), ("cl", FIELDS["Lift coefficient"]), ("field", FIELDS["Mach number"])):
-        packed = shown.values[name]
-        assert np.abs(table(packed) - field.sample(DrawnSolution(solution), grid)).max() <= 0.51 * packed.step + 1e-9
-    margin = np.minimum(
-        *(
-            sign * (table(shown.values[end]) - table(shown.values["alpha"]))
-            for end, sign in (("upper", 1), ("lower", -1))
-        )
-    )
-    expected = FIELDS["Stall margin"].sample(DrawnSolution(solution), grid)
-    assert np.abs(margin - expected).max() < 0.02
+def test_values_under_the_pointer_are_those_of_the_stations_and_of_the_field(solution: Solution):
+    shown, disk = plan(solution, ViewState(), MACH, (0.0, 0.9), at_rest=True), solution.disk
+    assert shown.coloured is not None
+    assert shown.values is not None
+    coloured = MACH.sample(DrawnSolution(solution), polar_grid(disk, 40, 120))
+    assert np.abs(table(shown.coloured, coloured) - coloured).max() <= 0.51 * shown.coloured.step + 1e-9
+    assert shown.values.r == pytest.approx(disk.r, abs=1e-6)
+    assert math.radians(shown.values.first) == pytest.approx(disk.psi[0])
+    tables = {name: table(packed, disk.mach) for name, packed in shown.values.tables.items()}
+    phi = np.degrees(np.arctan2(tables["u_p"], tables["u_t"]))
+    turn = tables["theta"] + tables["ahead"] - phi - np.degrees(disk.alpha)
+    assert np.abs(np.remainder(turn + 180.0, 360.0) - 180.0)[tables["u_t"] > CLEAR_OF_REVERSE].max() < 0.01
+    margin = np.minimum(np.degrees(disk.alpha) - tables["lower"], tables["upper"] - np.degrees(disk.alpha))
+    for row, column in ((4, 3), (12, 9), (20, 17)):
+        there = probe(solution, float(disk.r[row]), float(disk.psi[column]))
+        assert tables["cl"][row, column] == pytest.approx(there.cl, abs=1e-4)
+        assert tables["mach"][row, column] == pytest.approx(there.mach, abs=1e-4)
+        if there.stall_margin is not None:
+            assert margin[row, column] == pytest.approx(math.degrees(there.stall_margin), abs=0.01)
 
 
 def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
@@ -66,9 +73,8 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
     assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
-    assert (
-        np.abs(table(shown.alpha_a) - ALPHA.sample(DrawnSolution(other), polar_grid(other.disk, 40, 120))).max() < 0.01
-    )
+    assert shown.before is not None
+    assert np.abs(table(shown.before.tables["mach"], other.disk.mach) - other.disk.mach).max() < 1e-4
 
 
 @pytest.mark.parametrize(

@@ -2,17 +2,24 @@
 
 import asyncio
 import re
+from dataclasses import replace
+from urllib.parse import quote
 
 import pytest
 
 from explorer.app import App
 from explorer.hosting import browser
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import OPENING, Inputs, ViewState
 from explorer.model.session_state import ScreenState
+from explorer.sharing.game import Game
 from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.share import DESIGN, code_of
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
+from explorer.widgets.optimise.hand_game import GAME
+from rotor import make_design
 from tests.tools.visitor import Visitor, part_of, ran
 
+QUICK = replace(OPENING, inflow="drees", elements=20, azimuths=36)
 SHOWN = PresentedView(ScreenState(Inputs(), ViewState()))
 
 
@@ -77,6 +84,45 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
     assert third.startswith("Presenting: 1 follower")
 
 
+def test_followers_play_with_sliders_of_their_own_and_the_presenter_sees_what_they_reach(app: App):
+    design = QUICK.design()
+    start, least = (replace(design, twist=make_design(twist=twist).twist) for twist in ("linear:-16", "linear:-7.5"))
+    game = Game(start, least)
+    query = f"?{DESIGN}={quote(code_of(start))}&{GAME}={quote(game.code())}"
+
+    async def visit() -> None:
+        presenter = Visitor(query, kept={PRESENT: "a-secret"}, page="one")
+        await presenter.open(app.address)
+        await presenter.until(lambda: presenter.text("status") == "converged")
+        follower = Visitor(f"?{FOLLOW}={follow_name('a-secret')}")
+        await follower.open(app.address)
+        await follower.until(lambda: "Your turn" in follower.text("presentation"))
+        await follower.idle()
+        (page,) = (session.page for session in app.sessions if session.page.optimise.hand.game == game and not
+                   part_of(session.page, PresentationBanner)._secret)  # fmt: skip
+        assert not page.context.held
+        assert game.holds(page.context.inputs())
+        await follower.move("Rate [°/R]", -8.0)
+        await follower.idle()
+        assert page.context.inputs().linear == -8.0  # The presenter's sliders do not lead these.
+        standing = page.optimise.hand.standing
+        assert standing is not None
+        assert standing.best.power.total < standing.start.power.total
+        reached = app.presentations._results[follow_name("a-secret")][1]
+        assert [*reached.values()] == [standing.best.power.total]
+        contents = presenter.widgets.values()
+        await presenter.until(lambda: any("Best of each player" in str(each.get("content")) for each in contents))
+        await presenter.press("game_end")
+        await follower.until(lambda: "the presenter controls this page" in follower.text("presentation"))
+        await follower.idle()
+        assert page.context.held
+        assert page.context.inputs().linear == -16.0
+        for visitor in (presenter, follower):
+            await visitor.close()
+
+    ran(visit)
+
+
 class TestPresentations:
     def test_followers_hear_until_they_leave(self):
         presentations, secret = Presentations(), new_secret()
@@ -84,7 +130,7 @@ class TestPresentations:
         heard: list[PresentedView | str] = []
         leave = presentations.follow(follow_name(secret), heard.append)
         counted: list[int] = []
-        presentations.watch(secret, counted.append)
+        presentations.watch(secret, lambda count, _: counted.append(count))
         first = SHOWN
         presentations.present(secret, first)
         presentations.present(secret, first)
@@ -97,6 +143,24 @@ class TestPresentations:
         assert heard == [first]
         assert late[-1] == "over"
         assert counted == [1, 2, 1]
+
+    def test_what_players_reach_is_told_until_another_game_begins(self):
+        presentations, told = Presentations(), list[tuple[int, tuple[float, ...]]]()
+        name, design = follow_name("s"), SHOWN.screen.inputs.design()
+        first, second = Game(design, design), Game(design, design, design)
+        presentations.claim("s", "page", self)
+        presentations.watch("s", lambda count, results: told.append((count, tuple(results))))
+        presentations.present("s", replace(SHOWN, game=first))
+        for player, power in (("one", 9.0), ("two", 8.0), ("one", 7.0), ("one", 7.0)):
+            presentations.report(name, player, power)
+        assert told[2:] == [(0, (9.0,)), (0, (9.0, 8.0)), (0, (7.0, 8.0))]
+        presentations.release(self)  # A presenter who loads the page again goes on with the game.
+        presentations.claim("s", "page", self)
+        presentations.watch("s", lambda count, results: told.append((count, tuple(results))))
+        presentations.present("s", replace(SHOWN, game=first))
+        assert told[-1] == (0, (7.0, 8.0))
+        presentations.present("s", replace(SHOWN, game=second))
+        assert told[-1] == (0, ())
 
     def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
         presentations, secret = Presentations(), new_secret()
@@ -134,7 +198,8 @@ class TestPresentations:
         is told again, though it is the same."""
         presentations, one = Presentations(), object()
         presentations.claim("s", "page", one)
-        presentations.watch("s", (counts := list[int]()).append)
+        counts = list[int]()
+        presentations.watch("s", lambda count, _: counts.append(count))
         heard: list[PresentedView | str] = []
         presentations.follow(follow_name("s"), heard.append)
         presentations.present("s", SHOWN)

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -10,6 +10,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from explorer.charts.histogram import histogram
+from explorer.charts.svg import chart_box
 from explorer.hosting import browser
 from explorer.model.session_state import SessionState
 from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
@@ -17,8 +19,10 @@ from explorer.sharing.share import Address
 from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
 from explorer.widgets.lecture.lecture_panel import LecturePanel
+from explorer.widgets.optimise.hand_game import HandGame
 from explorer.widgets.views import SceneViews
-from rotor.support.markup import Content, tag
+from rotor.support.chart import drawn_chart
+from rotor.support.markup import Content, Markup, tag
 
 _CAMERA_EVERY = 0.1
 """[s] between two poses of the presenter's camera."""
@@ -26,6 +30,7 @@ _LONGEST = 40
 """Characters of a name in the address that are looked at."""
 _WORDS = "Copies a link. Anyone with the link follows your settings live and can leave at any time."
 _FOLLOWING = "Following a presentation: the presenter controls this page."
+_PLAYING = "Your turn: move the sliders to the least power. The presenter sees the best of each player."
 _AWAY = "The presenter has left: the page is yours. It follows again if they return before you change the design."
 _DUPLICATE = (
     "Another tab of this browser is already presenting; this one follows it. To present here, close that tab and "
@@ -38,6 +43,7 @@ class PresentationBanner:
 
     _lecture: LecturePanel
     _screen: SceneViews
+    _hand: HandGame
     _hold: Callable[[bool], None]
 
     def __init__(
@@ -59,9 +65,13 @@ class PresentationBanner:
         """What the presenter shows."""
         self._away = False
         """Whether the presenter's page is closed."""
+        self._player = object()
+        """Stands for this page among the results: the page itself would be kept alive by them."""
         self._looked = 0.0
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
+        self._results: tuple[int, Sequence[float]] | None = None
+        """What the presenter was told last."""
         context.leaving.append(self._end)
         self._banner = context.gui.add_html("", visible=False)
         self._leave = context.gui.add_button(
@@ -69,12 +79,12 @@ class PresentationBanner:
         )
         self._leave.on_click(lambda _: self.leave())
 
-    def begin(self, lecture: LecturePanel, screen: SceneViews, hold: Callable[[bool], None]) -> None:
+    def begin(self, lecture: LecturePanel, screen: SceneViews, hand: HandGame, hold: Callable[[bool], None]) -> None:
         """The page stands: follow, or present, if the address says so.
 
         `hold` takes the controls from the user, or gives them back.
         """
-        self._lecture, self._screen, self._hold = lecture, screen, hold
+        self._lecture, self._screen, self._hand, self._hold = lecture, screen, hand, hold
         gui = self._context.gui
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
@@ -127,9 +137,12 @@ class PresentationBanner:
 
     def show(self, state: SessionState | None) -> None:
         """Publish what the page shows, if it presents; where it follows, show what is presented."""
-        del state
         self._publish()
         self._hold_still()
+        if self._secret and self._results:
+            self._announce(*self._results)
+        if state is not None and self._name and self._playing and (standing := self._hand.standing) is not None:
+            self._presentations.report(self._name, self._player, standing.best.power.total)
 
     def _end(self) -> None:
         """The browser has left. A presenter who reloads the page goes on presenting."""
@@ -146,12 +159,23 @@ class PresentationBanner:
                 return
             # A follower has no search of its own, but sees the designs of the presenter's.
             screen = replace(self._screen.on_screen(), inputs=self._context.controls.shown())
-            self._presentations.present(self._secret, PresentedView(screen, self._lecture.place, self._camera))
+            shown = PresentedView(screen, self._lecture.place, self._hand.game, self._camera)
+            self._presentations.present(self._secret, shown)
 
-    def _announce(self, count: int) -> None:
+    def _announce(self, count: int, results: Sequence[float]) -> None:
+        self._results = count, results
         followers = "1 follower" if count == 1 else f"{count} followers"
         link = tag("a", "copy link", href=self._link, data_copy=True, target="_blank", rel="noopener")
-        self._say((f"Presenting: {followers} · ", link))
+        chart, standing = Markup(), self._hand.standing
+        if results and standing is not None:
+            ends = standing.least.power.total, standing.start.power.total
+            chart = chart_box(drawn_chart(histogram(results, ends, self._context.units)))
+        self._say((f"Presenting: {followers} · ", link, chart))
+
+    @property
+    def _playing(self) -> bool:
+        """Whether this follower plays the game that the presenter has begun."""
+        return self._shown is not None and self._shown.game is not None and not self._away
 
     @property
     def _link(self) -> str:
@@ -160,15 +184,16 @@ class PresentationBanner:
 
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
-        if self._name and self._shown is not None and not self._away:
+        if self._name and self._shown is not None and not self._away and not self._playing:
             held = self._shown.screen
             self._screen.put(replace(self._screen.on_screen(), inputs=held.inputs, hand=held.hand))
 
     def _stay(self, away: bool) -> None:
         """Follow on; `away`: once the presenter is here again, and until then the page is the user's."""
         self._away = away
-        self._hold(not away)
-        self._say(_AWAY if away else _DUPLICATE if self._duplicate else _FOLLOWING, leave=True)
+        self._hold(not away and not self._playing)
+        words = _PLAYING if self._playing else _DUPLICATE if self._duplicate else _FOLLOWING
+        self._say(_AWAY if away else words, leave=True)
 
     def _on_presented(self, shown: PresentedView | Literal["away", "over"]) -> None:
         """What the presenter shows; on the presenter's thread."""
@@ -181,16 +206,27 @@ class PresentationBanner:
                 context.notify("The presenter has left", "The page is yours.")
             return
         now = self._screen.on_screen()
-        own = self._away and before is not None and (now.inputs, now.hand) != (before.screen.inputs, before.screen.hand)
+        own = (
+            self._away
+            and before is not None
+            and before.game is None
+            and (now.inputs, now.hand) != (before.screen.inputs, before.screen.hand)
+        )
         if shown == "over" or own:
             self.leave()
             title = "The presentation is over" if shown == "over" else "The presenter is back"
             context.notify(title, "The page is yours.")
             return
-        if self._away:
+        changes = shown.game != (before.game if before is not None else None)  # A game begins, or is over.
+        self._shown = shown
+        if self._away or changes:
             self._stay(away=False)
+        if changes:
+            self._hand.begin(shown.game)
+        if shown.game is not None:
+            return
         with self._lock:
-            self._shown, screen = shown, shown.screen
+            screen = shown.screen
             stood = before is not None and (before.screen.mode, before.screen.look) == (screen.mode, screen.look)
             put = self._screen.on_screen() if stood else screen  # Until it changes, a follower may look elsewhere.
             self._screen.put(replace(screen, mode=put.mode, look=put.look))

@@ -9,23 +9,25 @@ from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.search_run import OBJECTIVES, SearchRequest, SearchRun
 from explorer.model.search_run import legs as mission_legs
-from explorer.model.session_state import SessionState
 from explorer.parts.frame import NoticePart
-from explorer.sharing.share import Address, code_of, design_from
+from explorer.sharing.game import Game, game_of
+from explorer.sharing.share import Address
 from explorer.text import search_words as text
 from explorer.text.glossary import hint
+from explorer.text.readout import total_words
 from explorer.widgets.context import TabContext
 from explorer.widgets.elements import WorkButtons
 from explorer.widgets.form import WidgetForm
 from explorer.widgets.layout import by_hand
+from explorer.widgets.optimise.hand_game import HandGame
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
-from explorer.workers.solver import BaselineCache, SearchTask
-from rotor import Design, Solution
+from explorer.workers.solver import SearchTask
+from rotor import Design
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
-from rotor.optimisation import CONCEPTS, WeightedCondition, at_condition
-from rotor.optimisation.results import BestTwist
+from rotor.optimisation import CONCEPTS, WeightedCondition
+from rotor.optimisation.results import BestTwist, SearchStatus
 from rotor.optimisation.search import best_linear_twist
 from rotor.support.markup import tag
 
@@ -42,13 +44,6 @@ _NUMBERS = ("hover_share", "division", "first", "second", *_LIMITS.values())
 
 NAME = "search"
 """Of the work."""
-OPTIMISED = "o"
-"""Name in the address of the optimum to be beaten by hand."""
-
-
-def same_but_twist(optimised: Design, present: Design) -> bool:
-    """Whether the two differ in nothing but the jig twist."""
-    return replace(present, twist=optimised.twist) == optimised
 
 
 class OptimisePanel:
@@ -56,8 +51,7 @@ class OptimisePanel:
 
     def __init__(self, context: TabContext, address: Address) -> None:
         self._context, self._work, gui, bridge = context, context.work, context.gui, context.bridge
-        self.rival = OptimisedDesign(context, address)
-        """What is to be beaten by hand."""
+        self.hand = HandGame(context, address)
         self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
         """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
         self._run: SearchRun | None = None
@@ -65,6 +59,8 @@ class OptimisePanel:
         """Why what was asked for last is no search."""
         self._offered = False
         """Whether the run's designs are shown, to be applied or discarded."""
+        self._made: tuple[SearchRun, Game | None] | None = None
+        """The game of a run."""
         self._replay: int | None = None
         """Which of them is shown; None: the best."""
         form = self.form = WidgetForm(gui, lambda name, by_hand: context.wake() if by_hand else None)
@@ -229,37 +225,40 @@ class OptimisePanel:
         if run is None or not self._offered or design is None or not run.matches(design):
             return None
         best, units = run.best, self._context.units
+        close = [("apply", "Apply"), ("discard", "Discard")]
         if run.under_way:
-            words = " …" if best is None else f": {units.watts(best.power)}"
-            return NoticePart(f"Searching{words}", [("halt", "Stop")])
+            words = " …" if best is None else f": {total_words(best.power, units)}"
+            return NoticePart(f"Searching{words}", [("halt", "Stop"), *(close if best else close[1:])])
         if len(run.frames) < 2:
             return None
-        beat = [("beat", "Beat it by hand")] if self._beatable(run) else []
-        return NoticePart("Previewing optimum", [("apply", "Apply"), *beat, ("discard", "Discard")])
+        beat = [] if self._game_of(run) is None else [("beat", "Beat it by hand")]
+        return NoticePart("Previewing optimum", [close[0], *beat, close[1]])
 
-    @staticmethod
-    def _beatable(run: SearchRun) -> bool:
-        """Whether power on the page is what was searched for, and the twist alone was moved."""
-        asked, start = run.search.objective, run.search.design
-        least_power = asked is None or asked == at_condition(start, "total")
-        return least_power and run.frames[-1].design != start and same_but_twist(run.frames[-1].design, start)
+    def _game_of(self, run: SearchRun) -> Game | None:
+        """The game that the search makes, if it has come to its end."""
+        if self._made is None or self._made[0] is not run:
+            over = run.optimum is not None and run.optimum.status is SearchStatus.CONVERGED
+            found = game_of(run.search, run.frames[-1].design, self._context.inputs()) if over else None
+            self._made = run, found
+        return self._made[1]
 
     def _beat(self) -> None:
-        """The blade before the search again, to be twisted by hand against what was found."""
+        """A game against what was found, from where the search began."""
         run = self.run
-        if run is not None and not run.under_way and len(run.frames) > 1 and self._beatable(run):
+        if run is not None and not run.under_way and run.frames and (game := self._game_of(run)) is not None:
             self._close(False)
             self._context.layout.show_mode("explore")
-            self.rival.begin(run.frames[-1].design)
+            self.hand.begin(game)
 
     def _close(self, apply: bool) -> None:
-        """Take what is previewed onto the sliders, or leave them as they are."""
+        """Take what is previewed onto the sliders, or leave them as they are; a search under way ends."""
         run = self.run
-        if run is None or run.under_way or not run.frames:
+        if run is None or not run.frames:
             return
+        self.halt()
         self._offered = False
         self._context.tracker.reset()
-        if apply:
+        if apply and len(run.frames) > 1:
             here = run.matches(self._context.inputs().design())
             frame = run.frames[self._cursor(run) if here else -1]
             self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))
@@ -268,37 +267,3 @@ class OptimisePanel:
     def _scrubbed(self, cursor: float) -> None:
         self._replay = round(cursor)
         self._context.wake()
-
-
-class OptimisedDesign:
-    """One session's. The design is kept, never its power: whoever opens the link computes it again."""
-
-    def __init__(self, context: TabContext, address: Address) -> None:
-        self._context, self._address = context, address
-        self._solved = BaselineCache(by=context.analyses.solve)
-        self._design = address.read(OPTIMISED, design_from, None, "Link: optimum not used")
-        self.solution: Solution | None = None
-        """The optimiser's trim in the present flight; None without one."""
-        context.bridge.on("rival_take", lambda _: self._take())
-        context.bridge.on("rival_end", lambda _: self.begin(None))
-
-    def begin(self, design: Design | None) -> None:
-        """Measure what follows against this optimum; None: against none."""
-        self._design, self.solution = design, None
-        try:
-            self._address[OPTIMISED] = None if design is None else code_of(design)
-        except ValueError:
-            self._address[OPTIMISED] = None  # No address holds a rotor of one's own.
-        self._context.wake()
-
-    def show(self, state: SessionState) -> None:
-        """Follow a converged state: in another flight, with another model or rotor there is nothing to compare."""
-        self.solution, optimised = None, self._design
-        if optimised is not None and same_but_twist(optimised, state.solution.design):
-            other = self._solved.solve(optimised)
-            if other.converged:
-                self.solution = other
-
-    def _take(self) -> None:
-        if self._design is not None and not self._context.held:
-            self._context.set_inputs(with_optimum(self._context.inputs(), self._design))
