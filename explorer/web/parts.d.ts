@@ -21,6 +21,7 @@ interface RxState {
   notice: RxNoticePart | null;
   plan: RxPlanPart | null;
   power: RxPowerPart;
+  prices: Record<string, RxRegionPrice> | null;
   probe_label: RxSceneLabel[];
   prompt: RxSceneLabel | null;
   ride: RxRidePart | null;
@@ -54,6 +55,7 @@ interface RxPresses {
   rival_take: null;
   rival_end: null;
   feasible: null;
+  unstall: null;
   along: boolean;
   hold: boolean;
   field: string;
@@ -442,11 +444,19 @@ interface RxPowerShare {
   title: string;
 }
 
+interface RxRegionPrice {
+  lines: string[];
+  stale: boolean;
+  press: string;
+}
+
 interface RxRidePart {
   r: number;
   psi: number;
   out: number;
-  radius: number;
+  eye: number[];
+  look: number[];
+  view: number;
   section: string;
   outline: number[][];
   u: number[];
@@ -459,6 +469,7 @@ interface RxRidePart {
   where: string[];
   region: string[];
   margin: (string | null)[];
+  filled: (number | null)[];
   angles: number[];
   curves: number[][];
   chart: RxDrawnChart;
