@@ -40,6 +40,7 @@ from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
+from explorer.views.prices import PRICES
 from explorer.views.strip import STRIP
 from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
@@ -68,7 +69,10 @@ _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
 AT_ONCE = BAR, PROMPT
 """Panels that follow a press before the update that it wakes."""
 _NUMBER = LINE, POWER, HAND
-PANELS = *AT_ONCE, *_NUMBER, VIBRATION, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST, WATERFALL, COSTS, *_ACTUATE
+PANELS = (
+    *(*AT_ONCE, *_NUMBER, VIBRATION, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST),
+    *(WATERFALL, COSTS, PRICES, *_ACTUATE),
+)
 Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept", "deferred"]
 """What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
@@ -150,7 +154,7 @@ class Page:
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
-            ExportPanel(context, self.scene, self.history, self.actuator, self.now)
+            ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)
         with layout.drawers["lecture"]:
             lecture = LecturePanel(context, self.scene.camera, self._views)
         with layout.drawers["settings"]:
@@ -260,7 +264,13 @@ class Page:
         context = self.context
         return replace(
             self.latest,
-            ui=OpenPanels(context.layout.mode, context.layout.drawer, context.held, self.actuator.lifted),
+            ui=OpenPanels(
+                context.layout.mode,
+                context.layout.drawer,
+                context.held,
+                self.actuator.lifted,
+                self._views.now == "disk",
+            ),
             pins=context.pinboard.now,
             steps=self.history.steps,
             station=self._curve.held,

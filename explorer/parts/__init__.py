@@ -34,6 +34,7 @@ class Parts(TypedDict, total=False):
     notice: frame.NoticePart | None
     plan: stage.PlanPart | None
     power: results.PowerPart
+    prices: Mapping[str, stage.RegionPrice] | None
     probe_label: Sequence[stage.SceneLabel]
     prompt: stage.SceneLabel | None
     ride: stage.RidePart | None

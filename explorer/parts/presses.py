@@ -77,7 +77,7 @@ class WavePress(_Fields):
 
 _ALONE = (
     *("pin", "swap", "back", "undo", "redo", "play", "apply", "discard"),
-    *("halt", "nearest", "aim", "taken", "beat", "game_link", "game_take", "game_end", "feasible"),
+    *("halt", "nearest", "aim", "taken", "beat", "game_link", "game_take", "game_end", "feasible", "unstall"),
 )
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {

@@ -89,6 +89,15 @@ class PlanRegion:
 
 
 @dataclass(frozen=True)
+class RegionPrice:
+    """Words below a region of the disk; `press`: on the button that switches it off or on, where there is one."""
+
+    lines: Sequence[str]
+    stale: bool = False
+    press: str = ""
+
+
+@dataclass(frozen=True)
 class PlanDisk:
     """The field on the disk as numbers of `explorer.picture.disk_numbers`, by radius and azimuth.
 
@@ -150,15 +159,18 @@ class RidePart:
     """A section around the disk at equal steps of ψ from 0. Where the flow comes from the trailing edge, angles count
     from there, and the flow `u` [m/s] is negative.
 
-    `psi`: where the turn begins. `out`: radius of the section, `radius`: of the rotor [m]. Angles [°], lift [kN/m].
-    `margin`: to stall; None where it has none. `curves`: C_l over `angles`, a curve for each step of ψ. `chart`: the
-    axes, with the path of the turn.
+    `psi`: where the turn begins. `out`: radius of the section [m]. `eye`, `look`: where the camera stands and looks,
+    from the section out, ahead and up [m]; `view`: its field of view [°]. Angles [°], lift [kN/m]. `margin`: to stall;
+    `filled`: α over the stall angle on its side; both None where it has none. `curves`: C_l over `angles`, a curve for
+    each step of ψ. `chart`: the axes, with the path of the turn.
     """
 
     r: float
     psi: float
     out: float
-    radius: float
+    eye: Sequence[float]
+    look: Sequence[float]
+    view: float
     section: str
     outline: Sequence[Sequence[float]]
     u: Sequence[float]
@@ -171,6 +183,7 @@ class RidePart:
     where: Sequence[str]
     region: Sequence[str]
     margin: Sequence[str | None]
+    filled: Sequence[float | None]
     angles: Sequence[float]
     curves: Sequence[Sequence[float]]
     chart: DrawnChart

@@ -4,7 +4,7 @@ Of the turn this has what the page needs to go with the section, over the azimut
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any
 
@@ -14,6 +14,7 @@ from explorer.colours import THIS
 from explorer.model.units import number
 from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
+from explorer.picture.camera_views import RIDE_EYE, RIDE_LOOK, RIDE_VIEW
 from explorer.picture.polar import DRAG_DIVERGENCE, stall_angles
 from explorer.text.status import section_title
 from rotor import Solution
@@ -21,6 +22,7 @@ from rotor.aero.display import STALLED
 from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
+from rotor.airfoil.stall_onset import unstalled
 from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line, drawn_chart
 from rotor.trim import DiskFields
@@ -148,7 +150,10 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     phi = math.atan2(u_p, u_t)
     per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
     thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
-    section = SectionBlend(rotor.blade.mixture(r, design.reynolds_per_metre))
+    parts = rotor.blade.mixture(r, design.reynolds_per_metre)
+    if not design.models.stall:
+        parts = tuple((replace(one, table=unstalled(one.table)), share) for one, share in parts)
+    section = SectionBlend(parts)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
@@ -280,7 +285,9 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         r=r,
         psi=psi_deg,
         out=around[0].radius,
-        radius=solution.design.rotor.radius,
+        eye=_rounded(solution.design.rotor.radius * np.array(RIDE_EYE)),
+        look=_rounded(solution.design.rotor.radius * np.array(RIDE_LOOK)),
+        view=math.degrees(RIDE_VIEW),
         section=sections_of(around[0].section),
         outline=np.round(outline(around[0].section), 4).tolist(),
         u=[round(math.copysign(here.u, here.u_t), 1) for here in around],
@@ -293,6 +300,10 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         where=[where(here.psi) for here in around],
         region=[here.region.value for here in around],
         margin=[None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around],
+        filled=[
+            None if here.u_t < 0.0 else round(max(here.alpha / here.stall[1], here.alpha / here.stall[0]), 3)
+            for here in around
+        ],
         angles=_rounded(angles),
         curves=[_rounded(curve, 3) for curve in curves],
         chart=drawn_chart(chart),

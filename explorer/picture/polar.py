@@ -177,6 +177,8 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each."""
     disk, design = solution.disk, solution.design
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
+    if not design.models.stall:
+        return lower - math.pi, upper + math.pi
     mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
     for section, rows, shares in _sections(design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre):
         negative, positive = section.table.stall_alpha(mach[rows])

@@ -23,13 +23,14 @@ T = TypeVar("T")
 class OpenPanels:
     """What of the page is open, and whether a presenter moves it (`held`).
 
-    `lifted`: the blade with its actuator is out of the rotor.
+    `lifted`: the blade with its actuator is out of the rotor. `disk`: the view of the disk is shown.
     """
 
     mode: Mode = "explore"
     drawer: str = ""
     held: bool = False
     lifted: bool = False
+    disk: bool = False
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from explorer.text import readout
 from explorer.text.readout import part_titles
 from explorer.views.page_state import PageState, Panel, PanelWork, Tell
 from rotor import Design
-from rotor.aero.switches import SWITCHES, with_switches
+from rotor.aero.switches import SWITCHES, switched_off, with_switches
 from rotor.study.series import WaterfallStep, waterfall_steps
 from rotor.support.markup import Markup, group, tag
 from rotor.trim.power import PowerBudget
@@ -152,6 +152,18 @@ def costs(now: PageState) -> dict[str, Any]:
     alone = _known(now)[0][_CLIMB:]
     words = {step.switch.name: cost_words(step, now.units) for step in alone if step.switch is not None}
     return {"switch.costs": words} if words else {}
+
+
+def switched_alone(now: PageState) -> tuple[dict[str, WaterfallStep], bool]:
+    """Each switch off alone by its name, as far as the page knows it, and whether that is of the design on the page.
+
+    Nothing where other effects than stall are off, since these steps have them all.
+    """
+    steps, current = _known(now)
+    off = {switch.name for switch in switched_off(now.state.solution.design.models)} if now.state else set[str]()
+    if off - {"stall"}:
+        return {}, True
+    return {step.switch.name: step for step in steps[_CLIMB:] if step.switch is not None}, current
 
 
 def _known(now: PageState) -> tuple[tuple[WaterfallStep, ...], bool]:

@@ -117,7 +117,14 @@
     ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')],
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
   ];
-  RX.paint(['field', 'plan'], (field, plan) => {
+  // What a region costs, where its edge is, and the press that switches it off.
+  RX.price = name => {
+    const {lines, stale, press} = RX.state.prices?.[name] ?? {lines: [], stale: false, press: ''};
+    const said = lines.map(words => `<span class="rxf-num">${text(words)}</span>`).join('');
+    return `<span class="rxf-price ${stale ? 'rxf-stale' : ''}">${said}</span>${press
+      && `<button class="rxf-push" data-do="unstall">${text(press)}</button>`}`;
+  };
+  RX.paint(['field', 'plan', 'prices'], (field, plan, prices) => {
     const card = document.querySelector('.rxf-field');
     card.hidden = !field;
     if (!field) return;
@@ -143,6 +150,8 @@
       <button data-do="difference" data-value="${difference ? 'off' : 'on'}" aria-pressed="${difference}">Show B − A
       </button>
       <button data-do="region" data-value="wipe" aria-pressed="${wipe}">Wipe A | B</button>`);
+    for (const [name, title] of plan ? PLANNED : []) if (prices?.[name]) key.push(`<div class="rxf-priced"
+      data-priced="${name}"><b>${title}</b>${RX.price(name)}</div>`);
     write(part('legend'), key.join(''));
   });
 

@@ -21,6 +21,7 @@ interface RxState {
   notice: RxNoticePart | null;
   plan: RxPlanPart | null;
   power: RxPowerPart;
+  prices: Record<string, RxRegionPrice> | null;
   probe_label: RxSceneLabel[];
   prompt: RxSceneLabel | null;
   ride: RxRidePart | null;
@@ -55,6 +56,7 @@ interface RxPresses {
   game_take: null;
   game_end: null;
   feasible: null;
+  unstall: null;
   along: boolean;
   hold: boolean;
   field: string;
@@ -453,11 +455,19 @@ interface RxPowerShare {
   title: string;
 }
 
+interface RxRegionPrice {
+  lines: string[];
+  stale: boolean;
+  press: string;
+}
+
 interface RxRidePart {
   r: number;
   psi: number;
   out: number;
-  radius: number;
+  eye: number[];
+  look: number[];
+  view: number;
   section: string;
   outline: number[][];
   u: number[];
@@ -470,6 +480,7 @@ interface RxRidePart {
   where: string[];
   region: string[];
   margin: (string | null)[];
+  filled: (number | null)[];
   angles: number[];
   curves: number[][];
   chart: RxDrawnChart;

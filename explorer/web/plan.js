@@ -121,28 +121,32 @@
   // Each label on the nearer side, as high as its region, none over another; what has no room left goes right.
   function placeLabels(regions) {
     if (!layout.wide) return [];
+    const sizes = Object.fromEntries(regions.map(region => [region.name, LABEL.height + priceHeight(region.name)]));
     const from = (seen('.rxf-power')?.bottom ?? 20) + 12, x = layout.width - LABEL.width - 16;
-    const to = (seen('.rxf-field')?.top ?? layout.height) - LABEL.height - 12;
-    const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[]} */ ([])};
-    const right = {x, end: x, from: 62, to: layout.height - LABEL.height - 16, taken: /** @type {number[]} */ ([])};
+    const to = (seen('.rxf-field')?.top ?? layout.height) - 12;
+    const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[][]} */ ([])};
+    const right = {x, end: x, from: 62, to: layout.height - 16, taken: /** @type {number[][]} */ ([])};
     const placed = [];
     for (const region of regions) {
-      const largest = region.lines.reduce((most, line) => line.length > most.length ? line : most);
+      const size = sizes[region.name], largest = region.lines.reduce((most, line) =>
+        line.length > most.length ? line : most, [[0, 0]]);
       const [sumX, sumY] = largest.reduce(([sx, sy], [px, py]) => [sx + px, sy + py], [0, 0]);
       const nearer = sumX < 0 ? left : right, other = sumX < 0 ? right : left;
-      const middle = layout.y + layout.radius * sumY / largest.length - LABEL.height / 2;
-      const column = (layout.both ? [nearer, other] : [left]).find(one => free(one, middle) !== null);
+      const middle = layout.y + layout.radius * sumY / largest.length - size / 2;
+      const column = (layout.both ? [nearer, other] : [left]).find(one => free(one, middle, size) !== null);
       if (!column) continue;
-      const top = free(column, middle);
-      column.taken.push(top);
+      const top = free(column, middle, size);
+      column.taken.push([top, size]);
       const all = region.lines.flat(), same = all.filter(([px]) => (px < 0) === (column === left));
       const corners = column === nearer ? largest : same.length ? same : all;
-      placed.push(aimed({region, column, top, corners: corners.map(pixel)}));
+      placed.push(aimed({region, column, top, size, corners: corners.map(pixel)}));
     }
     // Two lines of one side that cross change places.
     for (const one of placed) for (const other of placed) {
       if (one.column !== other.column || !cross(one, other)) continue;
-      [one.top, other.top] = [other.top, one.top];
+      const [upper, lower] = one.top < other.top ? [one, other] : [other, one], high = upper.top;
+      upper.top = lower.top + lower.size - upper.size;
+      lower.top = high;
       [one, other].forEach(aimed);
     }
     return placed;
@@ -150,6 +154,7 @@
   // With its line, from the middle of the label's edge to the nearest corner of the region.
   function aimed(label) {
     const {column, top, corners} = label, end = [column.end, top + LABEL.height / 2];
+    if (!corners.length) return Object.assign(label, {end, tip: end});
     const tip = corners.reduce((best, spot) => distance(spot, end) < distance(best, end) ? spot : best);
     return Object.assign(label, {end, tip});
   }
@@ -157,17 +162,21 @@
   const parted = (one, other) => side(one.end, one.tip, other.end) !== side(one.end, one.tip, other.tip);
   const cross = (one, other) => one !== other && parted(one, other) && parted(other, one);
   const circleAt = (centre, r, style) => `<circle cx="${centre[0]}" cy="${centre[1]}" r="${r}" ${style}/>`;
-  const drawTie = ({region: {name}, end, tip}) => `
+  const drawTie = ({region: {name}, end, tip}) => end === tip ? '' : `
     <path d="${trace([end, tip])}" stroke="var(--rx-paper)" stroke-width="3.5" opacity=".8"/>
     <path d="${trace([end, tip])}" stroke="${COLOURS[name]}" stroke-width="1.4" data-tie/>
     ${circleAt(tip, 3.5, `fill="${COLOURS[name]}" stroke="var(--rx-paper)" stroke-width="1.5"`)}`;
-  const labelOf = ({region: {name, title, words}, column: {x}, top}) => `<div class="rxf-card rxf-region"
-    data-region="${name}" style="--c:${COLOURS[name]};left:${x}px;top:${top}px"><b>${text(title)}</b>
-    <span class="rxf-num">${text(words)}</span></div>`;
-  function free({taken, from, to}, wanted) {
-    const step = LABEL.height + 8, tops = [clamp(wanted, from, to), ...taken.flatMap(top => [top - step, top + step])];
-    const possible = tops.filter(top =>
-      top >= from && top <= to && taken.every(other => Math.abs(other - top) >= step - .5));
+  const labelOf = ({region: {name, title, words}, column: {x}, top, size}) => `<div class="rxf-card rxf-region"
+    data-region="${name}" style="--c:${COLOURS[name]};left:${x}px;top:${top}px;height:${size}px"><b>${text(title)}</b>
+    <span class="rxf-num">${text(words)}</span>${RX.price(name)}</div>`;
+  const priceHeight = name => {
+    const {lines, press} = RX.state.prices?.[name] ?? {lines: [], press: ''};
+    return 15 * lines.length + (press ? 26 : 0);
+  };
+  function free({taken, from, to}, wanted, size) {
+    const tops = [clamp(wanted, from, to - size), ...taken.flatMap(([top, own]) => [top - size - 8, top + own + 8])];
+    const possible = tops.filter(top => top >= from && top <= to - size
+      && taken.every(([other, own]) => top >= other + own + 7.5 || top + size <= other - 7.5));
     return possible.sort((a, b) => Math.abs(a - wanted) - Math.abs(b - wanted))[0] ?? null;
   }
   // A card of the stage, in the stage's own coordinates.
@@ -176,7 +185,7 @@
     return box && {left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top};
   }
 
-  RX.paint('plan', plan => {
+  RX.paint(['plan', 'prices'], plan => {
     if (!plan && page.hasAttribute('data-twisting')) return;  // It leaves with the blade.
     place.hidden = !plan;
     around.hidden = !plan || Boolean(plan.held);
@@ -197,7 +206,10 @@
     shown.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
     window.rotorDisk.fill(shown.shadowRoot.firstElementChild, plan.disk, plan.root,
       plan.values ? edge * sharp : Math.min(edge, MOVING));
-    const regions = plan.regions.filter(({lines}) => lines.length), labels = placeLabels(regions);
+    const regions = plan.regions.filter(({lines}) => lines.length);
+    const stall = {name: 'stall', title: 'Stall', words: 'none'};
+    const none = !plan.held && RX.state.prices && !regions.some(({name}) => name === 'stall');
+    const labels = placeLabels(none ? [...regions, {...stall, lines: [], before: []}] : regions);
     const before = plan.regions.flatMap(region => region.before).map(line =>
       `<path d="${path(line)}" fill="none" stroke="var(--rx-pinned)" stroke-width="1.6" stroke-dasharray="5 4"/>`);
     const outlines = regions.flatMap(({name, lines}) => lines.map(line => `

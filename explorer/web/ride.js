@@ -3,7 +3,7 @@
 // on the lift curve. Any key, or a press beside the card, leads out again.
 (() => {
   const {DEGREE, text, lerp, distance, turned, fixed, trace, calm, closest} = Common;
-  const {part} = RX, page = document.documentElement, place = part('ride'), TURN = 16000, HEIGHT = 178;
+  const {part} = RX, page = document.documentElement, place = part('ride'), TURN = 16000, HEIGHT = 118;
   const MODIFIERS = ['Shift', 'Control', 'Alt', 'Meta', 'Tab'];
   let section = null, begun = 0;
 
@@ -19,7 +19,7 @@
     if (!section) return;
     const share = Math.min((now - begun) / TURN, 1), shown = calm.matches ? Math.floor(12 * share) / 12 : share;
     const psi = section.psi + 360 * shown;
-    rotorScene.ride(psi * DEGREE, section.out, section.radius);
+    rotorScene.ride(psi * DEGREE, section);
     draw(turned(psi));
     if (share < 1) requestAnimationFrame(go); else end();
   }
@@ -94,12 +94,15 @@
     const frame = Charts.frame(section.chart, wide ? width - half - 12 : width, HEIGHT, {bottom: 18});
     const words = u < 0 ? `${region}: the air comes from the trailing edge`
       : `α ${fixed(alpha, 1)}° · ${bad ? 'stalled' : `${section.margin[nearer]}° to stall`}`;
+    const filled = Math.min(100 * (section.filled[nearer] ?? 0), 100);
     const svg = (size, label, content) => `<svg viewBox="0 0 ${size} ${HEIGHT}" style="width:${size}px" role="img"
       aria-label="${label}">${content}</svg>`;
     place.innerHTML = `<div class="rxf-head"><b class="rxf-num">${section.r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>
         <span class="rxf-dim">${text(section.where[nearer])} · ${text(section.section)}</span>
         <span class="rxf-num ${bad ? 'rxf-bad' : ''}" data-value>${text(words)}</span>
         <button data-page-ride aria-label="Leave the blade" title="Leave the blade (Esc)">×</button></div>
+      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img" aria-label="Angle of attack over the stall angle:
+        ${Math.round(filled)} %"><i style="width:${filled.toFixed(1)}%"></i></div>
       ${svg(half, 'The section with the air it meets and its lift', drawSection(values, half))}${svg(frame.width,
         'Lift coefficient over the angle of attack, with the point of this section', drawLift(values, frame))}`;
   }

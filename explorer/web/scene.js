@@ -223,27 +223,31 @@
       heard = {psi: angle, at};
       go();
     },
-    // The reference blade at ψ, and the camera behind and above its section so far out [m]; `leave` flies back.
-    ride(angle, out, radius) {
+    // The reference blade at ψ [rad], and the camera with its section, as `RidePart` says. The page learns where the
+    // horizon is on the canvas [%]. `leave` flies back.
+    ride(angle, {out, eye, look, view}) {
       const control = viewer()?.cameraControl, blade = node('/rotor/blade_0'), world = blade?.parent;
       if (!motion || !control || !world) return;
-      const point = blade.position.clone(), now = performance.now();
-      seat ??= {from: control.getPosition(point.clone()), to: control.getTarget(point.clone()), since: now};
+      const point = blade.position.clone(), now = performance.now(), {camera} = viewer();
+      const [here, there] = [control.getPosition(point.clone()), control.getTarget(point.clone())];
+      seat ??= {from: here, to: there, since: now, fov: camera.fov};
       show(psi = angle);
       world.updateWorldMatrix(true, false);
       const c = Math.cos(angle), s = Math.sin(angle);
       const flapped = (out - motion.hinge) * Math.sin(harmonic(motion.flap, angle));
-      const far = Math.max(.52 * radius, 2.7);  // Beyond the camera's near plane.
-      const at = (x, y, z) =>
-        point.set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld).toArray();
-      // The section above the card.
-      const from = at(out - .6 * far, -far, .5 * far), to = at(out + .12 * far, .1 * far, -.32 * far);
-      control.setLookAt(...from, ...to, !calm.matches && now - seat.since < 900);
+      const at = ([more, y, z], x = out + more) =>
+        point.clone().set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld);
+      const from = at(eye), to = at(look), along = to.clone().sub(from).normalize();
+      Object.assign(camera, {fov: view}).updateProjectionMatrix();
+      control.setLookAt(...from.toArray(), ...to.toArray(), !calm.matches && now - seat.since < 900);
+      const rise = Math.tan(Math.asin(along.dot(camera.up))) / Math.tan(view * Math.PI / 360);
+      document.documentElement.style.setProperty('--rx-horizon', `${(50 + 50 * rise).toFixed(1)}%`);
     },
     async leave() {
       const back = seat, control = viewer()?.cameraControl;
       seat = null;
       if (!back || !control) return;
+      Object.assign(viewer().camera, {fov: back.fov}).updateProjectionMatrix();
       heard = mark = null;
       const wait = time => new Promise(done => setTimeout(done, time));
       await Promise.race([control.setLookAt(...back.from.toArray(), ...back.to.toArray(), !calm.matches), wait(1500)]);

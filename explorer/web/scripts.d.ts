@@ -10,6 +10,7 @@ declare const RX: {
   hold(after?: number): () => void;
   say(sentence: string): void;
   icon(name: string): string;
+  price(region: string): string;
   part(name: string): any;
   small: MediaQueryList;
   covered: RxPresses['covered'];

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, attached_lift, held_beyond_peak
 from rotor.airfoil.sections import Section
-from rotor.airfoil.stall_onset import ZERO, stall_onset
+from rotor.airfoil.stall_onset import ZERO, stall_onset, unstalled
 from rotor.design.blade import Blade, Rotor
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
@@ -111,20 +111,22 @@ def build_disk(
     only_mach: float | None = None,
     swept: bool = True,
     surface: bool = True,
+    stalls: bool = True,
     fine_tip: bool = False,
     reynolds: float = 0.0,
 ) -> Disk:
     """The rotor on a grid of elements, evenly spaced or finer towards the tip, and evenly spaced azimuths.
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
-    `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count. `reynolds`:
-    `Design.reynolds_per_metre` where a section has data of several Reynolds numbers; else 0, so that all altitudes
-    share a disk and what is kept by it.
+    `swept`, `surface`, `stalls`: whether the sweep of the tip, the drag of the real surface and stall count.
+    `reynolds`: `Design.reynolds_per_metre` where a section has data of several Reynolds numbers; else 0, so that all
+    altitudes share a disk and what is kept by it.
     """
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
-    rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "fine_tip": fine_tip}
+    rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "stalls": stalls}
+    shown["fine_tip"] = fine_tip
     return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown))
 
 
@@ -138,6 +140,7 @@ def _disk(
     only_mach: float | None,
     swept: bool,
     surface: bool,
+    stalls: bool,
     fine_tip: bool,
     reynolds: float,
 ) -> Disk:
@@ -155,6 +158,8 @@ def _disk(
     ratio = np.array([(1.0 - share) * inner.chord_ratio + share * outer.chord_ratio for inner, outer, share in pairs])
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
     sweep = blade.sweep(r, rotor.radius) if swept else np.zeros(elements)
+    if not stalls:
+        sections = tuple(replace(item, table=unstalled(item.table), of_reynolds=()) for item in sections)
     tables = _at_mach(sections, only_mach)
     coefficients, held = _stacked(tables, blade.surface_drag if surface else 1.0)
     mach = MACH_STEP * np.arange(N_MACH + 1)

@@ -24,14 +24,13 @@ from rotor.aero.elements import (
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
+from rotor.airfoil.stall_onset import STALLED
 from rotor.engine.waves import wave_grid
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
 
 ENOUGH_ELEMENTS = 40
 """Elements whose cells are counted as they are: the border of a region cuts few of them."""
-STALLED = 0.7
-"""f″ below which a section is stalled: f of static stall by Leishman and Beddoes (J. AHS 34(3), 1989)."""
 AREA_RADII = 80
 """Even radii at which regions are counted where there are fewer elements."""
 
@@ -107,9 +106,9 @@ def pitch_of_alpha(flow: Any) -> Array:
     return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
 
 
-def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float, float]:
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float, float, float]:
     """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled parts of the thrust
-    and of its moment about the hub, Σ r dT.
+    and of its moment about the hub, Σ r dT; last the least margin to stall, negative where there is a stalled area.
 
     Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
     stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
@@ -118,8 +117,8 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
     unsteady = elements.unsteady
     if len(disk.r) >= ENOUGH_ELEMENTS:
         reverse = elements.u_t < 0.0
-        beyond = stall_margin < 0.0 if unsteady is None else unsteady.separation < STALLED
-        stalled, cells, lift, r = beyond & ~reverse, disk.cells, disk.dr[:, None] * elements.fz, disk.r
+        left = stall_margin if unsteady is None else unsteady.separation - STALLED
+        cells, lift, r = disk.cells, disk.dr[:, None] * elements.fz, disk.r
     else:
         matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
         u_t, lift = matrix @ np.stack((elements.u_t, elements.fz))
@@ -130,14 +129,14 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
             theta, u_p, low, high = matrix @ np.stack((pitch, elements.u_p, *limits))
             alpha = np.empty_like(theta)
             angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
-            beyond = (alpha > high) | (alpha < low)
+            left = np.minimum(high - alpha, alpha - low)
         else:
-            beyond = matrix @ unsteady.separation < STALLED
-        stalled = beyond & ~reverse
+            left = matrix @ unsteady.separation - STALLED
+    stalled = (left < 0.0) & ~reverse
     moment = r[:, None] * lift
     of_lift, of_moment = (float(own[stalled].sum() / own.sum()) if own.any() else 0.0 for own in (lift, moment))
     reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
-    return reversed_area, area, of_lift, of_moment
+    return reversed_area, area, of_lift, of_moment, float(left.min(initial=math.inf, where=~reverse))
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
@@ -149,7 +148,7 @@ def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float,
     """`stalled_parts` on the azimuths of the trim."""
     disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
-    _, area, _, moment = areas(disk, e, margin)
+    _, area, _, moment, _ = areas(disk, e, margin)
     return area, moment
 
 

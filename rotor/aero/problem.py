@@ -163,6 +163,7 @@ def build_problem(design: Design) -> Problem:
     only_mach, swept = None if models.compressibility else LOW_MACH, models.has("swept_tip")
     elements, azimuths = grid_of(design)
     shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
+    shown["stalls"] = models.stall
     reynolds = design.reynolds_per_metre if rotor.blade.follows_reynolds else 0.0
     disk = build_disk(rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown)
     flow = expected_flow(design)

@@ -94,16 +94,30 @@ def _cells(f: Array, f_u: Array, f_v: Array, f_uv: Array) -> Array:
     return np.matmul(np.matmul(_HERMITE, corners), _HERMITE.T)
 
 
+def _nodes(cells: Array) -> Array:
+    """Values and slopes per cell at the nodes of cells (N_ALPHA, N_MACH, …, 4, 4): (α, Mach, …, by α, by Mach)."""
+    last = cells[:, -1]  # Its end is where the Mach number is 1.
+    at_end = np.stack([last.sum(axis=-1), last @ np.arange(4.0)], axis=-1)
+    nodes = np.concatenate([cells[..., :2], at_end[:, None]], axis=1)[..., :2, :]
+    return np.concatenate([nodes, nodes[:1]])
+
+
+def with_nodes(cells: Array, where: NDArray[np.bool_], block: C81Block) -> Array:
+    """Cells of one coefficient with the values and slopes of `block` at the nodes `where`, (α nodes, Mach nodes)."""
+    f, f_u = _nodes_along_alpha(block)
+    (f, f_v), (f_u, f_uv) = _along_mach(block.mach, f), _along_mach(block.mach, f_u)
+    own = _nodes(cells)
+    pairs = ((f, own[..., 0, 0]), (f_u, own[..., 1, 0]), (f_v, own[..., 0, 1]), (f_uv, own[..., 1, 1]))
+    return _cells(*(np.where(where, new, old) for new, old in pairs))
+
+
 def held_beyond_peak(coefficients: Array) -> Array:
     """Lift and drag that keep, beyond the largest lift, what they have there; in the layout of `SectionTable`.
 
     From 0 outwards on both sides they go on only where lift exceeds all before (below 0: falls below it). So lift never
     falls as the angle grows, and up to its first peak nothing changes.
     """
-    last = coefficients[:, -1]  # Its end is where the Mach number is 1.
-    at_end = np.stack([last.sum(axis=-1), last @ np.arange(4.0)], axis=-1)
-    nodes = np.concatenate([coefficients[..., :2], at_end[:, None]], axis=1)[:, :, :, :2]
-    nodes = np.concatenate([nodes, nodes[:1]])  # Values and slopes, (α, Mach number, coefficient, by α, by Mach).
+    nodes = _nodes(coefficients)
     lift, zero = nodes[:, :, 0, 0, 0], N_ALPHA // 2
     place = np.empty(lift.shape, dtype=np.int64)
     place[zero:] = zero + _last_record(lift[zero:])

@@ -107,6 +107,8 @@ class Models:
     """Whether a blade whose stiffness is known bends in flap and lag. Off: it flaps as a rigid blade."""
     unsteady: bool = True
     """Whether attached flow is unsteady, see `rotor.aero.unsteady_section`. Off: steady."""
+    stall: bool = True
+    """Whether sections stall. Off: as `rotor.airfoil.stall_onset.unstalled` has them; no vortex leaves."""
     dynamic_stall: bool = True
     """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall. Off:
     they stall as the steady data say."""

@@ -116,6 +116,10 @@ _SWITCHES = (
         "The wake presses on the airframe: in hover, thrust exceeds weight by the download in the rotor file.",
         "Thrust equals weight.",
     ),
+    _switch("stall",
+        "Beyond its stall angle a section loses lift and gains drag.",
+        "The flow separates no further than where stall begins, and no vortex leaves.",
+    ),
 )  # fmt: skip
 
 _CONDITION = (

@@ -159,8 +159,8 @@ class Shown:
     """What is shown of a solution beside its numbers, on at least the azimuths that the models ask for."""
 
     disk: DiskFields
-    areas: tuple[float, float, float, float]
-    """`reverse_flow_area` to `stalled_moment` of a `Solution`."""
+    areas: tuple[float, float, float, float, float]
+    """`reverse_flow_area` to `least_margin` of a `Solution`."""
     elastic: ElasticTwist | None
     caveats: tuple[Caveat, ...] = ()
 
@@ -245,6 +245,12 @@ class Solution:
     def stalled_moment(self) -> float:
         """Part of the lift's moment about the hub, Σ r dT, that they carry."""
         return self.shown.areas[3]
+
+    @property
+    def least_margin(self) -> float:
+        """Least margin to stall outside reverse flow, negative where `stalled_area` is not 0: of the angle of attack
+        [rad], or with dynamic stall of the separation point [chords]."""
+        return self.shown.areas[4]
 
     @property
     def elastic(self) -> ElasticTwist | None:

@@ -73,3 +73,18 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')")
     assert watched.complaints == []
     watched.close()
+
+
+def test_one_press_shows_the_disk_without_stall(browser: Browser, app: App):
+    watched = opened(browser, app.address, size=MEDIUM)
+    page = watched.page
+    page.get_by_role("button", name="Disk").click()
+    regions = "() => RX.state.plan.regions.filter(({lines}) => lines.length).map(({name}) => name)"
+    for press, stalls in (("Without stall", True), ("With stall", False)):
+        button = page.locator("[data-labels] button", has_text=press)
+        button.wait_for()
+        page.wait_for_function(_READY)
+        watched.until(lambda stalls=stalls: ("stall" in page.evaluate(regions)) == stalls)
+        button.click()
+    assert watched.complaints == []
+    watched.close()

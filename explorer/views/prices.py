@@ -1,0 +1,78 @@
+"""What stall and reverse flow cost, beside their regions on the disk, and how far away the edge of stall is."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from explorer.model.units import TONNE, Units, number
+from explorer.parts.stage import RegionPrice
+from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Tell
+from explorer.views.waterfall import switched_alone
+from rotor.study.series import WaterfallStep
+from rotor.trim.stall_edge import stall_edges
+
+
+def edges_asked(now: PageState) -> tuple[PanelWork, ...]:
+    """How far the edge of stall is: some twenty trims; none while sections do not stall."""
+    if now.state is None or now.problem or not now.state.solution.design.models.stall:
+        return ()
+    solution = now.state.solution
+
+    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[bool, float, dict[str, float | None]] | None:
+        found = stall_edges(solution, superseded)
+        mu = solution.design.condition.advance_ratio
+        return None if found is None else (solution.stalled_area > 0.0, mu, found)
+
+    return (PanelWork("stall-edges", (solution.design,), run),)
+
+
+def prices(now: PageState) -> dict[str, Any]:
+    """By region. The last ones known stand there as stale until those of the present design are."""
+    if now.state is None:
+        return {"prices": None}
+    models = now.state.solution.design.models
+    steps, current = switched_alone(now)
+    waits = ("Computing …",) if not steps and not current else ()
+    shown = {
+        name: RegionPrice((_cost(steps[name], now.units),) if name in steps else waits, stale=not current)
+        for name in _NAMES
+    }
+    stall, asked = shown["stall"], edges_asked(now)
+    if asked:
+        known, of_now = now.latest(asked[0])
+        stalls, mu, edges = known or (False, 0.0, {})
+        lines = _edges(stalls, mu, edges, now.units)
+        stall = replace(stall, lines=(*stall.lines, *lines), stale=stall.stale or not of_now)
+    return {"prices": shown | {"stall": replace(stall, press="Without stall" if models.stall else "With stall")}}
+
+
+_NAMES = "stall", "reverse_flow"
+
+
+def _cost(step: WaterfallStep, units: Units) -> str:
+    """From the trim without the effect and that with all."""
+    if step.note:
+        return step.note.capitalize()
+    if step.added is None:
+        return "No trim without it"
+    return f"{'Saves' if step.added > 0.0 else 'Costs'} {units.watts(abs(step.added), 1)}"
+
+
+def _edges(stalls: bool, mu: float, edges: dict[str, float | None], units: Units) -> list[str]:
+    """Where stall begins, or ends, by each quantity alone; mu: advance ratio here."""
+    by_mu, by_mass, by_twist = (edges.get(name) for name in ("mu", "mass_kg", "twist"))
+    ways = [] if by_mu is None else [f"at µ {number(mu + by_mu, 3)}"]
+    if by_mass is not None:
+        ways.append(f"at {units.mass.text(by_mass, 2 if units.mass is TONNE else 0, sign=True)}")
+    if by_twist is not None:
+        ways.append(f"at twist {number(by_twist, 1, sign=True)}°/R")
+    return [f"{'or' if k else 'Ends' if stalls else 'Begins'} {way}" for k, way in enumerate(ways)]
+
+
+def switch_stall(now: PageState, value: object) -> tuple[Effect, ...]:
+    """The disk without stall, or with it again: a trim of its own."""
+    del value
+    return (MoveSliders(replace(now.inputs, stall=not now.inputs.stall), by_hand=False),)
+
+
+PRICES = Panel(prices, lambda ui: ui.disk, works=edges_asked, presses={"unstall": switch_stall})
