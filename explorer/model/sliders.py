@@ -221,8 +221,6 @@ def nearest_trim(
     return reached
 
 
-_GAP = 0.02
-"""Least distance of two divisions [R]."""
 DETENT = 0.35
 """Half the width of the hold at the best angle of the grabbed station [°]."""
 _LEAST_TURN = 0.15
@@ -315,13 +313,11 @@ def place_of(inputs: Inputs, station: BladeStation) -> str:
 
 
 def slid(inputs: Inputs, station: BladeStation, r: float) -> Inputs:
-    """The inputs with a division at another r/R, between its neighbours and within its slider."""
+    """The inputs with a division at another r/R, within its slider, which ends before the next one's begins."""
     if station.division is None:
         return inputs
-    others = [placed.r for placed in stations(inputs)]
     low, high = limits(station.division)
-    inboard, outboard = others[station.index - 1], others[station.index + 1]
-    value = min(max(r, low, inboard + _GAP), high, outboard - _GAP)
+    value = min(max(r, low), high)
     return replace(inputs, **{station.division: _onto(station.division, value)})  # pyright: ignore[reportArgumentType]
 
 
