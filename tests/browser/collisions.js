@@ -2,7 +2,7 @@
 // No fixed places: ink is taken as the middle of a line's box, and 2 px are let pass.
 () => {
   const seen = element => element.checkVisibility({opacityProperty: true, visibilityProperty: true})
-    && !element.closest('script, style, noscript, option, title, .mantine-Notification-root, .rxf-said, [inert], .cm-editor');
+    && !element.closest('script, style, noscript, option, title, .mantine-Notification-root, .rxf-said, #rx h1, [inert], .cm-editor');
   const SVG = 'http://www.w3.org/2000/svg', PANEL = '.rxf-label, .rxf-card, .rxf-bar, .rxf-grip, .rxf-strip, .rxf-notice, .rxf-prompt, .rxf-menu, .rxs-column, [data-dock-region], [data-part]';
   const name = element => { const of = element.closest(PANEL); return of ? of.dataset.explorer || of.dataset.part || of.dataset.dockRegion || String(of.getAttribute('class')).split(' ').at(-1) : element.tagName; };
   const alpha = colour => { const all = colour.match(/[\d.]+/g) ?? [0, 0, 0, 0]; return colour === 'none' || colour === 'transparent' ? 0 : Number(all[3] ?? 1); };
