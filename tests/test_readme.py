@@ -98,6 +98,5 @@ def test_concepts_and_actuators():
     )
     cost, _, word = banded(-actuators["best_kw"], actuators["best_band_kw"], "kW").partition(":")
     said(
-        f"the best of {actuators['rows']:.0f} combinations of actuator and twist law "
-        f"costs {cost} more than the best fixed twist:{word}"
+        f"the best of the {actuators['rows']:.0f} pairs in table 5.2 costs {cost} more than the best fixed twist:{word}"
     )
