@@ -12,8 +12,8 @@
     const total = Math.max(needed + below, 1e-6);
     const bars = [`<div style="flex:${below / total}"></div>`, ...widths.map((width, k) =>
       `<div style="flex:${width / total};background:var(--rx-${parts[k].part})"></div>`)].slice(below ? 0 : 1).join('');
-    const over = back && `<s style="width:${100 * back / total}%">${given.map(({part, share}) =>
-      `<i style="flex:${-share / back};background:var(--rx-${part})"></i>`).join('')}</s>`;
+    const over = back && `<s style="width:${100 * back / total}%">${given.map(one =>
+      `<i style="flex:${-one.share / back};background:var(--rx-${one.part})"></i>`).join('')}</s>`;
     const ideal = power.ideal === null ? ''
       : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
