@@ -102,7 +102,7 @@ def unstalled(table: SectionTable) -> SectionTable:
     """A section that does not stall: the flow separates no further than where stall begins.
 
     From α_s, where f falls to `STALLED`, to ±30° it stays: C_n = C_nα x K(f); drag and moment stay, too. From there to
-    ±90°, beside reverse flow, all pass over into the data. Up to α_s nothing changes.
+    ±90°, beside reverse flow, all pass over into the data: our choice. Up to α_s nothing changes.
     """
     mach, degrees = mach_nodes(), np.linspace(-180.0, 180.0, N_ALPHA + 1)
     alpha, zero = np.deg2rad(degrees)[:, None], table.zero_lift_alpha(mach)
