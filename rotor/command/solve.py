@@ -11,7 +11,6 @@ from rotor.actuator.installation import with_actuator
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.aircraft import in_words
 from rotor.design.design import Design
-from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import KNOT, power_unit
 from rotor.support.user_input import check_writable
@@ -81,17 +80,8 @@ def _doubt(solution: Solution) -> Doubt:
 
 def doubt_table(doubt: Doubt) -> str:
     """The sentence, and what the band consists of."""
-    symbol, size = power_unit(doubt.power, doubt.band)
-    rows: list[tuple[CellValue, ...]] = [
-        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
-    ]
-    rows += [
-        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
-        for other in doubt.models
-    ]
-    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
     sentence = wrapped(doubt.in_words("Against the blade as built it"))
-    return f"{sentence}\n\n{table(columns, rows).text()}"
+    return f"{sentence}\n\n{doubt.table.text()}"
 
 
 def _vibration(solution: Solution) -> dict[str, Any]:
