@@ -56,11 +56,13 @@ class PitchGradient(ShortRepr):
         """
         return (twist(self.r) if callable(twist) else twist) @ self.by_element
 
-    def by_parameters(self, law: SpecTwist) -> Array:
+    def by_parameters(self, law: TwistLaw) -> Array:
         """∂P by each number of a twist law, in the order of its SPEC [W/rad; W for a station r/R], (numbers,).
 
-        For `linear`, `quadratic`, `segments` and `spline` laws; NotImplementedError for others.
+        For `linear`, `quadratic`, `segments` and `spline` laws; TypeError for others.
         """
+        if not isinstance(law, SpecTwist) or type(law).slopes is SpecTwist.slopes:
+            raise TypeError(f"twist {law.spec()} has no numbers to change: give linear, quadratic, segments or spline")
         return law.slopes(self.r) @ self.by_element
 
 

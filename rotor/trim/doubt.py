@@ -140,23 +140,8 @@ class Doubt:
             return "neither saves nor costs"
         return f"{'saves' if change <= 0.0 else 'costs'} {banded(abs(100.0 * change / self.against), within, '%')}"
 
-    @property
-    def table(self) -> Table:
-        """What the bands consist of."""
-        symbol, size = power_unit(self.power, self.band)
-        rows: list[tuple[CellValue, ...]] = [
-            (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size)
-            for row in self.rows
-        ]
-        rows += [
-            (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
-            for other in self.models
-        ]
-        columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
-        return table(columns, rows)
-
     def _repr_html_(self) -> str:
-        return tag("p", self.sentence) + self.table.html()
+        return tag("p", self.sentence) + doubt_table(self).html()
 
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
@@ -175,6 +160,20 @@ class Doubt:
             ],
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
         }
+
+
+def doubt_table(doubt: Doubt) -> Table:
+    """What the bands consist of."""
+    symbol, size = power_unit(doubt.power, doubt.band)
+    rows: list[tuple[CellValue, ...]] = [
+        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
+    ]
+    rows += [
+        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
+        for other in doubt.models
+    ]
+    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
+    return table(columns, rows)
 
 
 def sureness(change: float, band: float) -> str:

@@ -24,7 +24,7 @@ import explorer
 import rotor
 import rotor.command.validate
 from rotor.__main__ import main
-from rotor.design.twist import LinearTwist, parse_twist
+from rotor.design.twist import LinearTwist, PiecewiseLinearTwist, parse_twist
 from rotor.support.units import KNOT
 from rotor.trim.analysis import power_gradient
 
@@ -267,22 +267,26 @@ def test_a_notebook_shows_tables(design: rotor.Design):
 def test_a_gradient_by_the_numbers_of_a_twist_law():
     """The exact slope is the difference of two trims."""
     design = rotor.make_design(mu=0.2, twist="segments:-12,-6@0.6")
-    step = math.radians(0.01)
-    slopes = rotor.power_gradient(rotor.solve(design)).by_parameters(design.twist)
-    for k, slope in enumerate(slopes):
-        ends = [list(design.twist.values) for _ in range(2)]
+    law, step = design.twist, math.radians(0.01)
+    assert isinstance(law, PiecewiseLinearTwist)
+    gradient = rotor.power_gradient(rotor.solve(design))
+    with pytest.raises(TypeError, match="twist uh60a has no numbers to change"):
+        gradient.by_parameters(parse_twist("uh60a"))
+    for k, slope in enumerate(gradient.by_parameters(law)):
+        ends = [list(law.values) for _ in range(2)]
         ends[0][k], ends[1][k] = ends[0][k] - step, ends[1][k] + step
-        low, high = (rotor.solve(design.with_twist(type(design.twist).of(*end))).power.total for end in ends)
+        low, high = (rotor.solve(design.with_twist(law.of(*end))).power.total for end in ends)
         assert_allclose(slope, (high - low) / (2.0 * step), rtol=2e-3)
 
 
 def test_near_misses_name_what_is_meant(design: rotor.Design):
+    one: Any = design
     with pytest.raises(AttributeError, match="did you mean 'optimise'"):
-        rotor.optimize  # noqa: B018
+        _ = rotor.optimize
     with pytest.raises(TypeError, match=r"give several in a list, or write rotor.solve\(design\)"):
-        rotor.solve_many(design)
+        rotor.solve_many(one)
     with pytest.raises(TypeError, match="the actuator's name comes first"):
-        rotor.actuator.try_actuator(design, "MFC_P1")
+        rotor.actuator.try_actuator(one, one)
     assert len(str(inspect.signature(rotor.solve))) < 500
     assert "0x" not in str(inspect.signature(rotor.hub_loads))
 
