@@ -67,11 +67,13 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     state, drives = one.now.hand.state, one.inputs.drives[: len(one.installed.shapes)]
     word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
     late = state == "schedule" and one.flight is None
-    pieces = [LinePiece(f" with {one.name} "), LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
+    forbidden = one.installed.actuator.forbidden
+    pieces = [LinePiece(f" with {one.name} "), LinePiece(f"({forbidden}) ", "", "bad")][: 2 if forbidden else 1]
+    pieces += [LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
         label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
         pieces += [LinePiece(", ")] if k else []
-        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label), drive))
+        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label, low=one.inputs.least_drive), drive))
     waves = [
         f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°" for each in one.now.inputs.twist_per_rev
     ]
@@ -89,7 +91,8 @@ def _change_here(one: ActuatedBlade) -> list[LinePiece]:
     reach = one.installed.actuator.range_limits
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
-    return change_pieces(here.power, here.band, than, now.units, note=note) + over
+    how = {"sourced": one.sourced, "built": one.built}
+    return change_pieces(here.power, here.band, than, now.units, note=note, **how) + over
 
 
 def _change(now: PageState) -> list[LinePiece]:

@@ -161,7 +161,7 @@
     return {svg, width, height};
   }
   function drawBalance({bars, unit, here, where, fuel, fuel_kind, fuel_note}) {
-    const scopes = [['here', 'here', here], ['flight', 'over the flight', !here]].map(([name, words, chosen]) =>
+    const scopes = [['here', 'here', here], ['flight', 'over the mission', !here]].map(([name, words, chosen]) =>
       `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
     earns.innerHTML = `<div class="rxf-head"><b>Extra power</b><span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>
