@@ -54,9 +54,11 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
     moves = f"{total} on board turn the tip by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
+    forbidden = one.installed.actuator.forbidden
+    moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:
-        could, by = one.installed.actuator.forbidden, f"y schedule it {_gives(one, units)} over the mission."
-        moves += f" It is {could}; could it work, b{by}" if could else f" B{by}"
+        could = "Could it work, by" if forbidden else "By"
+        moves += f" {could} schedule it {_gives(one, units)} over the mission."
     mass = None if verdict is None else verdict.mass_allowed
     if flight is None or mass is None:
         return moves, ()
