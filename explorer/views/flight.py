@@ -179,7 +179,7 @@ def _bars(
     sourced: bool,
 ) -> tuple[PowerBar, ...]:
     rows = balance(savings, units, band, bands, sourced) if savings else []
-    kinds = [_sign(row.text) for row in rows]
+    kinds: list[Sign] = [_sign(row.text) for row in rows]
     if kinds and kinds[-1] == "gain" and not built:
         kinds[-1] = ""
     return tuple(

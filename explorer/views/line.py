@@ -68,9 +68,8 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
     late = state == "schedule" and one.flight is None
     forbidden = one.installed.actuator.forbidden
-    pieces = [LinePiece(f" with {one.name} "), LinePiece(f"({forbidden}) ", "forbidden", "bad")][
-        : 2 if forbidden else 1
-    ]
+    pieces = [LinePiece(f" with {one.name} ")]
+    pieces += [LinePiece(f"({forbidden}) ", "forbidden", "bad")] if forbidden else []
     pieces += [LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
         label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
