@@ -157,7 +157,8 @@ class ActuatedBlade:
         task = self.now.of(doubt_here)
         doubt = None if task is None else self.now.answers.get(task.key)
         change = flown.power.total - other.power.total + drive
-        return PowerChange(change, None if doubt is None else doubt.change_band, self.built)
+        band = None if doubt is None or doubt.sureness is None else doubt.change_band  # Less is what trims end at.
+        return PowerChange(change, band, self.built)
 
     @property
     def vibration(self) -> tuple[float, ...] | None:

@@ -25,6 +25,7 @@ from explorer.views.flight import STATES
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.power import status
 from explorer.views.work import shown_doubt
+from rotor.actuator.verdict import MIN_SHOWN_W
 from rotor.design.quantity import Slider
 
 _BUILT = [row.slider.label.partition(" [")[0] for row in map(TWISTS.get, LAWS["builtin"].inputs) if row and row.slider]
@@ -86,6 +87,8 @@ def _change_here(one: ActuatedBlade) -> list[LinePiece]:
     here, now, against = one.here, one.now, one.question.against
     if here is None:
         return [LinePiece(": computing the change …", "moved", stale=True)]
+    if here.band is None and abs(here.power) < MIN_SHOWN_W:
+        return [LinePiece(": no change from the blade without it", "against")]
     than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
     digit = 0.5 * 10.0 ** -fineness(now.state.solution.power, now.units) if now.state is not None else 0.5
     note = ", drive included" if abs(now.units.power[0].of(drive_here(now) or 0.0)) >= digit else ""

@@ -124,6 +124,8 @@ def test_a_kind_that_constant_speed_forbids_says_so_first_and_is_never_green():
     assert "with extension twist (forbidden by constant rotor speed) at 100" in line_text(now)
     assert "good" not in {piece.kind for piece in pieces}
     assert verdict_sentence(verdict).startswith("Forbidden by constant rotor speed; could it work, it saves")
+    still = worked(LINE, actuate(INPUTS, actuator=ActuatorInputs("extension_twist")))
+    assert line_text(still).endswith("kW: no change from the blade without it.")
     card = ACTUATOR_CARD.view(now)["assessed"]
     assert card.flight == "forbidden by constant rotor speed"
     assert card.flights.startswith("could it work: saves")
