@@ -176,6 +176,13 @@ class WidgetForm:
                 if name in self._below:
                     self._below[name].visible = visible
 
+    def bound(self, name: str, low: float) -> None:
+        """Another low end of a slider, which its value does not leave."""
+        handle = self._handles[name]
+        if handle.min != low:
+            self.place(name, max(handle.value, low))
+            handle.min = low
+
     def call(self, name: str, label: str) -> None:
         """Another label."""
         self._handles[name].label = label
