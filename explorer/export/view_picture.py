@@ -60,9 +60,11 @@ def view_png(
     def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
 
-    height = 38
-    while len(lines := _wrapped(line, height, columns - 2 * _EDGE)) > 2:
+    height, room = 38, columns - 2 * _EDGE
+    while len(lines := _wrapped(line, height, room)) > 2:
         height -= 2
+    while room > 0 and len(even := _wrapped(line, height, room)) == len(lines):  # No line holds but the unit of the number above.
+        lines, room = even, room - 20
     for k, words in enumerate(lines):
         write(_EDGE, 64 + k * 1.2 * height, words, height, ink)
     font = ImageFont.truetype(font_path(), 24)

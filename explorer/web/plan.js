@@ -17,7 +17,8 @@
   // `pointer` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
   // In a tree of its own: the first canvas of the page is the scene.
   const shown = place.querySelector('[data-colours]');
-  shown.attachShadow({mode: 'open'}).innerHTML = '<canvas style="width: 100%; height: 100%"></canvas>';
+  shown.attachShadow({mode: 'open'}).innerHTML =
+    '<canvas style="width: 100%; height: 100%"></canvas><canvas></canvas>';
   /** @type {any} */
   let values = null;
   let layout = null, pointer = null, circle = 0.75, pressed = null;
@@ -204,8 +205,12 @@
     const {x, y, radius, width, height} = layout, svg = place.querySelector('svg'), edge = 2 * radius;
     const sharp = Math.min(devicePixelRatio, 2);
     shown.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
-    window.rotorDisk.fill(shown.shadowRoot.firstElementChild, plan.disk, plan.root,
-      plan.values ? edge * sharp : Math.min(edge, MOVING));
+    const [drawn, wiped] = shown.shadowRoot.children, pixels = plan.values ? edge * sharp : Math.min(edge, MOVING);
+    window.rotorDisk.fill(drawn, plan.disk, plan.root, pixels);
+    wiped.hidden = !plan.wiped;
+    if (plan.wiped) window.rotorDisk.fill(wiped, plan.wiped, plan.root, pixels);
+    wiped.style.cssText = `position: absolute; inset: 0; width: 100%; height: 100%;
+      clip-path: inset(0 calc(${x + radius}px - 100cqw * var(--rx-wipe, .5)) 0 0)`;
     const regions = plan.regions.filter(({lines}) => lines.length);
     const stall = {name: 'stall', title: 'Stall', words: 'none'};
     const none = !plan.held && RX.state.prices && !regions.some(({name}) => name === 'stall');

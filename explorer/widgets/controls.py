@@ -20,6 +20,7 @@ from explorer.model.inputs import (
     Inputs,
     menu_titles,
     preset_inflow,
+    reference_mass_t,
     with_rotor,
 )
 from explorer.model.session_state import SessionState
@@ -159,6 +160,7 @@ class DesignControls:
                 self.form.place(name, getattr(inputs, name))
             else:
                 self.form.fit(name, slider(name, self._units, inputs.aircraft), getattr(inputs, name))
+        self.form.finer["mass_t"] = reference_mass_t(inputs.aircraft)
 
     def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
