@@ -22,7 +22,6 @@ from explorer.picture.camera_views import View
 from explorer.picture.disk_numbers import disk_ink, disk_numbers
 from explorer.picture.fields import (
     CLIPPED_SHARE,
-    FIELDS,
     Field,
     fitted_range,
     keeps_range,

@@ -73,6 +73,7 @@ class DesignControls:
         self._sliders(_LAW_INPUTS, LAWS[start.law].inputs)
         self._speed = gui.add_html(_flight_heading(0.0, SI))
         self._sliders(FLIGHT, _ALWAYS)
+        form.finer["mass_t"] = reference_mass_t(start.aircraft)
         self.stand = StandControls(gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state)
         self.stand.add_sliders(start)
         self._fold = gui.add_html("")
