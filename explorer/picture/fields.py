@@ -229,8 +229,8 @@ _NAMES = ("Mach", "M²")
 
 
 def shown_field(view: ViewState, pinned: Solution | None) -> Field:
-    """The field that the disk shows: as it is, or B − A once a design is pinned and the difference wanted, but not while
-    A is wiped over B."""
+    """The field that the disk shows: as it is, or B − A where wanted and a design is pinned, but not while that is
+    wiped over B."""
     field = FIELDS[view.field]
     return difference(field, pinned) if view.difference and not view.wipe and pinned is not None else field
 

@@ -165,12 +165,14 @@ class MapTask:
             grid = [[known[row, column] for column in every] for row in every]
             powers = tuple(tuple(power for power, _ in cells) for cells in grid)
             power, values = reduce(_lower, known.values())
-            least = (power, values) if power is None else self._least([values], history, ())[0]
+            least = (power, values) if power is None else self._least([values], history, (), 0.02 * _UNSEEN)[0]
             tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid), least))
         return True
 
-    def _least(self, starts: Iterable[tuple[float, ...]], history: TrimHistory, held: tuple[int, ...]) -> list[Lowest]:
-        """Least power near each start, with these parameters as given."""
+    def _least(
+        self, starts: Iterable[tuple[float, ...]], history: TrimHistory, held: Sequence[int], unseen: float = _UNSEEN
+    ) -> list[Lowest]:
+        """Least power near each start, with these parameters as given, to a fall by `unseen`, a part of it."""
         if not (begun := list(starts)):
             return []
         free = [k for k in range(len(self.values)) if k not in held]
@@ -180,7 +182,7 @@ class MapTask:
             concept = replace(self.concept, fixed=(*self.concept.fixed, *fixed.items()))
             searches.append(Evaluator(self.design, concept, self.objective, Limits(), 0, None, None, history))
         scaled = [one.scaled([values[k] for k in free]) for one, values in zip(searches, begun, strict=True)]
-        ends = descend_together(searches, scaled, _UNSEEN)
+        ends = descend_together(searches, scaled, unseen)
         found: list[Lowest] = []
         for one, end, values in zip(searches, ends, begun, strict=True):
             all_values = list(values)
