@@ -228,7 +228,8 @@ class TestMap:
 
     def test_its_least_is_that_of_a_search(self, drawn: PowerMap):
         found = run_search(Search(drawn.task.design, drawn.task.concept, band=False))
-        assert drawn.least[-1] == pytest.approx(solve(found.design).power.total, rel=1e-4)  # What is shown.
+        beyond = drawn.least[-1] / solve(found.design).power.total - 1.0
+        assert -2e-4 < beyond < 1e-5  # Within the last digit of a search, which ends earlier.
         assert drawn.least[-1] < np.nanmin(drawn.powers) - 100.0  # It lies between the points.
 
     def test_the_least_is_said_with_all_its_parameters(self, drawn: PowerMap):
