@@ -31,7 +31,7 @@ AZIMUTHS = {0: "#0ca678", 90: "#e8590c", 180: "#1c7ed6", 270: "#9c36b5"}
 """Azimuths of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
 _BAR = 200.0
 _LETTERS = 13.0
-_CHART = 390.0, 260.0
+_CHART = 390.0, 240.0
 """[px] of a chart: two stand beside each other on paper, and their text is as large as that of a table."""
 _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0
 """[px] of the balance: its width, a row, and the room for names and numbers beside the bars."""

@@ -411,6 +411,7 @@ interface RxPlanPart {
   before: RxStationValues | null;
   coloured: RxPackedTable | null;
   held: string | null;
+  wiped: RxPlanDisk | null;
 }
 
 interface RxPlanDisk {
