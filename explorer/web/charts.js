@@ -4,13 +4,17 @@
   const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', alpha: 'α'};
+  const whole = new Set();  // Charts that show all of their y, by name.
   function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
     const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
-    const chart = {...drawn, kind, speeds}, {title, y} = chart, height = Math.max(element.clientHeight - 38, 40);
+    const y = {...drawn.y, ...whole.has(name) && drawn.y.whole};
+    const chart = {...drawn, y, kind, speeds}, {title} = chart, height = Math.max(element.clientHeight - 38, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
-    Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height});
+    const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
+      title="All of the axis, or the part about the least. A double click does the same">whole${tight ? '' : ' range'}</button>`;
+    Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height, scale});
     const {X, Y} = element.drawn.place, power = speeds && chart.series.at(-1).y[0];
     if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend',
       `<circle cx="${X(speeds.mu)}" cy="${Y(power)}" r="11" data-speed>
@@ -38,9 +42,17 @@
       end() { speeding.flush(); limit = ''; letGo(); },
     };
   });
+  function rescale(element) {
+    const {name} = element?.dataset ?? {};
+    if (!element?.drawn?.chart.y.whole) return;
+    if (!whole.delete(name)) whole.add(name);
+    RX.again('strip');
+  }
+  document.addEventListener('click', event => rescale(closest(event, '[data-page=scale]')?.closest('.rxf-chart')));
   document.addEventListener('dblclick', event => {
     const chart = closest(event, '[data-speed]')?.closest('.rxf-chart').drawn.chart;
     if (chart) RX.send('slide', ['advance_ratio', chart.speeds.fastest]);
+    else rescale(closest(event, 'svg')?.closest('.rxf-chart'));
   });
   RX.paint('strip', charts => {
     const strip = part('strip');
