@@ -68,10 +68,10 @@ def _smooth(role: Role, power: Array, *, filled: bool = False) -> Line:
     return role_line(role, _FINE, np.where(between, values, np.nan), filled=filled)
 
 
-def _near(power: Array) -> Array:
-    """Which powers of a sweep lie about the least; all where the air drives the rotor."""
-    known = power[np.isfinite(power)]
-    return power < (_BOWL * known.min() if len(known) and known.min() > 0.0 else math.inf)
+def _near(power: Array, values: Array) -> list[float]:
+    """The values where the power of a sweep is about the least; all where the air drives the rotor."""
+    least = min(_known(power.tolist()), default=0.0)
+    return values[power < (_BOWL * least if least > 0.0 else math.inf)].tolist()
 
 
 def power_change_chart(
@@ -93,7 +93,7 @@ def power_change_chart(
     mus = np.array(SWEEP)
     now = math.nan if change is None else unit.of(change)
     seen = (*apart[mus <= max(0.4, mu)], now, 0.0)
-    near, whole = _scales((*apart[_near(curve.design)], now, -2.0, 2.0), held, (*seen, -2.0, 2.0), held_whole)
+    near, whole = _scales((*_near(curve.design, apart), now, -2.0, 2.0), held, (*seen, -2.0, 2.0), held_whole)
     line = _smooth("saving" if curve.current else "earlier", apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
@@ -168,7 +168,8 @@ def total_power_chart(
         if math.isfinite(top) and value and now >= 0.0:
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [_smooth("reference", here.main_rotor)]
-    y_range, whole = _scales((*power[_near(power)], now, *flown[1]), held, (0.0, *values), held_whole)
+    bowl, all_of_it = _near(power, power), (0.0, *values)
+    y_range, whole = _scales((*bowl, now, *flown[1]) if bowl else all_of_it, held, all_of_it, held_whole)
     return Chart(
         "Power over µ",
         Axis("µ", (0.0, SWEEP[-1]), (0.0, 0.2, 0.4)),

@@ -1,14 +1,14 @@
 // @ts-check
 // The strip below the scene, and the twist curve that can be dragged.
 (() => {
-  const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;
+  const {text, clamp, write, closest, paced, drag, scale: grown} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', alpha: 'α'};
   const whole = new Set();  // Charts that show all of their y, by name.
   function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
-    const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
+    const by = grown(), width = Math.max((element.clientWidth - 32) / by, 60), tight = element.toggleAttribute('data-tight', width < 260);
     const y = {...drawn.y, ...whole.has(name) && drawn.y.whole};
-    const chart = {...drawn, y, kind, speeds}, {title} = chart, height = Math.max(element.clientHeight - 38, 40);
+    const chart = {...drawn, y, kind, speeds}, {title} = chart, height = Math.max((element.clientHeight - 18) / by - 20, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
@@ -129,7 +129,8 @@
   // The twist curve: its handles are dragged, or moved by arrow keys.
   RX.paint('twist', twist => {
     for (const place of document.querySelectorAll('[data-curve]')) {
-      const {offsetWidth: width, offsetHeight: height} = place, stamp = JSON.stringify([twist, width, height]);
+      const by = grown(), [width, height] = [place.offsetWidth / by, place.offsetHeight / by];
+      const stamp = JSON.stringify([twist, width, height]);
       if (!width || (place.stamp === stamp && place.childElementCount)) continue;
       const {chart} = twist, focus = document.activeElement?.dataset?.knot;
       const frame = Charts.frame(chart, width, height, {left: 34});
@@ -151,8 +152,8 @@
     RX.send('knot', [name, 'start']);
     return {
       move({clientX, clientY}) {
-        const {left, top} = place.getBoundingClientRect(), {atX, atY} = place.frame;
-        knots.send([name, [atX(clientX - left), atY(clientY - top)]]);
+        const {left, top} = place.getBoundingClientRect(), {atX, atY} = place.frame, by = grown();
+        knots.send([name, [atX((clientX - left) / by), atY((clientY - top) / by)]]);
       },
       end() { setTimeout(() => RX.send('knot', [name, 'end']), 70); },
       escape() { knots.drop(); },

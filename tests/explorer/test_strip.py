@@ -96,12 +96,12 @@ class TestPowerChange:
         # What is flown is always within the axis, and measured powers are.
         assert total_power_chart(curve, 0.0, 1550e3).y.range == (800.0, 1600.0)
         flown = Points("", (0.1, 0.3), (700.0, 2000.0))
-        low, high = total_power_chart(curve, 0.2, 904e3, marks=flown).y.range
+        low, high = total_power_chart(curve, 0.2, 904e3, marks=flown).span("y")
         assert low <= 700.0
         assert high >= 2000.0
         # A change is judged where one flies, too.
         curve.reference[:] = curve.design + np.where(np.array(SWEEP) < 0.3, 5.0, 400.0)
-        assert power_change_chart(curve, 0.2, -5e3, "A").y.range[0] > -50.0
+        assert power_change_chart(curve, 0.2, -5e3, "A").span("y")[0] > -50.0
 
     def test_the_top_speed_is_where_power_meets_that_of_the_engines(self):
         """A parabola meets a level at a place known in closed form; the points lie .025 apart."""
@@ -161,7 +161,7 @@ class TestPowerChange:
         curve = self.curve(0.0)
         curve.design[:] = math.nan
         chart = total_power_chart(curve, 0.2, 720e3, AVIATION)
-        assert chart.value == ""
+        assert (chart.value, chart.y.range, chart.y.whole) == ("", (0.0, 1500.0), None)
         assert dots(chart)[-1][1] == pytest.approx(720e3 / 745.699872, abs=0.1)
 
 
