@@ -183,7 +183,8 @@ const Charts = (() => {
     const place = frame(chart, width, high, lower(chart) ? {bottom: 34} : {});
     const key = chart.series.filter(({label}) => label)
       .map(one => `<span class="rxf-legend-line">${swatch(one)}${text(one.label)}</span>`).join('');
-    const {value: focus = '', page = ''} = element.contains(document.activeElement) ? document.activeElement.dataset : {};
+    const active = /** @type {any} */ (document.activeElement);
+    const {value: focus = '', page = ''} = element.contains(active) ? active.dataset : {};
     const spoken = text(`${title}, ${y.label ?? ''}. ${value ?? ''} ${note ?? ''}`);
     if (note) element.title = note; else element.removeAttribute('title');
     element.innerHTML = `

@@ -6,14 +6,17 @@
   const SHORT = {power: 'Power', alpha: 'α'};
   const whole = new Set();  // Charts that show all of their y, by name.
   function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
-    const by = grown(), width = Math.max((element.clientWidth - 32) / by, 60), tight = element.toggleAttribute('data-tight', width < 260);
+    const by = grown(), width = Math.max((element.clientWidth - 32) / by, 60);
+    const tight = element.toggleAttribute('data-tight', width < 260);
     const y = {...drawn.y, ...whole.has(name) && drawn.y.whole};
-    const chart = {...drawn, y, kind, speeds}, {title} = chart, height = Math.max((element.clientHeight - 18) / by - 20, 40);
+    const chart = {...drawn, y, kind, speeds}, {title} = drawn;
+    const height = Math.max((element.clientHeight - 18) / by - 20, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
     const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
-      title="All of the axis, or the part about the least. A double click does the same">whole${tight ? '' : ' range'}</button>`;
+      title="All of the axis, or the part about the least. A double click does the same">
+      whole${tight ? '' : ' range'}</button>`;
     Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height, scale});
     const {X, Y} = element.drawn.place, power = speeds && chart.series.at(-1).y[0];
     if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend',
