@@ -76,8 +76,9 @@
     return {
       width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
       x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,
-      chart: chart
-        && {width: Math.max((chart.clientWidth - 32) / by, 80), height: Math.max((chart.clientHeight - 16) / by - 20, 40)},
+      chart: chart && {
+        width: Math.max((chart.clientWidth - 32) / by, 80), height: Math.max((chart.clientHeight - 16) / by - 20, 40),
+      },
     };
   }
 
