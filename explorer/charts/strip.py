@@ -32,6 +32,8 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
     "limit": ("var(--rx-stall)", 1.3, "3 3"),
 }
 """Colour, width [px] and dashes by role."""
+Scales = tuple[Range | None, Range | None]
+NONE: Scales = (None, None)
 _BOWL = 1.25
 """Powers up to this part of the least lie on the scale that a chart opens with."""
 _LEAST_SWEPT = 4
@@ -75,25 +77,19 @@ def _near(power: Array, values: Array) -> list[float]:
 
 
 def power_change_chart(
-    curve: PowerCurve,
-    mu: float,
-    change: float | None,
-    reference: str,
-    units: Units = SI,
-    held: Range | None = None,
-    held_whole: Range | None = None,
+    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, held: Scales = NONE
 ) -> Chart:
     """Change of total power against the reference over µ; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `change`: at the present condition [W], None without trim. `reference`: its name.
-    `held`, `held_whole`: the two scales before.
+    `held`: the two scales before.
     """
     unit = units.power[0]
     apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
     mus = np.array(SWEEP)
     now = math.nan if change is None else unit.of(change)
     seen = (*apart[mus <= max(0.4, mu)], now, 0.0)
-    near, whole = _scales((*_near(curve.design, apart), now, -2.0, 2.0), held, (*seen, -2.0, 2.0), held_whole)
+    near, whole = _scales((*_near(curve.design, apart), now, -2.0, 2.0), (*seen, -2.0, 2.0), held)
     line = _smooth("saving" if curve.current else "earlier", apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
@@ -105,14 +101,10 @@ def power_change_chart(
     )
 
 
-def _scales(
-    near: Sequence[float], held: Range | None, whole: Sequence[float], held_whole: Range | None
-) -> tuple[Range, Range | None]:
+def _scales(near: Sequence[float], whole: Sequence[float], held: Scales) -> tuple[Range, Range | None]:
     """The axis about some values, and that of all where it is another; each is held while its values fit."""
-    first, second = (
-        held_range(before, min(known, default=math.nan), max(known, default=math.nan))
-        for before, known in ((held, _known(near)), (held_whole, _known(whole)))
-    )
+    ends = ([end(_known(of), default=math.nan) for end in (min, max)] for of in (near, whole))
+    first, second = (held_range(before, low, high) for before, (low, high) in zip(held, ends, strict=True))
     return first, None if second == first else second
 
 
@@ -134,15 +126,14 @@ def total_power_chart(
     mu: float,
     total: float | None,
     units: Units = SI,
-    held: Range | None = None,
+    held: Scales = NONE,
     marks: Points | None = None,
     design: Design | None = None,
-    held_whole: Range | None = None,
 ) -> Chart:
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
-    `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`, `held_whole`: the two
-    scales before. `marks`: main-rotor power measured in flight; then the computed one is a line. `design`: draws the
+    `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the two scales
+    before. `marks`: main-rotor power measured in flight; then the computed one is a line. `design`: draws the
     power of its engines, where the rotor file has it.
     """
     unit = units.power[0]
@@ -169,7 +160,7 @@ def total_power_chart(
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
     shaft = [] if here.main_rotor is None or marks is None else [_smooth("reference", here.main_rotor)]
     bowl, all_of_it = _near(power, power), (0.0, *values)
-    y_range, whole = _scales((*bowl, now, *flown[1]) if bowl else all_of_it, held, all_of_it, held_whole)
+    y_range, whole = _scales((*bowl, now, *flown[1]) if bowl else all_of_it, all_of_it, held)
     return Chart(
         "Power over µ",
         Axis("µ", (0.0, SWEEP[-1]), (0.0, 0.2, 0.4)),

@@ -51,19 +51,19 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
     # A preview, such as the flight of a schedule, is not what the sliders show.
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
     axis = _axis(now, "power")
-    held, held_whole = (now.memory.ranges.get(name) for name in (axis, axis + _WHOLE))
+    held = now.memory.ranges.get(axis), now.memory.ranges.get(axis + _WHOLE)
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
     kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
     if design == reference.design:
         marks = now.flown.marks(state.solution, units)
         total = None if failed else state.solution.power.total
-        chart = total_power_chart(curve, mu, total, units, held, marks, design, held_whole)
+        chart = total_power_chart(curve, mu, total, units, held, marks, design)
         notes = [chart.note, source_of(design)]
         value = "" if failed else now.flown.value(state.solution)
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
         name = against(design, reference.design, pinned).removeprefix(f"{design.aircraft.name} ")
-        chart = power_change_chart(curve, mu, change, name, units, held, held_whole)
+        chart = power_change_chart(curve, mu, change, name, units, held)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)
