@@ -10,17 +10,20 @@ import numpy as np
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import banded
+from explorer.text.readout import banded, change_kind
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import FixedBlade
 from rotor import Optimum
 from rotor.design.aircraft import reported_names
 from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
-from rotor.support.chart import Axis, Chart, Line
-from rotor.support.markup import Markup, tag
-from rotor.trim.doubt import Doubt
+from rotor.support.chart import Axis, Chart, Line, Points
+from rotor.support.markup import Content, Markup, tag
+from rotor.trim.doubt import Doubt, change_decimals
 
-_COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
+_COLUMNS = (
+    "hours", "as_it_is_kw", "best_kw", "saving_percent", "saving_doubt_percent", "sureness", "fixed_kw",
+    "fixed_doubt_percent", "fixed_sureness", "twist",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,11 @@ class ScheduleProgress:
     def at(self, leg: int | None) -> Optimum | None:
         """The optimum at a leg; None: the fixed blade."""
         return self.schedule.at(leg, self.plan.concepts[0].name)
+
+    def doubts(self, leg: int) -> tuple[Doubt | None, Doubt | None]:
+        """How sure the savings of a leg are: of its best twist, and of the best fixed blade."""
+        optimum, fixed = self.at(leg), self.fixed.doubts
+        return optimum and optimum.doubt, fixed[leg] if leg < len(fixed) else None
 
     def fixed_power(self, leg: int) -> float | None:
         """Power of the best fixed blade at a leg [W]; None while it is not known."""
@@ -83,12 +91,24 @@ def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | N
 
 def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
-    legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
-    mu, moving, fixed = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 3]).T
+    legs = [
+        (leg.flight.advance_ratio, *_saving(progress, k), *map(_within, progress.doubts(k)))
+        for k, leg in enumerate(progress.plan.conditions)
+    ]
+    found = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 5]).T
+    mu, moving, fixed, *bands = found
     if not np.isfinite(moving).any():
         return None
-    seen = [0.0, *(float(value) for value in (*moving, *fixed) if math.isfinite(value))]
-    lines = Line("fixed", mu, fixed, NOW, "5 3", 1.8), Line("variable", mu, moving, THIS)
+    ends = (
+        value + sign * np.nan_to_num(band) for value, band in zip(found[1:3], bands, strict=True) for sign in (1, -1)
+    )
+    seen = [0.0, *(float(value) for end in ends for value in end if math.isfinite(value))]
+    lines = (
+        Points("", mu, moving, THIS, size=2.5, scatter=bands[0]),
+        Points("", mu, fixed, NOW, size=2.5, scatter=bands[1]),
+        Line("fixed", mu, fixed, NOW, "5 3", 1.8),
+        Line("variable", mu, moving, THIS),
+    )
     y_axis = Axis("%", held_range(previous, min(seen), max(0.1, *seen)))
     return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
 
@@ -103,16 +123,32 @@ def _saving(progress: ScheduleProgress, leg: int) -> tuple[float, float]:
 
 def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
     """One row a leg, then the gain of moving."""
-    heads = (f"current [{units.power[0].symbol}]", "fixed [%]", "variable [%]")
+    heads = (f"current [{units.power[0].symbol}]", "fixed saves [%]", "variable saves [%]")
     rows = [tag("tr.rx-dim.rx-small", tag("td", "µ"), [tag("td.rx-num", head) for head in heads])]
     for k, leg in enumerate(progress.plan.conditions):
         optimum, mu = progress.at(k), leg.flight.advance_ratio
-        moving, fixed = _saving(progress, k)
         power = None if optimum is None else optimum.baseline_power
         baseline = None if power is None else units.power[0].of(power)
-        cells = (number(baseline), number(fixed, 2), number(moving, 2))
+        savings = zip(reversed(_saving(progress, k)), reversed(progress.doubts(k)), strict=True)
+        cells = (number(baseline), *(_percent(saved, band) for saved, band in savings))
         rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
     return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
+
+
+def _within(band: Doubt | None) -> float:
+    """Of a saving [%]; NaN while it is not known."""
+    within = None if band is None else band.change_band_percent
+    return math.nan if within is None else within
+
+
+def _percent(saved: float, band: Doubt | None) -> Content:
+    """A saving of a leg [%]; with its band and its word, which alone gives it a colour, once they are known."""
+    within, word = (None, None) if band is None else (band.change_band_percent, band.sureness)
+    if within is None or word is None:
+        return number(saved, 2)
+    digits, kind = change_decimals(saved, within), change_kind(-saved, word)
+    words = f"{number(saved, digits)} ± {number(within, digits)}", tag("br"), tag("span.rx-small", word)
+    return tag("span", words, class_=kind and f"rx-{kind}")
 
 
 def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
@@ -154,16 +190,23 @@ def csv_of(progress: ScheduleProgress) -> bytes:
                 _kilowatt(None if optimum is None else optimum.baseline_power),
                 _kilowatt(None if best is None else best.power),
                 "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
+                *_banded_cells(progress.doubts(k)[0]),
                 _kilowatt(progress.fixed_power(k)),
+                *_banded_cells(progress.doubts(k)[1]),
                 "" if best is None else best.twist,
             )
         )
     fixed = progress.at(None)
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
-        mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
+        mean = (_kilowatt(fixed.baseline_power), *5 * ("",), _kilowatt(fixed.best.power), *_banded_cells(fixed.doubt))
         writer.writerow(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()
+
+
+def _banded_cells(band: Doubt | None) -> tuple[str, str]:
+    within = _within(band)
+    return f"{within:.3f}" if math.isfinite(within) else "", (band and band.sureness) or ""
 
 
 def _kilowatt(watts: float | None) -> str:

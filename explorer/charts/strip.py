@@ -41,9 +41,9 @@ def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool
     return Line(label, x, y, colour, dashes, width, filled=filled)
 
 
-def now_dot(x: float, y: float) -> Points:
-    """The present condition, in the units of the axes."""
-    return Points("", (x,), (y,), THIS, size=4.5, words=("now",))
+def now_dot(x: float, y: float, band: float = 0.0) -> Points:
+    """The present condition, in the units of the axes, as `band`."""
+    return Points("", (x,), (y,), THIS, size=4.5, words=("now",), scatter=(band,) if band else ())
 
 
 def _hover_dot(y: float) -> Points:
@@ -51,24 +51,32 @@ def _hover_dot(y: float) -> Points:
 
 
 def power_change_chart(
-    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, previous: Range | None = None
+    curve: PowerCurve,
+    mu: float,
+    change: float | None,
+    reference: str,
+    units: Units = SI,
+    previous: Range | None = None,
+    band: float | None = None,
 ) -> Chart:
     """Change of total power against the reference over µ; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `change`: at the present condition [W], None without trim. `reference`: its name.
+    `band`: of `change` [W], None where it is not known.
     """
     unit = units.power[0]
+    within = unit.of(band or 0.0)
     apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
     mus = np.array(SWEEP)
     now = math.nan if change is None else unit.of(change)
-    seen = [value for value in (*apart[mus <= max(0.4, mu)], now, 0.0) if math.isfinite(value)]
+    seen = [value for value in (*apart[mus <= max(0.4, mu)], now - within, now + within, 0.0) if math.isfinite(value)]
     line = role_line("saving" if curve.current else "earlier", mus, apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
         "Power over µ",
         Axis("µ", (0.0, SWEEP[-1])),
         Axis(f"{unit.symbol} vs. {reference}", held_range(previous, min(-2.0, *seen), max(2.0, *seen))),
-        (line, *hover, now_dot(mu, now)),
+        (line, *hover, now_dot(mu, now, within)),
         note=autorotation_words(curve),
     )
 

@@ -57,9 +57,11 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
         return moves, ("It would not pay, however light.",)
     wide = None if one.line is None else one.line.twist_for(one.mass)
     pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
+    band = verdict.mass_allowed_band if verdict is not None else None
+    within = "" if band is None else f" (± {number(band, 0 if band >= 10.0 else 1)})"
     if wide is not None:
-        return moves, (*pays, " or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
-    return moves, (*pays, "." if one.line is None else f"; no twist pays at {total}.")
+        return moves, (*pays, f"{within} or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
+    return moves, (*pays, f"{within}." if one.line is None else f"{within}; no twist pays at {total}.")
 
 
 def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:

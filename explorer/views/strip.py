@@ -14,12 +14,13 @@ from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_ch
 from explorer.model.session_state import SessionState
 from explorer.parts.results import Kind, MarkedSpeeds, StripChart
 from explorer.text.design_words import against
+from explorer.text.readout import change_kind
 from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Tell
+from explorer.views.work import shown_doubt
 from rotor import Solution
 from rotor.support.chart import Chart, drawn_chart
 
-_NOTICEABLE = 500.0
-"""Changes of power below this [W] have no colour."""
+_KINDS: Mapping[str, Kind] = {"": "", "less": "good", "more": "bad"}
 
 
 def strip(now: PageState) -> dict[str, Any]:
@@ -51,7 +52,8 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
     held = now.memory.ranges.get(_axis(now, "power"))
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
-    kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
+    band = now.answers.get(shown_doubt(now)[0].key)
+    kind = _KINDS[change_kind(change or 0.0, band and band.sureness)]
     if design == reference.design:
         marks = now.flown.marks(state.solution, units)
         total = None if failed else state.solution.power.total
@@ -61,7 +63,7 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
         name = against(design, reference.design, pinned).removeprefix(f"{design.aircraft.name} ")
-        chart = power_change_chart(curve, mu, change, name, units, held)
+        chart = power_change_chart(curve, mu, change, name, units, held, band and band.change_band)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)

@@ -212,11 +212,10 @@ class ScheduleTask:
         schedule = run_plan(plan, tell, stop)
         if schedule.complete:
             fixed = schedule.cells[-1].optimum.design
-            powers = (
-                evaluate_objective(Objective(plan.quantity, (leg,)), fixed, gradient=False).power
-                for leg in plan.conditions
-            )
-            tell(FixedBlade(tuple(powers), schedule.gain_doubt(plan.concepts[0].name)))
+            legs = [Objective(plan.quantity, (leg,)) for leg in plan.conditions]
+            powers = (evaluate_objective(leg, fixed, gradient=False).power for leg in legs)
+            doubts = (saving_doubt(leg, fixed, plan.design_at(k)) for k, leg in enumerate(legs))
+            tell(FixedBlade(tuple(powers), tuple(doubts), schedule.gain_doubt(plan.concepts[0].name)))
         return schedule
 
 
@@ -226,5 +225,7 @@ class FixedBlade:
 
     powers: tuple[float | None, ...] = ()
     """On each leg [W]; None where it does not trim."""
+    doubts: tuple[Doubt | None, ...] = ()
+    """How sure it is what it saves on each leg."""
     gain: Doubt | None = None
     """How sure it is what moving saves beyond it."""

@@ -157,18 +157,19 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
         f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * WANTED_SHARE:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
         "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
-        "column.",
+        "column. Sign: that of the ideal.",
     )
     return table_of("What an actuator would have to be", [_wanted(even) for even in lines], notes)
 
 
 def _wanted(even: BreakEven) -> Row:
-    needed, pair, pays = even.requirement, even.pair, even.worthwhile
+    needed, pair, pays, within = even.requirement, even.pair, even.worthwhile, even.ideal_band
     return {
         "rotor": pair.design.aircraft.name,
         "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
         "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
-        "ideal kW": f"{even.ideal_saving / 1e3:.2f}",
+        "ideal kW": f"{even.ideal_saving / 1e3:.2f}" + ("" if within is None else f" ± {within / 1e3:.2f}"),
+        "sign": NONE if within is None else sureness(even.ideal_saving, within),
         "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
         "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,
         "drive ≤ W": f"{needed.drive:.0f}" if pays else NONE,

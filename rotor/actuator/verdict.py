@@ -140,6 +140,12 @@ class Verdict:
         return max(0.0, mass * (1.0 + self.net_saving / self.mass_cost)) if mass else None
 
     @property
+    def mass_allowed_band(self) -> float | None:
+        """Uncertainty of `mass_allowed`, ± [kg]; None where it is not known."""
+        band = self.net_band
+        return None if band is None else band * self.installed.masses.aircraft / self.mass_cost
+
+    @property
     def drive_cost(self) -> float:
         """Power that holding the twist takes [W]."""
         return self.drive.hold_power
@@ -175,6 +181,12 @@ class Verdict:
         return self.baseline.pair.mean(
             engines.flow(before) - engines.flow(after + self.drive.hold_power) for before, after in pairs
         )
+
+    @property
+    def fuel_band(self) -> float | None:
+        """Uncertainty of `fuel_saving`, ± [kg/s], in proportion to that of power; None where it is not known."""
+        saved, band = self.fuel_saving, self.net_band
+        return None if saved is None or band is None or not self.net_saving else band * abs(saved / self.net_saving)
 
     @property
     def broken(self) -> tuple[Limit, ...]:
@@ -323,9 +335,12 @@ def _digits(verdict: Verdict) -> int:
 
 def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
-    sentences, saved = [_reach(verdict), _savings(verdict)], verdict.fuel_saving
+    sentences, saved, band = [_reach(verdict), _savings(verdict)], verdict.fuel_saving, verdict.fuel_band
     if saved is not None:
-        sentences.append(f"Net: {abs(3600.0 * saved):.1f} kg/h {'less' if saved >= 0.0 else 'more'} fuel.")
+        size = (
+            f"{abs(3600.0 * saved):.1f} kg/h" if band is None else banded(abs(3600.0 * saved), 3600.0 * band, "kg/h", 1)
+        )
+        sentences.append(f"Net fuel: {'saves' if saved >= 0.0 else 'costs'} {size}.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")
     return " ".join(sentences)
