@@ -50,13 +50,9 @@ class ScheduleProgress:
         return self.schedule.at(leg, self.plan.concepts[0].name)
 
     def doubts(self, leg: int) -> tuple[Doubt | None, Doubt | None]:
-        """How sure the savings of a leg are: of its best twist, and of the best fixed blade."""
+        """Power and saving on a leg of the best fixed blade, and of the leg's best twist; None while not known."""
         optimum, fixed = self.at(leg), self.fixed.doubts
-        return optimum and optimum.doubt, fixed[leg] if leg < len(fixed) else None
-
-    def fixed_power(self, leg: int) -> float | None:
-        """Power of the best fixed blade at a leg [W]; None while it is not known."""
-        return self.fixed.powers[leg] if leg < len(self.fixed.powers) else None
+        return fixed[leg] if leg < len(fixed) else None, optimum and optimum.doubt
 
     @property
     def count(self) -> str:
@@ -92,20 +88,21 @@ def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | N
 def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
     legs = [
-        (leg.flight.advance_ratio, *_saving(progress, k), *map(_within, progress.doubts(k)))
+        (leg.flight.advance_ratio, *(value for band in progress.doubts(k) for value in _saving(band)))
         for k, leg in enumerate(progress.plan.conditions)
     ]
-    found = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 5]).T
-    mu, moving, fixed, *bands = found
-    if not np.isfinite(moving).any():
-        return None
-    ends = (
-        value + sign * np.nan_to_num(band) for value, band in zip(found[1:3], bands, strict=True) for sign in (1, -1)
+    mu, fixed, fixed_band, moving, band = (
+        np.array(sorted(leg for leg in legs if math.isfinite(leg[3]))).reshape(-1, 5).T
     )
-    seen = [0.0, *(float(value) for end in ends for value in end if math.isfinite(value))]
+    if not len(mu):
+        return None
+    seen = [
+        0.0,
+        *np.nan_to_num([fixed - fixed_band, fixed + fixed_band, moving - band, moving + band]).ravel().tolist(),
+    ]
     lines = (
-        Points("", mu, moving, THIS, size=2.5, scatter=bands[0]),
-        Points("", mu, fixed, NOW, size=2.5, scatter=bands[1]),
+        Points("", mu, moving, THIS, size=2.5, scatter=band),
+        Points("", mu, fixed, NOW, size=2.5, scatter=fixed_band),
         Line("fixed", mu, fixed, NOW, "5 3", 1.8),
         Line("variable", mu, moving, THIS),
     )
@@ -113,12 +110,12 @@ def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | 
     return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
 
 
-def _saving(progress: ScheduleProgress, leg: int) -> tuple[float, float]:
-    """Savings of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
-    optimum, fixed = progress.at(leg), progress.fixed_power(leg)
-    if optimum is None or optimum.saving is None or optimum.baseline_power is None:
+def _saving(band: Doubt | None) -> tuple[float, float]:
+    """A saving and its band [%]; NaN when not known."""
+    within = None if band is None else band.change_band_percent
+    if band is None or within is None or not band.against:
         return math.nan, math.nan
-    return 100.0 * optimum.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / optimum.baseline_power)
+    return 100.0 * (1.0 - band.power / band.against), within
 
 
 def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
@@ -129,22 +126,15 @@ def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
         optimum, mu = progress.at(k), leg.flight.advance_ratio
         power = None if optimum is None else optimum.baseline_power
         baseline = None if power is None else units.power[0].of(power)
-        savings = zip(reversed(_saving(progress, k)), reversed(progress.doubts(k)), strict=True)
-        cells = (number(baseline), *(_percent(saved, band) for saved, band in savings))
+        cells = (number(baseline), *map(_percent, progress.doubts(k)))
         rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
     return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
 
 
-def _within(band: Doubt | None) -> float:
-    """Of a saving [%]; NaN while it is not known."""
-    within = None if band is None else band.change_band_percent
-    return math.nan if within is None else within
-
-
-def _percent(saved: float, band: Doubt | None) -> Content:
-    """A saving of a leg [%]; with its band and its word, which alone gives it a colour, once they are known."""
-    within, word = (None, None) if band is None else (band.change_band_percent, band.sureness)
-    if within is None or word is None:
+def _percent(band: Doubt | None) -> Content:
+    """A saving of a leg [%], with its band and its word, which alone gives it a colour."""
+    (saved, within), word = _saving(band), band and band.sureness
+    if not word:
         return number(saved, 2)
     digits, kind = change_decimals(saved, within), change_kind(-saved, word)
     words = f"{number(saved, digits)} ± {number(within, digits)}", tag("br"), tag("span.rx-small", word)
@@ -181,7 +171,7 @@ def csv_of(progress: ScheduleProgress) -> bytes:
     names = reported_names(leg.flight.unusual for leg in progress.plan.conditions)
     writer.writerow((*names, *_COLUMNS))
     for k, leg in enumerate(progress.plan.conditions):
-        optimum = progress.at(k)
+        optimum, (still, moving) = progress.at(k), progress.doubts(k)
         best = None if optimum is None else optimum.best
         writer.writerow(
             (
@@ -190,9 +180,9 @@ def csv_of(progress: ScheduleProgress) -> bytes:
                 _kilowatt(None if optimum is None else optimum.baseline_power),
                 _kilowatt(None if best is None else best.power),
                 "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
-                *_banded_cells(progress.doubts(k)[0]),
-                _kilowatt(progress.fixed_power(k)),
-                *_banded_cells(progress.doubts(k)[1]),
+                *_banded_cells(moving),
+                _kilowatt(still and still.power),
+                *_banded_cells(still),
                 "" if best is None else best.twist,
             )
         )
@@ -205,7 +195,7 @@ def csv_of(progress: ScheduleProgress) -> bytes:
 
 
 def _banded_cells(band: Doubt | None) -> tuple[str, str]:
-    within = _within(band)
+    _, within = _saving(band)
     return f"{within:.3f}" if math.isfinite(within) else "", (band and band.sureness) or ""
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
-from explorer.model.units import BLANK, SI, WATT, Units, adding, number
+from explorer.model.units import BLANK, SI, WATT, Unit, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
@@ -115,17 +115,17 @@ def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
 
 
 def part_change(
-    name: str, power: PowerBudget, reference: PowerBudget, band: Doubt | None, units: Units
+    name: str, power: PowerBudget, reference: PowerBudget, band: Doubt | None, units: Units, digits: int = 1
 ) -> tuple[str, str]:
     """Change of a part of power, or of the `total`, with its band and whether its sign is known: `−12 ± 4`, `sure`.
 
-    Without the last two where the band is not known, and where nothing changes.
+    Where the band is not known, and where nothing changes, with these digits and without the last two.
     """
     change, unit = getattr(power, name) - getattr(reference, name), units.power[0]
     bands = {} if band is None else {**band.part_bands, "total": band.change_band}
     within = bands.get(name)
     if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
-        return number(unit.of(change), 1, sign=True), ""
+        return number(unit.of(change), digits, sign=True), ""
     size, word = banded(change, within, units, sign=True).split(": ")
     return size.removesuffix(f" {unit.symbol}"), word
 
@@ -342,7 +342,7 @@ def balance(
         BalanceRow(
             name, value, number(shown, digits, sign=True), unit.of(sure),
             f"{name} {needs_words(-unit.size * value, sure, units)}" if sure else "",
-            change_kind(value, sureness(value, sure) if value and (sure or name == "drive") else None),
+            change_kind(value, sureness(value, unit.of(sure)) if value and (sure or name == "drive") else None),
         )
         for name, value, shown, sure in rows
     ]  # fmt: skip
@@ -368,12 +368,20 @@ def needs_words(net: float, band: float | None, units: Units) -> str:
     return words if band is None else f"{words} ({sureness(net, band)})"
 
 
-def banded(change: float, band: float, units: Units, *, least: int = 0, sign: bool = False) -> str:
-    """A change of power [W] with its band [W] and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
-    unit = units.power[0]
+_FUEL = Unit("kg/h of fuel", 1.0 / 3600.0)
+
+
+def banded(change: float, band: float, units: Units | Unit, *, least: int = 0, sign: bool = False) -> str:
+    """A change, of power in these units [W], with its band and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
+    unit = units if isinstance(units, Unit) else units.power[0]
     digits = change_decimals(unit.of(change), unit.of(band), least)
     size, within = number(unit.of(change), digits, sign=sign), number(unit.of(band), digits)
     return f"{size} ± {within} {unit.symbol}: {sureness(change, band)}"
+
+
+def kilograms(mass: float) -> str:
+    """A mass [kg] with one decimal below ten."""
+    return f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
 
 
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:
@@ -402,9 +410,7 @@ def fuel_words(verdict: Verdict) -> str:
     saved, band = verdict.fuel_saving, verdict.fuel_band
     if saved is None or band is None:
         return "fuel flow unknown" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg/h of fuel"
-    digits = change_decimals(3600.0 * saved, 3600.0 * band, 1)
-    used, within = number(-3600.0 * saved, digits, sign=True), number(3600.0 * band, digits)
-    return f"{used} ± {within} kg/h of fuel: {sureness(saved, band)}"
+    return banded(-saved, band, _FUEL, least=1, sign=True)
 
 
 def pair_words(verdict: Verdict) -> str:

@@ -10,14 +10,14 @@ import numpy as np
 
 from explorer.model.inputs import INFLOW_MENUS
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import part_titles
+from explorer.text.readout import part_change, part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.design import Harmonic
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.support.arrays import Array, Booleans
-from rotor.trim.doubt import Doubt, change_decimals
+from rotor.trim.doubt import Doubt
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
@@ -157,12 +157,8 @@ def _changed_parts(before: Solution, after: Solution, units: Units, band: Doubt 
     digits = _digits(largest)
     shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
     order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
-    bands = {} if band is None else {name: unit.of(within) for name, within in band.part_bands.items() if within}
-    texts = list[str]()
-    for name in order[:3]:
-        finer = change_decimals(changes[name], bands[name]) if name in bands else digits
-        within = f" ± {number(bands[name], finer)}" if name in bands else ""
-        texts.append(f"{titles[name].lower()} {number(changes[name], finer, sign=True)}{within}")
+    powers = after.power, before.power, band, units, digits
+    texts = [f"{titles[name].lower()} {part_change(name, *powers)[0]}" for name in order[:3]]
     return [*texts[:-1], f"{texts[-1]} {unit.symbol}"] if texts else []
 
 

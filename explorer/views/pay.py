@@ -14,7 +14,7 @@ import numpy as np
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
-from explorer.text.readout import needs, needs_words
+from explorer.text.readout import kilograms, needs, needs_words
 from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, blade_out, here_problem
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict
@@ -57,7 +57,7 @@ def _stage(now: PageState) -> SupposePart | None:
     notes = [f"With this range it pays below {_allowed(line, twist)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     return SupposePart(
-        words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
+        words=f"{number(degrees, 1)}° for {kilograms(mass)} {needs_words(saving, band, units)} over the flight",
         kind=PowerChange(-saving, band).kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
@@ -65,15 +65,12 @@ def _stage(now: PageState) -> SupposePart | None:
     )
 
 
-def _kilograms(mass: float) -> str:
-    return f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
-
-
 def _allowed(line: OtherStroke, twist: float) -> str:
     """The mass at which a range of twist breaks even, with its band."""
     most = line.mass_allowed(twist)
     band = line.band(twist, most)
-    return f"{number(most, 0 if most >= 10.0 else 1)}{'' if band is None else f' ± {_kilograms(band / line.per_kg)}'}"
+    within = None if band is None else band / line.per_kg
+    return kilograms(most) if within is None else f"{kilograms(most).removesuffix(' kg')} ± {kilograms(within)}"
 
 
 def _put(degrees: float, mass: float) -> tuple[float, float]:

@@ -101,4 +101,4 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
     return (points, work("flights", now.flown.trim_flights)) if plain else (points,)
 
 
-STRIP = Panel(strip, works=trims_asked, turns=True, remember=remember_ranges)
+STRIP = Panel(strip, works=lambda now: (*trims_asked(now), *shown_doubt(now)), turns=True, remember=remember_ranges)

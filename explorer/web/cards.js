@@ -26,9 +26,11 @@
         ${text(power.held)}</button></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
-    const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
+    const why = card.querySelector('.rxf-why');
+    const said = power.why.replace(/ ± | (?=k?W|hp)/g, one => one.replaceAll(' ', '\u00a0'));
+    const clauses = said.split('; ');
     const room = parseFloat(getComputedStyle(why).minHeight) + 1;
-    why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
+    why.textContent = said;
     while (clauses.length > 1 && why.offsetHeight > room) {
       clauses.pop();
       why.textContent = `${clauses.join('; ')}.`;

@@ -51,11 +51,12 @@
   }
   const ends = list => [Math.min(...list), Math.max(...list)];
   const mean = list => list.reduce((sum, value) => sum + value, 0) / list.length;
-  function needs([power, ...others]) {
-    const [low, high] = ends([power, ...others]), {unit} = RX.shown('dial'), digits = Math.abs(power) < 10 ? 1 : 0;
+  function needs(powers) {
+    const [power] = powers, [low, high] = ends(powers), {unit} = RX.shown('dial');
+    const digits = Math.abs(power) < 10 ? 1 : 0;
     if (Math.abs(power) < .05) return 'needs no more power';
     if (low * high <= 0) return `power unclear (${signed(low, digits)}…${signed(high, digits)} ${unit})`;
-    const range = others.length ? ` (${[low, high].map(end => fixed(Math.abs(end), digits)).join('…')})` : '';
+    const range = powers.length > 1 ? ` (${[low, high].map(end => fixed(Math.abs(end), digits)).join('…')})` : '';
     const size = `${fixed(Math.abs(power), digits)}${range} ${unit}`;
     return power > 0 ? `needs ${size} more` : `saves ${size}`;
   }

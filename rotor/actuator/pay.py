@@ -261,10 +261,12 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
             f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
-    parts, own = verdict.parts_doubt, [Analysis(trim) for trim in verdict.optimum.solutions]
+    parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
+    if not flown:  # The trims were left behind.
+        flown = best_actuated(base.pair, base.concept, installed, starts=[verdict.optimum.values]).solutions
+    near, own = flown, [Analysis(trim) for trim in flown]
     # The doubts whose sum is that of the power with each stroke.
     doubts: dict[float, tuple[Doubt | None, ...]] = {0.0: (parts["blade"], parts["stiffness"]), 1.0: ()}
-    start, near = [verdict.resting.values], verdict.optimum.solutions
     for stroke in OTHER_STROKES:
         found = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start, near=near)
         powers[stroke], near = found.power, found.solutions

@@ -140,12 +140,6 @@ class Verdict:
         return max(0.0, mass * (1.0 + self.net_saving / self.mass_cost)) if mass else None
 
     @property
-    def mass_allowed_band(self) -> float | None:
-        """Uncertainty of `mass_allowed`, ± [kg]; None where it is not known."""
-        band = self.net_band
-        return None if band is None else band * self.installed.masses.aircraft / self.mass_cost
-
-    @property
     def drive_cost(self) -> float:
         """Power that holding the twist takes [W]."""
         return self.drive.hold_power

@@ -95,10 +95,10 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     inputs = Inputs(law="builtin")
     solution = solve(inputs.design()).require()
     found = flight_sensitivities(solution)
-    faster = worth_row(found["advance_ratio"], solution.power, SI, 1.0)
+    faster = worth_row(found["advance_ratio"], solution.power, SI, 1e3)
     assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
     assert (faster.value[0], faster.way, faster.unit) == ("+", "down", "kW/0.01")
-    assert faster.sentence.startswith(f"Adv. ratio µ: 0.01 more changes power by {faster.value}")
+    assert faster.sentence.startswith(f"Adv. ratio µ: 0.01 more changes power by {faster.value} ± 1.0")
     assert faster.sentence.endswith(" kW: sure. A lower value saves power.")
     twist = worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI)
     assert (twist.value, twist.way, twist.unit) == ("−0.9 kW per °/R", "", "kW per °/R")  # Not known how sure.
