@@ -408,9 +408,7 @@ def mass_words(installed: InstalledActuator) -> str:
 def fuel_words(verdict: Verdict) -> str:
     """Fuel used beyond that without the actuator, with its band and whether its sign is known."""
     saved, band = verdict.fuel_saving, verdict.fuel_band
-    if saved is None or band is None:
-        return "fuel flow unknown" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg/h of fuel"
-    return banded(-saved, band, _FUEL, least=1, sign=True)
+    return "fuel flow unknown" if saved is None or band is None else banded(-saved, band, _FUEL, least=1, sign=True)
 
 
 def pair_words(verdict: Verdict) -> str:

@@ -57,8 +57,7 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
         return moves, ("It would not pay, however light.",)
     wide = None if one.line is None else one.line.twist_for(one.mass)
     pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", kilograms(mass)
-    band = None if one.line is None else one.line.band(one.range, mass)
-    within = "" if band is None or one.line is None else f" (± {kilograms(band / one.line.per_kg)})"
+    within = "" if one.line is None else f" (± {kilograms(one.line.band(one.range, mass) / one.line.per_kg)})"
     if wide is not None:
         return moves, (*pays, f"{within} or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
     return moves, (*pays, f"{within}." if one.line is None else f"{within}; no twist pays at {total}.")

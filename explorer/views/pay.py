@@ -68,9 +68,7 @@ def _stage(now: PageState) -> SupposePart | None:
 def _allowed(line: OtherStroke, twist: float) -> str:
     """The mass at which a range of twist breaks even, with its band."""
     most = line.mass_allowed(twist)
-    band = line.band(twist, most)
-    within = None if band is None else band / line.per_kg
-    return kilograms(most) if within is None else f"{kilograms(most).removesuffix(' kg')} ± {kilograms(within)}"
+    return f"{kilograms(most).removesuffix(' kg')} ± {kilograms(line.band(twist, most) / line.per_kg)}"
 
 
 def _put(degrees: float, mass: float) -> tuple[float, float]:
@@ -111,7 +109,7 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
     y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 3.0 * max(largest, *(mass for _, mass in places), 0.0)
     fine = [*np.linspace(0.0, end, 60).tolist(), math.radians(x_most)]
     x, allowed = [*map(math.degrees, fine)], [max(line.mass_allowed(twist), y_range[0]) for twist in fine]
-    within = np.array([line.band(*place) or 0.0 for place in zip(fine, allowed, strict=True)]) / line.per_kg
+    within = np.array([line.band(*place) for place in zip(fine, allowed, strict=True)]) / line.per_kg
     series: list[Series] = [
         Band("pays", x, (y_range[0],) * len(x), allowed, _PAYS),
         Band("", x, np.maximum(allowed - within, y_range[0]), allowed + within, "var(--rx-dim)"),

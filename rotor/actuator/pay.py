@@ -70,8 +70,8 @@ class BreakEven:
     """Linear twist at the first condition [rad per radius]."""
     masses: Array
     """Mass of all blades whose carrying costs as much as the twist saves [kg]."""
-    ideal_band: float | None = None
-    """Uncertainty of `ideal_saving`, ± [W]; None where it is not known."""
+    ideal_band: float
+    """Uncertainty of `ideal_saving`, ± [W]."""
 
     @property
     def ideal_saving(self) -> float:
@@ -137,7 +137,8 @@ def break_even(pair: ConditionPair) -> BreakEven:
         masses[k] = task.mass(float(rates[k]), swing, base.fixed.power, float(masses[k - 1]))
     span = 1.0 - root
     ideal = difference_doubt(pair.shares, [best.solutions[0] for best in base.best], base.fixed.solutions)
-    within = None if ideal is None else ideal.change_band
+    assert ideal is not None
+    within = ideal.change_band or 0.0
     return BreakEven(pair, base.fixed.power, span * largest, span * twists, gross, rates, masses, within)
 
 
@@ -217,10 +218,9 @@ class OtherStroke:
     """Before its mass [W], (strokes,); never falling."""
     per_kg: float
     """Power that a kilogram on board costs [W]."""
-    changes: Array | None = None
-    """What each uncertain input adds to the power with each stroke, before its mass [W], (inputs, strokes); None where
-    that is not known."""
-    changes_per_kg: Array | float = 0.0
+    changes: Array
+    """What each uncertain input adds to the power with each stroke, before its mass [W], (inputs, strokes)."""
+    changes_per_kg: Array
     """And to `per_kg` [W], (inputs,)."""
 
     def net(self, twist: float, mass: float) -> float:
@@ -228,10 +228,8 @@ class OtherStroke:
         used."""
         return float(np.interp(twist, self.twists, self.saved)) - self.per_kg * mass
 
-    def band(self, twist: float, mass: float) -> float | None:
-        """Uncertainty of `net`, ± [W]; None where it is not known."""
-        if self.changes is None:
-            return None
+    def band(self, twist: float, mass: float) -> float:
+        """Uncertainty of `net`, ± [W]."""
         at = np.array([np.interp(twist, self.twists, change) for change in self.changes])
         return float(np.linalg.norm(at + self.changes_per_kg * mass))
 
@@ -274,11 +272,11 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
     saved = np.array([verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least])
-    twists, per_kg = np.array(strokes) * installed.attainable, verdict.mass_cost / mass
-    needed = verdict.doubt, parts["mass"], *(one for each in doubts.values() for one in each)
-    if any(one is None for one in needed):
-        return OtherStroke(twists, saved, per_kg)
-    carried = _changes(parts["mass"])
+    twists, per_kg, carried = (
+        np.array(strokes) * installed.attainable,
+        verdict.mass_cost / mass,
+        _changes(parts["mass"]),
+    )
     net = _changes(verdict.doubt) - carried
     changes = {stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()}
     return OtherStroke(twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass)
@@ -286,7 +284,8 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
 
 def _changes(doubt: Doubt | None) -> Array:
     """What each uncertain input does to a difference [W], in the order of all."""
-    found = {row.name: row.change or 0.0 for row in doubt.rows} if doubt is not None else {}
+    assert doubt is not None  # All that a verdict is made of trims.
+    found = {row.name: row.change or 0.0 for row in doubt.rows}
     return np.array([found.get(row.name, 0.0) for row in UNCERTAIN])
 
 
@@ -294,7 +293,7 @@ def pay_sentence(even: BreakEven) -> str:
     """One line on the twist, mass and drive that an actuator would need to break even on this rotor."""
     needed, ideal = even.requirement, even.ideal_saving
     change = math.degrees(abs(even.change))
-    saves = f"{ideal:.0f} W" if even.ideal_band is None else banded(ideal, even.ideal_band, "W")
+    saves = banded(ideal, even.ideal_band, "W")
     if not even.worthwhile:
         return (
             f"No actuator pays: unlimited twist saves, of {even.fixed_power / 1e3:.0f} kW, {saves} "

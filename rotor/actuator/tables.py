@@ -163,13 +163,13 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
 
 
 def _wanted(even: BreakEven) -> Row:
-    needed, pair, pays, within = even.requirement, even.pair, even.worthwhile, even.ideal_band
+    needed, pair, pays = even.requirement, even.pair, even.worthwhile
     return {
         "rotor": pair.design.aircraft.name,
         "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
         "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
-        "ideal kW": f"{even.ideal_saving / 1e3:.2f}" + ("" if within is None else f" ± {within / 1e3:.2f}"),
-        "sign": NONE if within is None else sureness(even.ideal_saving, within),
+        "ideal kW": f"{even.ideal_saving / 1e3:.2f} ± {even.ideal_band / 1e3:.2f}",
+        "sign": sureness(even.ideal_saving, even.ideal_band),
         "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
         "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,
         "drive ≤ W": f"{needed.drive:.0f}" if pays else NONE,
