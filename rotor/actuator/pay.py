@@ -230,8 +230,8 @@ class OtherStroke:
 
     def band(self, twist: float, mass: float) -> float:
         """Uncertainty of `net`, ± [W]."""
-        at = np.array([np.interp(twist, self.twists, change) for change in self.changes])
-        return float(np.linalg.norm(at + self.changes_per_kg * mass))
+        at = [float(np.interp(twist, self.twists, change)) for change in self.changes]
+        return float(np.linalg.norm(np.array(at) + self.changes_per_kg * mass))
 
     def mass_allowed(self, twist: float) -> float:
         """Mass on all blades at which it breaks even [kg]; 0 where the twist alone costs more than it saves."""
