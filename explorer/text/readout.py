@@ -156,7 +156,7 @@ def _row(
         tag("td.rx-num", units.watts(value, fineness(power, units))),
         tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:14%"),
         tag("td.rx-num.rx-dim", apart, style="width:24%"),
-        tag("td.rx-dim", word, style="width:16%"),
+        tag("td.rx-dim", word, style="width:17%;padding-left:5px"),
         title=tip(_MEANT.get(title, name)),
     )
 
