@@ -230,7 +230,8 @@ class OtherStroke:
 
     def band(self, twist: float, mass: float) -> float:
         """Uncertainty of `net`, ± [W]."""
-        at = [float(np.interp(twist, self.twists, self.changes[k])) for k in range(len(self.changes))]
+        rows: list[Array] = list(self.changes)
+        at = [float(np.interp(twist, self.twists, row)) for row in rows]
         return float(np.linalg.norm(np.array(at) + self.changes_per_kg * mass))
 
     def mass_allowed(self, twist: float) -> float:
