@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 from explorer.model.units import SI, Unit, Units, number
+from explorer.text.line import coverage_words
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import Doubt, OtherModels, banded, decimals
@@ -37,7 +38,10 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     if any(abs(each.power - band.power) > band.band for each in models):
         words += " At least one lies outside the band."
     with_others = tag("div.rx-dim", words) if models else Markup()
-    return tag("div.rx.rx-doubt", tag("b", band.sentence), tag("div.rx-dim", title), tag("table", rows), with_others)
+    held = tag("div.rx-dim", f"{coverage_words()}.") if band.of == "Power" else Markup()
+    return tag(
+        "div.rx.rx-doubt", tag("b", band.sentence), held, tag("div.rx-dim", title), tag("table", rows), with_others
+    )
 
 
 def _in_words(beside: OtherModels, band: Doubt, units: Units) -> str:

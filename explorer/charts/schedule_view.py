@@ -10,17 +10,20 @@ import numpy as np
 from explorer.charts.plots import Range, held_range
 from explorer.colours import NOW, THIS, colour_map, css
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import banded
+from explorer.text.readout import banded, change_kind
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import FixedBlade
 from rotor import Optimum
 from rotor.design.aircraft import reported_names
 from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
-from rotor.support.chart import Axis, Chart, Line
-from rotor.support.markup import Markup, tag
-from rotor.trim.doubt import Doubt
+from rotor.support.chart import Axis, Chart, Line, Points
+from rotor.support.markup import Content, Markup, tag
+from rotor.trim.doubt import Doubt, change_decimals
 
-_COLUMNS = ("hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
+_COLUMNS = (
+    "hours", "as_it_is_kw", "best_kw", "saving_percent", "saving_doubt_percent", "sureness", "fixed_kw",
+    "fixed_doubt_percent", "fixed_sureness", "twist",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -46,9 +49,10 @@ class ScheduleProgress:
         """The optimum at a leg; None: the fixed blade."""
         return self.schedule.at(leg, self.plan.concepts[0].name)
 
-    def fixed_power(self, leg: int) -> float | None:
-        """Power of the best fixed blade at a leg [W]; None while it is not known."""
-        return self.fixed.powers[leg] if leg < len(self.fixed.powers) else None
+    def doubts(self, leg: int) -> tuple[Doubt | None, Doubt | None]:
+        """Power and saving on a leg of the best fixed blade, and of the leg's best twist; None while not known."""
+        optimum, fixed = self.at(leg), self.fixed.doubts
+        return fixed[leg] if leg < len(fixed) else None, optimum and optimum.doubt
 
     @property
     def count(self) -> str:
@@ -83,36 +87,58 @@ def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | N
 
 def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
-    legs = [(leg.flight.advance_ratio, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
-    mu, moving, fixed = np.array(sorted(leg for leg in legs if math.isfinite(leg[1])) or [(math.nan,) * 3]).T
-    if not np.isfinite(moving).any():
+    legs = [
+        (leg.flight.advance_ratio, *(value for band in progress.doubts(k) for value in _saving(band)))
+        for k, leg in enumerate(progress.plan.conditions)
+    ]
+    mu, fixed, fixed_band, moving, band = (
+        np.array(sorted(leg for leg in legs if math.isfinite(leg[3]))).reshape(-1, 5).T
+    )
+    if not len(mu):
         return None
-    seen = [0.0, *(float(value) for value in (*moving, *fixed) if math.isfinite(value))]
-    lines = Line("fixed", mu, fixed, NOW, "5 3", 1.8), Line("variable", mu, moving, THIS)
+    seen = [
+        0.0,
+        *np.nan_to_num([fixed - fixed_band, fixed + fixed_band, moving - band, moving + band]).ravel().tolist(),
+    ]
+    lines = (
+        Points("", mu, moving, THIS, size=2.5, scatter=band),
+        Points("", mu, fixed, NOW, size=2.5, scatter=fixed_band),
+        Line("fixed", mu, fixed, NOW, "5 3", 1.8),
+        Line("variable", mu, moving, THIS),
+    )
     y_axis = Axis("%", held_range(previous, min(seen), max(0.1, *seen)))
     return Chart("Saving", Axis("µ", (-0.012, 0.462)), y_axis, lines)
 
 
-def _saving(progress: ScheduleProgress, leg: int) -> tuple[float, float]:
-    """Savings of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
-    optimum, fixed = progress.at(leg), progress.fixed_power(leg)
-    if optimum is None or optimum.saving is None or optimum.baseline_power is None:
+def _saving(band: Doubt | None) -> tuple[float, float]:
+    """A saving and its band [%]; NaN when not known."""
+    within = None if band is None else band.change_band_percent
+    if band is None or within is None or not band.against:
         return math.nan, math.nan
-    return 100.0 * optimum.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / optimum.baseline_power)
+    return 100.0 * (1.0 - band.power / band.against), within
 
 
 def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
     """One row a leg, then the gain of moving."""
-    heads = (f"current [{units.power[0].symbol}]", "fixed [%]", "variable [%]")
+    heads = (f"current [{units.power[0].symbol}]", "fixed saves [%]", "variable saves [%]")
     rows = [tag("tr.rx-dim.rx-small", tag("td", "µ"), [tag("td.rx-num", head) for head in heads])]
     for k, leg in enumerate(progress.plan.conditions):
         optimum, mu = progress.at(k), leg.flight.advance_ratio
-        moving, fixed = _saving(progress, k)
         power = None if optimum is None else optimum.baseline_power
         baseline = None if power is None else units.power[0].of(power)
-        cells = (number(baseline), number(fixed, 2), number(moving, 2))
+        cells = (number(baseline), *map(_percent, progress.doubts(k)))
         rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
     return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
+
+
+def _percent(band: Doubt | None) -> Content:
+    """A saving of a leg [%], with its band and its word, which alone gives it a colour."""
+    (saved, within), word = _saving(band), band and band.sureness
+    if not word:
+        return number(saved, 2)
+    digits, kind = change_decimals(saved, within), change_kind(-saved, word)
+    words = f"{number(saved, digits)} ± {number(within, digits)}", tag("br"), tag("span.rx-small", word)
+    return tag("span", words, class_=kind and f"rx-{kind}")
 
 
 def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
@@ -145,7 +171,7 @@ def csv_of(progress: ScheduleProgress) -> bytes:
     names = reported_names(leg.flight.unusual for leg in progress.plan.conditions)
     writer.writerow((*names, *_COLUMNS))
     for k, leg in enumerate(progress.plan.conditions):
-        optimum = progress.at(k)
+        optimum, (still, moving) = progress.at(k), progress.doubts(k)
         best = None if optimum is None else optimum.best
         writer.writerow(
             (
@@ -154,16 +180,23 @@ def csv_of(progress: ScheduleProgress) -> bytes:
                 _kilowatt(None if optimum is None else optimum.baseline_power),
                 _kilowatt(None if best is None else best.power),
                 "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
-                _kilowatt(progress.fixed_power(k)),
+                *_banded_cells(moving),
+                _kilowatt(still and still.power),
+                *_banded_cells(still),
                 "" if best is None else best.twist,
             )
         )
     fixed = progress.at(None)
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
-        mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
+        mean = (_kilowatt(fixed.baseline_power), *5 * ("",), _kilowatt(fixed.best.power), *_banded_cells(fixed.doubt))
         writer.writerow(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()
+
+
+def _banded_cells(band: Doubt | None) -> tuple[str, str]:
+    _, within = _saving(band)
+    return f"{within:.3f}" if math.isfinite(within) else "", (band and band.sureness) or ""
 
 
 def _kilowatt(watts: float | None) -> str:

@@ -47,9 +47,9 @@ def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool
     return Line(label, x, y, colour, dashes, width, filled=filled)
 
 
-def now_dot(x: float, y: float) -> Points:
-    """The present condition, in the units of the axes."""
-    return Points("", (x,), (y,), THIS, size=4.5, words=("now",))
+def now_dot(x: float, y: float, band: float = 0.0) -> Points:
+    """The present condition, in the units of the axes, as `band`."""
+    return Points("", (x,), (y,), THIS, size=4.5, words=("now",), scatter=(band,) if band else ())
 
 
 def _hover_dot(y: float) -> Points:
@@ -77,26 +77,34 @@ def _near(power: Array, values: Array) -> list[float]:
 
 
 def power_change_chart(
-    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, held: Scales = NONE
+    curve: PowerCurve,
+    mu: float,
+    change: float | None,
+    reference: str,
+    units: Units = SI,
+    held: Scales = NONE,
+    band: float | None = None,
 ) -> Chart:
     """Change of total power against the reference over µ; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `change`: at the present condition [W], None without trim. `reference`: its name.
-    `held`: the two scales before.
+    `held`: the two scales before. `band`: of `change` [W], None where it is not known.
     """
     unit = units.power[0]
+    within = unit.of(band or 0.0)
     apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
     mus = np.array(SWEEP)
     now = math.nan if change is None else unit.of(change)
-    seen = (*apart[mus <= max(0.4, mu)], now, 0.0)
-    near, whole = _scales((*_near(curve.design, apart), now, -2.0, 2.0), (*seen, -2.0, 2.0), held)
+    reach = now, now - within, now + within
+    seen = (*apart[mus <= max(0.4, mu)], *reach, 0.0)
+    near, whole = _scales((*_near(curve.design, apart), *reach, -2.0, 2.0), (*seen, -2.0, 2.0), held)
     line = _smooth("saving" if curve.current else "earlier", apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
         "Power over µ",
         Axis("µ", (0.0, SWEEP[-1]), (0.0, 0.2, 0.4)),
         Axis(f"{unit.symbol} vs. {reference}", near, whole=whole),
-        (line, *hover, now_dot(mu, now)),
+        (line, *hover, now_dot(mu, now, within)),
         note=autorotation_words(curve),
     )
 

@@ -15,8 +15,9 @@ from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values
 from explorer.text.readout import mass_parts, needs_words
 from explorer.views.actuated import ActuatedBlade, against_words
-from rotor import Solution
+from rotor import Design, Solution, doubt
 from rotor.actuator import Verdict
+from rotor.trim.doubt import Doubt
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
 """Colours of the designs in charts and badges, in turn."""
@@ -82,6 +83,20 @@ class DesignReport:
         """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
         return entry.solution.design.bare.condition == self.reference.solution.design.bare.condition
 
+    def band(self, entry: ReportEntry) -> Doubt:
+        """How sure power is, and its change from the reference."""
+        solution, other = entry.solution, self.reference.solution
+        if solution.design not in self._bands:
+            free = "free-rotor" in {one.design.models.trim for one in (solution, other)}
+            compared = self.comparable(entry) and not self.is_reference(entry) and not free
+            self._bands[solution.design] = doubt(solution, other if compared else None)
+        return self._bands[solution.design]
+
+    @cached_property
+    def _bands(self) -> dict[Design, Doubt]:
+        """Those that are known."""
+        return {}
+
     def is_reference(self, entry: ReportEntry) -> bool:
         """Whether it is the reference, or the same design, so that there is nothing to compare."""
         return entry.solution.design == self.reference.solution.design
@@ -98,8 +113,8 @@ class DesignReport:
 
 
 def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
-    """The change of power here by the actuator on board, as the page says it; what it counts from; and whether it is
-    `more` or `less`; empty where that is not known, or nothing within its limits saves."""
+    """The change of power here by the actuator on board, as the page says it; what it counts from; and its
+    `change_kind`, empty for a gain that nothing within its limits makes."""
     mass, here = mass_parts(driven.installed)["in all"], driven.here
     if here is None:
         return "", f"with {mass} on board", ""

@@ -16,7 +16,7 @@ from explorer.colours import BASELINE, IDEAL
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units
 from explorer.picture.fields import Field
-from explorer.text.readout import balance, fuel_words, mass_words, needs, pair_words
+from explorer.text.readout import balance, change_kind, fuel_words, mass_words, needs, pair_words
 from rotor import Solution
 from rotor.actuator import Verdict, verdict_details
 from rotor.actuator.verdict import reference
@@ -24,6 +24,7 @@ from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.support.chart_svg import svg
 from rotor.support.markup import Content, Markup, group, tag
+from rotor.trim.doubt import sureness
 
 PIXELS = 480
 """Pixels of a disk along each edge: the labels of its regions can be read."""
@@ -186,19 +187,21 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     low, high = placement.span
     where = f"{verdict.installed.count}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
+    word = None if verdict.net_band is None else sureness(verdict.net_saving, verdict.net_band)
+    kind = change_kind(-verdict.net_saving, word)
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the mission."
     parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Extra power"), unit),
         _balance_bars(verdict, units),
-        tag("p", tag("b", fuel_words(verdict.fuel_saving)), data_report="fuel"),
+        tag("p", tag("b", fuel_words(verdict)), data_report="fuel"),
     )
     return tag(
         "section.actuator",
         title,
         tag("p.lead", f"{first}, {where}; {mass_words(verdict.installed)}"),
-        tag("p.lead", sentence, class_="less" if verdict.pays else "more", data_report="verdict"),
+        tag("p.lead", sentence, class_="" if kind == "less" and not verdict.buildable else kind, data_report="verdict"),
         tag("p.dim", verdict_details(verdict)),
         parts,
         tag("ul.care", [tag("li", care) for care in cares]) if cares else None,
@@ -225,11 +228,10 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     height = _ROW * len(rows)
     drawn: list[Content] = [tag("line.zero", x1=at(0.0), x2=at(0.0), y1=0, y2=height)]
     for k, (row, (start, end)) in enumerate(zip(rows, ends, strict=True)):
-        text, top, kind = row.text, _ROW * k, {"+": "more", "−": "less"}.get(row.text[0], "dim")
+        text, top, kind = row.text, _ROW * k, row.kind or None
         left, width = min(at(start), at(end)), abs(at(end) - at(start))
         weight = 650 if k == len(rows) - 1 else None
-        if kind != "dim":
-            drawn.append(tag("rect", x=left, y=top + 6, width=width, height=_ROW - 12, class_=kind))
+        drawn.append(tag("rect", x=left, y=top + 6, width=width, height=_ROW - 12, class_=kind or "unsure"))
         if row.band:
             y, left, right = top + 0.5 * _ROW, at(end - row.band), at(end + row.band)
             drawn.append(tag("line.band", tag("title", row.words), x1=left, x2=right, y1=y, y2=y))

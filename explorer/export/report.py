@@ -71,7 +71,7 @@ def _line(report: DesignReport) -> str:
     """Of the first design against the reference."""
     entry, reference = report.entries[0], report.reference.solution
     other = reference if report.comparable(entry) else None
-    return sentence(entry.solution, report.units, other, tables.power_band(report, entry))
+    return sentence(entry.solution, report.units, other, report.band(entry))
 
 
 def _glance(report: DesignReport) -> Markup:
@@ -92,7 +92,7 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
         for name, value in values.items()
     ]
     total = tag("b", report.units.watts(power.total), data_report="total-power")
-    band = report.units.power[0].of(tables.power_band(report, entry).band)
+    band = report.units.power[0].of(report.band(entry).band)
     total += tag("span", f" ± {number(band, decimals(band))}")
     small = tag("span.dim", report.units.other_watts(power.total))
     return tag(

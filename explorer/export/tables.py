@@ -11,13 +11,13 @@ from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.model.stand import stand_of
 from explorer.model.units import TONNE, Units, degrees, number
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_name
-from explorer.text.readout import ideal_induced, index_unit, part_titles
+from explorer.text.readout import change_kind, ideal_induced, index_unit, part_change, part_titles
 from explorer.text.status import section_title
-from rotor import Design, Solution, doubt, hub_loads
+from rotor import Design, Solution, hub_loads
 from rotor.aero.problem import grid_of
 from rotor.support.markup import Content, Markup, group, tag
 from rotor.trim import why_no_hub_loads
-from rotor.trim.doubt import Doubt, DoubtRow, decimals
+from rotor.trim.doubt import DoubtRow, decimals
 
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""
@@ -34,36 +34,21 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
         return tag("span.change.dim", "reference") if len(report.all) > 1 else Markup()
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
-    change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
-    band = power_band(report, entry)
-    kind = None if band.sureness in (None, "unclear") else "less" if change < 0.0 else "more"
-    words = band.saving_words or f"{number(change, 1, sign=True)} %"
-    return tag("span.change", words, class_=kind)
-
-
-def power_band(report: DesignReport, entry: ReportEntry) -> Doubt:
-    """How sure power is, and its change from the reference."""
-    solution, other = entry.solution, report.reference.solution
-    free = "free-rotor" in {one.design.models.trim for one in (solution, other)}
-    compared = report.comparable(entry) and not report.is_reference(entry) and not free
-    return doubt(solution, other if compared else None)
+    change = entry.solution.power.total - reference.solution.power.total
+    words = report.band(entry).saving_words or tag("span.dim", "a free rotor takes no power")
+    return tag("span.change", words, class_=change_kind(change, report.band(entry).sureness))
 
 
 def comparison(report: DesignReport) -> Markup:
     """Every design in a column, the reference last; differences beside the powers."""
-    reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
     note = (
         f"{', '.join(elsewhere)}: in another flight condition than {report.reference.title}, "
         "so the blade alone does not explain the power difference."
     )
 
-    def compared(value: Callable[[Solution], float]) -> list[Content]:
-        return [
-            _with_change(entry.solution, reference if changes else entry.solution, value, report.units)
-            for entry in report.all
-            for changes in [report.comparable(entry) and not report.is_reference(entry)]
-        ]
+    def compared(name: str) -> list[Content]:
+        return [_with_change(report, entry, name) for entry in report.all]
 
     designs = [entry.solution.design for entry in report.all]
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
@@ -73,12 +58,9 @@ def comparison(report: DesignReport) -> Markup:
         _row("Speed", [_speed(design, report.units) for design in designs]),
         _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
         _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
-        _row(tag("b", "Total power"), compared(lambda solution: solution.power.total), "total"),
-        *(
-            _row(_named(name, title), compared(lambda solution, name=name: getattr(solution.power, name)))
-            for name, title in part_titles(*designs).items()
-        ),
-        _row("Main rotor", compared(lambda solution: solution.power.main_rotor)),
+        _row(tag("b", "Total power"), compared("total"), "total"),
+        *(_row(_named(name, title), compared(name)) for name, title in part_titles(*designs).items()),
+        _row("Main rotor", [report.units.watts(entry.solution.power.main_rotor, 1) for entry in report.all]),
         _row("Least induced, any circulation", [_least_induced(entry.solution, report.units) for entry in report.all]),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
@@ -129,7 +111,7 @@ def trim(solution: Solution) -> Markup:
 
 def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     """How sure power is, and its change from the reference, each above its causes."""
-    band, unit = power_band(report, entry), report.units.power[0]
+    band, unit = report.band(entry), report.units.power[0]
 
     def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
         """The largest, and the rest as one: their squares add up to that of the first row."""
@@ -213,13 +195,14 @@ def _below(first: str, second: str) -> Markup:
     return group(first, tag("br"), tag("small", second))
 
 
-def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> Content:
-    """A power, and below it the difference in its unit and in per cent."""
-    here, there = value(solution), value(reference)
-    if solution is reference:
-        return units.watts(here, 1)
-    per_cent = f" · {number(100.0 * (here / there - 1.0), 1, sign=True)} %" if abs(there) > 1.0 else ""
-    return _below(units.watts(here, 1), f"{units.watts(here - there, 1, sign=True)}{per_cent}")
+def _with_change(report: DesignReport, entry: ReportEntry, name: str) -> Content:
+    """A part of power, and below it the change from the reference with its band; none in another flight."""
+    power, units, band = entry.solution.power, report.units, report.band(entry)
+    words = units.watts(getattr(power, name), 1)
+    if band.change is None:
+        return words
+    change, word = part_change(name, power, report.reference.solution.power, band, units)
+    return _below(words, f"{change} {units.power[0].symbol}{word and f': {word}'}")
 
 
 def _least_induced(solution: Solution, units: Units) -> str:

@@ -34,13 +34,15 @@ class PowerShare:
 class PowerPart:
     """The power card: its parts and why it changed.
 
-    `ideal`: least induced power at this lift, as a share of all parts.
+    `ideal`: least induced power at this lift, as a share of all parts. `held`: how often a measured power lies in the
+    band of a computed one.
     """
 
     parts: Sequence[PowerShare] = ()
     ideal: float | None = None
     ideal_title: str = ""
     why: str = ""
+    held: str = ""
 
 
 @dataclass(frozen=True)

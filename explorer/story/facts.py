@@ -25,7 +25,7 @@ from explorer.story.steps import (
     speed_words,
 )
 from explorer.text.line import listed
-from explorer.text.readout import digits_of, limit_words
+from explorer.text.readout import banded, digits_of, limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import FlightLeg, fly, try_actuator
 from rotor.actuator.verdict import net_band_words
@@ -53,11 +53,15 @@ class Number:
     value: float
     text: str = ""
     """Text of a fact of kind "words"."""
+    band: float | None = None
+    """Either side of a change; None: not known."""
 
     def words(self, units: Units) -> str:
         """The fact as it is written, on one line."""
         value = self.value
         match self.kind:
+            case "change" if self.band:
+                text = banded(value, self.band, units, sign=True).partition(":")[0]
             case "power" | "change":
                 text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
             case "percent" | "fine" | "signed":
@@ -463,11 +467,13 @@ def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[st
         numbers |= _of("angle", twist_a=step.against.linear)
     if a is None or b is None:
         return numbers
+    sure = doubt(b, a)
+    bands = {**sure.part_bands, "total": sure.change_band}
     for name in ("total", "induced", "profile", "tail"):
         of_a, of_b = getattr(a.power, name), getattr(b.power, name)
         numbers |= _of("power", **{f"{name}_a": of_a, f"{name}_b": of_b})
-        numbers |= _of("change", **{f"{name}_change": of_b - of_a})
-    numbers |= _of("power", saving=a.power.total - b.power.total) | _said(saves=doubt(b, a).saving_words)
+        numbers[f"{name}_change"] = Number("change", of_b - of_a, band=bands.get(name))
+    numbers |= _of("power", saving=a.power.total - b.power.total) | _said(saves=sure.saving_words)
     return numbers
 
 

@@ -126,13 +126,19 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
         LinePiece(" takes " if driven else " needs ", "verb"),
         LinePiece(total, "total-power", title="" if band is None else band.sentence),
     ]
-    if band is not None and band.of_total:
+    if band is not None and band.of == "Power":
         within = unit.of(band.band)
         digits = max(fineness(power, units), decimals(within))
-        part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
-        title = f"± holds {part} times in {of}: so often measured powers of rotors lie in it that did not set its size"
-        pieces.append(LinePiece(f" ± {number(within, digits)}", "within", stale=not known, title=title))
+        pieces.append(
+            LinePiece(f" ± {number(within, digits)}", "within", stale=not known, title=f"{coverage_words()}.")
+        )
     return [*pieces, LinePiece(f" {unit.symbol}{' from the air' if driven else ''}", "verb")]
+
+
+def coverage_words() -> str:
+    """How often a measured power lies in the band, of rotors that had no part in its size."""
+    part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
+    return f"{part.capitalize()} of {of} measured powers lie within ±"
 
 
 def change_pieces(

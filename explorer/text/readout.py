@@ -5,13 +5,13 @@ Below it, what an actuator saves and costs in words: one place for card, rail an
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from explorer.colours import PARTS, PINNED, THIS
 from explorer.model.inputs import baseline_title
-from explorer.model.units import BLANK, SI, WATT, Units, adding, number
+from explorer.model.units import BLANK, SI, WATT, Unit, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
@@ -46,7 +46,7 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
-    rows = [_row(name, title, power, reference, units) for name, title in titles.items()]
+    rows = [_row(name, title, power, reference, units, band) for name, title in titles.items()]
     words = (
         tag("span", "total power"),
         tag("span", f"vs. {baseline_title(solution.design, baseline and baseline.design)}"),
@@ -106,9 +106,29 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
     percent = 100.0 * (power.total / reference.total - 1.0)
     words = "" if band is None else band.saving_words
     words = words or f"{number(percent, 1, sign=True)} %"
-    known = band is not None and band.sureness in ("sure", "likely")
-    kind = "" if not known else "rx-less" if percent < 0.0 else "rx-more"
-    return tag("span.rx-change", words, class_=kind, data_explorer="change")
+    kind = change_kind(percent, band and band.sureness)
+    return tag("span.rx-change", words, class_=kind and f"rx-{kind}", data_explorer="change")
+
+
+def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
+    """What the colour of a change says: nothing unless its sign is sure or likely."""
+    return "" if word not in ("sure", "likely") else "less" if change < 0.0 else "more"
+
+
+def part_change(
+    name: str, power: PowerBudget, reference: PowerBudget, band: Doubt | None, units: Units, digits: int = 1
+) -> tuple[str, str]:
+    """Change of a part of power, or of the `total`, with its band and whether its sign is known: `−12 ± 4`, `sure`.
+
+    Where the band is not known, and where nothing changes, with these digits and without the last two.
+    """
+    change, unit = getattr(power, name) - getattr(reference, name), units.power[0]
+    bands = {} if band is None else {**band.part_bands, "total": band.change_band}
+    within = bands.get(name)
+    if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
+        return number(unit.of(change), digits, sign=True), ""
+    size, word = banded(change, within, units, sign=True, sourced=band is None or band.sourced).split(": ")
+    return size.removesuffix(f" {unit.symbol}"), word
 
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
@@ -125,16 +145,19 @@ def _fineness(total: float, units: Units) -> int:
     return 1 if abs(total) < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
-def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
+def _row(
+    name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units, band: Doubt | None
+) -> Markup:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    apart = None if reference is None else value - getattr(reference, name)
+    apart, word = (BLANK, "") if reference is None else part_change(name, power, reference, band, units)
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
         tag("td.rx-num", units.watts(value, fineness(power, units))),
-        tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:19%"),
-        tag("td.rx-num.rx-dim", units.watts(apart, fineness(power, units), sign=True), style="width:25%"),
+        tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:14%"),
+        tag("td.rx-num.rx-dim", apart, style="width:24%"),
+        tag("td.rx-dim", word, style="width:17%;padding-left:5px"),
         title=tip(_MEANT.get(title, name)),
     )
 
@@ -237,11 +260,11 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
     rows = [
-        _compared_row(title, name, power, reference, units)
+        _compared_row(title, name, power, reference, units, band)
         for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
     ]
     symbol = units.power[0].symbol
-    head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
+    head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", ""), "rx-dim rx-small")
     compared = tag("span", "vs. " if reference else None, _name("A"), against)
     words = tag("span", "total power of ", _name("B")), compared
     return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units, band)
@@ -264,12 +287,12 @@ def _name(letter: str) -> Markup:
     return dash(PINNED, dashed=True) + tag("b", letter) if letter == "A" else dash(THIS) + tag("b", letter)
 
 
-def _compared_row(title: str, part: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> Markup:
+def _compared_row(
+    title: str, part: str, power: PowerBudget, reference: PowerBudget | None, units: Units, band: Doubt | None
+) -> Markup:
     b = units.power[0].of(getattr(power, part))
     a = None if reference is None else units.power[0].of(getattr(reference, part))
-    apart = None if a is None else b - a
-    percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
-    changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
+    changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
     fine = fineness(power, units)
     if part != "total":
         titled = patch(PARTS[part]) + title
@@ -299,6 +322,8 @@ class BalanceRow(NamedTuple):
     band: float = 0.0
     words: str = ""
     """The band, and whether the sign is known; empty without a band."""
+    kind: Literal["", "less", "more"] = ""
+    """`change_kind`; a drive's power is known as well as the drive."""
 
 
 def balance(
@@ -322,6 +347,7 @@ def balance(
         BalanceRow(
             name, value, number(shown, digits, sign=True), unit.of(sure),
             f"{name} {needs_words(-unit.size * value, sure, units, sourced)}" if sure else "",
+            change_kind(value, sureness(value, unit.of(sure)) if value and (sure or name == "drive") else None),
         )
         for name, value, shown, sure in rows
     ]  # fmt: skip
@@ -349,12 +375,22 @@ def needs_words(net: float, band: float | None, units: Units, sourced: bool = Tr
     return words if band is None else f"{words} ({sureness(net, band, sourced=sourced)})"
 
 
-def banded(change: float, band: float, units: Units, *, least: int = 0, sign: bool = False) -> str:
-    """A change of power [W] with its band [W] and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
-    unit = units.power[0]
+_FUEL = Unit("kg/h of fuel", 1.0 / 3600.0)
+
+
+def banded(
+    change: float, band: float, units: Units | Unit, *, least: int = 0, sign: bool = False, sourced: bool = True
+) -> str:
+    """A change, of power in these units [W], with its band and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
+    unit = units if isinstance(units, Unit) else units.power[0]
     digits = change_decimals(unit.of(change), unit.of(band), least)
     size, within = number(unit.of(change), digits, sign=sign), number(unit.of(band), digits)
-    return f"{size} ± {within} {unit.symbol}: {sureness(change, band)}"
+    return f"{size} ± {within} {unit.symbol}: {sureness(change, band, sourced=sourced)}"
+
+
+def kilograms(mass: float) -> str:
+    """A mass [kg] with one decimal below ten."""
+    return f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
 
 
 def mass_parts(installed: InstalledActuator) -> dict[str, str]:
@@ -378,9 +414,12 @@ def mass_words(installed: InstalledActuator) -> str:
     return f"{total}: {', '.join(f'{name} {mass}' for name, mass in parts)}" if parts else total
 
 
-def fuel_words(saved: float | None) -> str:
-    """Fuel used beyond that without the actuator, in words. `saved`: [kg/s]; None: not known."""
-    return "fuel flow unknown" if saved is None else f"{number(-3600.0 * saved, 1, sign=True)} kg/h of fuel"
+def fuel_words(verdict: Verdict) -> str:
+    """Fuel used beyond that without the actuator, with its band and whether its sign is known."""
+    saved, band = verdict.fuel_saving, verdict.fuel_band
+    if saved is None or band is None:
+        return "fuel flow unknown"
+    return banded(-saved, band, _FUEL, least=1, sign=True, sourced=verdict.sourced)
 
 
 def pair_words(verdict: Verdict) -> str:

@@ -2,16 +2,13 @@
 
 from explorer.model.search_run import SearchRun
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import banded, total_words
+from explorer.text.readout import banded, change_kind, total_words
 from rotor import Optimum
 from rotor.optimisation import Concept
 from rotor.optimisation.concept import Parameter
 from rotor.optimisation.results import ParameterBand
 from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import decimals
-
-_EQUAL = 50.0
-"""Powers closer than this [W] read the same."""
 
 
 def headline(run: SearchRun, units: Units = SI) -> Markup:
@@ -20,7 +17,8 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     if best is None:
         return Markup()
     change = None if run.start_power is None else best.power - run.start_power
-    kind = "" if change is None or abs(change) < _EQUAL else "rx-less" if change < 0.0 else "rx-more"
+    sure = None if run.optimum is None or run.optimum.doubt is None else run.optimum.doubt.sureness
+    kind = change and change_kind(change, sure)
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
     mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
@@ -28,7 +26,9 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     return tag(
         "div.rxp-big",
         tag("b", total_words(best.power, units), data_explorer="best"),
-        tag("em", None if change is None else _moved(change, run.optimum, units), class_=kind),
+        tag(
+            "em", None if change is None else _moved(change, run.optimum, units), class_=f"rx-{kind}" if kind else None
+        ),
         tag("div.rx-dim", mean, "" if run.start_power else "; the starting design has no trim"),
     )
 

@@ -10,13 +10,14 @@ import numpy as np
 
 from explorer.model.inputs import INFLOW_MENUS
 from explorer.model.units import SI, Units, number
-from explorer.text.readout import part_titles
+from explorer.text.readout import part_change, part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
 from rotor.design import Harmonic
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.support.arrays import Array, Booleans
+from rotor.trim.doubt import Doubt
 
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
@@ -37,8 +38,11 @@ def lift_centroid(solution: Solution) -> tuple[float, float] | None:
     return float((lift * disk.r[:, None]).sum()) / total, float((lift * np.sin(disk.psi)).sum()) / total
 
 
-def why(before: Solution, after: Solution, units: Units = SI) -> str:
-    """Why `after` needs another power than `before`, as one sentence; also for solutions that did not converge."""
+def why(before: Solution, after: Solution, units: Units = SI, band: Doubt | None = None) -> str:
+    """Why `after` needs another power than `before`, as one sentence; also for solutions that did not converge.
+
+    `band`: of the change; the parts of power then have theirs.
+    """
     if not after.converged:
         return after.message.partition(". ")[0].rstrip(".") + "."
     if not before.converged:
@@ -46,7 +50,7 @@ def why(before: Solution, after: Solution, units: Units = SI) -> str:
     if before.design == after.design:
         return "Nothing has changed."
     cause = _cause(before, after)
-    parts = _changed_parts(before, after, units)
+    parts = _changed_parts(before, after, units, band)
     regions = [text for text in (_stall(before, after), _divergence(before, after)) if text]
     sentence = f"{cause}: {', '.join(parts)}" if parts else f"{cause}: no change in power{_reason(before, after)}"
     return "; ".join([sentence, *regions]) + "."
@@ -144,7 +148,7 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
     return causes
 
 
-def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]:
+def _changed_parts(before: Solution, after: Solution, units: Units, band: Doubt | None) -> list[str]:
     """At most three parts of power that changed, the largest change first, the unit behind the last."""
     unit = units.power[0]
     titles = part_titles(before.design, after.design)
@@ -153,7 +157,8 @@ def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]
     digits = _digits(largest)
     shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
     order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
-    texts = [f"{titles[name].lower()} {number(changes[name], digits, sign=True)}" for name in order[:3]]
+    powers = after.power, before.power, band, units, digits
+    texts = [f"{titles[name].lower()} {part_change(name, *powers)[0]}" for name in order[:3]]
     return [*texts[:-1], f"{texts[-1]} {unit.symbol}"] if texts else []
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
-from explorer.text.readout import limit_words, mass_parts, needs_words, pair_words
+from explorer.text.readout import kilograms, limit_words, mass_parts, needs_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
@@ -65,10 +65,11 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     if not mass:
         return moves, ("It would not pay, however light.",)
     wide = None if one.line is None else one.line.twist_for(one.mass)
-    pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
+    pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", kilograms(mass)
+    within = "" if one.line is None else f" (± {kilograms(one.line.band(one.range, mass) / one.line.per_kg)})"
     if wide is not None:
-        return moves, (*pays, " or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
-    return moves, (*pays, "." if one.line is None else f"; no twist pays at {total}.")
+        return moves, (*pays, f"{within} or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
+    return moves, (*pays, f"{within}." if one.line is None else f"{within}; no twist pays at {total}.")
 
 
 def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:

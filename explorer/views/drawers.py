@@ -54,5 +54,5 @@ def _models_asked(now: PageState) -> tuple[Questions, ...]:
     )
 
 
-DETAILS = Panel(details, lambda ui: ui.drawer == "details")
+DETAILS = Panel(details, lambda ui: ui.drawer == "details", works=shown_doubt)
 TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _models_asked, shown_doubt)

@@ -13,12 +13,13 @@ import numpy as np
 from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule_at
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
-from explorer.text.readout import balance, fuel_words, pair_words
+from explorer.text.readout import balance, change_kind, fuel_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here, trims_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import TrimNumbers, numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
+from rotor.trim.doubt import sureness
 
 BY_HAND: Mapping[str, Any] = {"flown": None, "stopped": False}
 """What of `HandSettings` a voltage set by hand ends: that it follows the flight, and that it follows nothing."""
@@ -95,6 +96,7 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     )
 
 
+_SIGNS: Mapping[str, Sign] = {"": "", "less": "gain", "more": "loss"}
 STATES: Mapping[ActuatorState, str] = {"set": "as set", "schedule": "by schedule", "stopped": "stopped"}
 """States of the actuator, as they are called."""
 
@@ -143,14 +145,14 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, units.power[0].symbol)
     if verdict is None:
         return state
-    gain: Sign = "gain" if verdict.buildable else ""
-    used = None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
+    saved, band = verdict.fuel_saving, verdict.fuel_band
+    fuel = change_kind(-saved, sureness(saved, band)) if saved is not None and band is not None else ""
     return replace(
         state,
         where=f"by schedule, {pair_words(verdict)}",
         bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands, verdict.buildable, verdict.sourced),
-        fuel=fuel_words(verdict.fuel_saving),
-        fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else gain,
+        fuel=fuel_words(verdict),
+        fuel_kind="" if fuel == "less" and not verdict.buildable else _SIGNS[fuel],
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
     )
 
@@ -179,17 +181,13 @@ def _bars(
     sourced: bool,
 ) -> tuple[PowerBar, ...]:
     rows = balance(savings, units, band, bands, sourced) if savings else []
-    kinds: list[Sign] = [_sign(row.text) for row in rows]
+    kinds: list[Sign] = [_SIGNS[row.kind] for row in rows]
     if kinds and kinds[-1] == "gain" and not built:
         kinds[-1] = ""
     return tuple(
         PowerBar(row.name, round(row.value, 3), row.text, kind, row is rows[-1], round(row.band, 3), row.words)
         for row, kind in zip(rows, kinds, strict=True)
     )
-
-
-def _sign(text: str) -> Sign:
-    return "loss" if text[0] == "+" else "gain" if text[0] == "−" else ""
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:

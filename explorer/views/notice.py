@@ -38,10 +38,10 @@ def notice(now: PageState) -> dict[str, Any]:
 
 
 def score(best: Solution, to_beat: Solution, units: Units) -> str:
-    """Whether somebody else's score is beaten, and by how much."""
+    """Whether somebody else's score is beaten."""
     gain = to_beat.power.total - best.power.total
     words = total_words(to_beat.power.total, units)
-    return f"To beat {words}" if gain < _EQUAL else f"{words} beaten by {units.watts(gain, 1)}"
+    return f"To beat {words}" if gain < _EQUAL else f"{words} beaten"
 
 
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:

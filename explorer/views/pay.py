@@ -14,10 +14,10 @@ import numpy as np
 
 from explorer.model.actuator_inputs import as_it_comes
 from explorer.model.units import SI, Units, number
-from explorer.parts.actuate import Sign, SupposePart
+from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.line import listed
-from explorer.text.readout import change_sizes, limit_words, needs, needs_words
+from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
 from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, here_problem, in_actuate
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict, actuators
@@ -102,26 +102,27 @@ def _stage(now: PageState) -> SupposePart | None:
         return SupposePart(none or here_problem(now) or "Computing break-even…")
     units, line, own = now.units, one.line, _put(math.degrees(one.range), one.mass)
     degrees, mass = now.hand.place or own
-    twist, band = math.radians(degrees), None
-    saving = line.net(twist, mass)
-    kind: Sign = "gain" if saving > 0.0 else "loss"  # The side of the line.
+    twist, built = math.radians(degrees), True
+    saving, band = line.net(twist, mass), line.band(twist, mass)
     if (degrees, mass) == own:
-        saving, band, kind = -one.over_flight.power, one.over_flight.band, one.over_flight.kind
+        saving, band, built = -one.over_flight.power, one.over_flight.band, one.over_flight.built
     most, least = line.mass_allowed(twist), line.twist_for(mass)
-    notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
+    notes = [f"With this range it pays below {_allowed(line, twist)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     gives = needs_words(saving, band, units, one.sourced)
     return SupposePart(
-        words=f"{number(degrees, 1)}° for {_kilograms(mass)} {gives} over the mission",
-        kind=kind,
+        words=f"{number(degrees, 1)}° for {kilograms(mass)} {gives} over the mission",
+        kind=PowerChange(-saving, band, built).kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
         at=(degrees, mass),
     )
 
 
-def _kilograms(mass: float) -> str:
-    return f"{number(mass, 0 if mass >= 10.0 else 1)} kg"
+def _allowed(line: OtherStroke, twist: float) -> str:
+    """The mass at which a range of twist breaks even, with its band."""
+    most = line.mass_allowed(twist)
+    return f"{kilograms(most).removesuffix(' kg')} ± {kilograms(line.band(twist, most) / line.per_kg)}"
 
 
 def _put(degrees: float, mass: float) -> tuple[float, float]:
@@ -152,7 +153,8 @@ def read_place(text: str) -> tuple[float, float]:
 
 
 def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units = SI) -> Chart:
-    """Mass that just pays over the range, with actuators as points at their own range and mass; mass is logarithmic."""
+    """Mass that just pays over the range, with its band, and actuators as points at their own range and mass; mass is
+    logarithmic."""
     real = sorted(verdicts, key=lambda verdict: -verdict.installed.masses.aircraft)
     places = [(math.degrees(one.installed.attainable), one.installed.masses.aircraft) for one in real]
     end = float(line.twists[-1])
@@ -161,14 +163,17 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
     y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 3.0 * max(largest, *(mass for _, mass in places), 0.0)
     fine = [*np.linspace(0.0, end, 60).tolist(), math.radians(x_most)]
     x, allowed = [*map(math.degrees, fine)], [max(line.mass_allowed(twist), y_range[0]) for twist in fine]
+    within = np.array([line.band(*place) for place in zip(fine, allowed, strict=True)]) / line.per_kg
     series: list[Series] = [
         Band("pays", x, (y_range[0],) * len(x), allowed, _PAYS),
+        Band("", x, np.maximum(allowed - within, y_range[0]), allowed + within, "var(--rx-dim)"),
         Line("just pays", x, allowed, _LINE),
     ]
     for verdict, (degrees, mass) in zip(real, places, strict=True):
         name = verdict.installed.actuator.id.replace("_", " ")
         words = f"{name}: {degrees:.1f}° for {mass:.0f} kg on this blade {needs(verdict, units)}"
-        colour = _PAYS if verdict.pays else "var(--rx-bad)"
+        kind = PowerChange(-verdict.net_saving, verdict.net_band).kind
+        colour = "var(--rx-dim)" if not kind else _PAYS if verdict.pays else "var(--rx-bad)"
         place = (degrees,), (max(mass, y_range[0]),)
         series.append(Points("", *place, colour, size=4.5, words=(words,), names=(name,)))
     return Chart(
@@ -176,6 +181,6 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
         Axis("range of tip twist in flight [°]", (0.0, x_most)),
         Axis("mass of all blades [kg]", y_range, log=True),
         tuple(series),
-        note="Line: the actuator as set, with another range and mass but its own stiffness and drive. "
-        "Points: real actuators on this blade.",
+        note="Line, and grey its band: the actuator as set, with another range and mass but its own stiffness and "
+        "drive. Points: real actuators on this blade.",
     )

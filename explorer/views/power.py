@@ -6,10 +6,13 @@ from typing import Any
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.parts.results import HandPart, PowerPart, PowerShare, Status
-from explorer.text.readout import fineness, ideal_induced, part_titles
+from explorer.text.line import coverage_words
+from explorer.text.readout import fineness, ideal_induced, part_change, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel
+from explorer.views.work import has_power, shown_doubt
+from rotor.trim.doubt import Doubt
 
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
@@ -20,16 +23,19 @@ the disk may be stalled without weight.
 
 
 def power_card(now: PageState) -> dict[str, Any]:
-    """The parts of the last trim, and why its power changed."""
+    """The parts of the last trim, and why its power changed; of each part how sure that is, once it is known."""
     state = now.state
     if state is None:
         return {"power": PowerPart()}
     solution, reference = state.solution, state.reference
     same = solution.design == reference.design or not reference.converged
-    return {"power": replace(_numbers(state, now.units), why="" if same else why(reference, solution, now.units))}
+    band = now.answers.get(shown_doubt(now)[0].key)
+    words = "" if same else why(reference, solution, now.units, band)
+    held = coverage_words() if has_power(solution.design) else ""
+    return {"power": replace(_numbers(state, now.units, band), why=words, held=held)}
 
 
-def _numbers(state: SessionState, units: Units) -> PowerPart:
+def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart:
     """Power and its parts, beside those of the reference."""
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
@@ -40,7 +46,8 @@ def _numbers(state: SessionState, units: Units) -> PowerPart:
         value = getattr(power, name)
         title = f"{words} power {units.watts(value, digits)}"
         if reference is not None:
-            title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
+            change, word = part_change(name, power, reference, band, units)
+            title += f", {change} {unit.symbol} vs. reference{word and f': {word}'}"
         share = round(value / whole, 5) if whole > 0.0 else 0.0
         parts.append(PowerShare(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
     ideal = ideal_induced(solution)
@@ -92,5 +99,5 @@ def held_power(now: PageState) -> dict[str, Any]:
     return {"hand": shown}
 
 
-POWER = Panel(power_card)
+POWER = Panel(power_card, works=shown_doubt)
 HAND = Panel(held_power)

@@ -14,13 +14,14 @@ from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_ch
 from explorer.model.session_state import SessionState
 from explorer.parts.results import Kind, MarkedSpeeds, StripChart
 from explorer.text.design_words import against
+from explorer.text.readout import change_kind
 from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Tell
+from explorer.views.work import shown_doubt
 from rotor import Solution
 from rotor.support.chart import Chart, drawn_chart
 
+_KINDS: Mapping[str, Kind] = {"": "", "less": "good", "more": "bad"}
 _WHOLE = "-whole"
-_NOTICEABLE = 500.0
-"""Changes of power below this [W] have no colour."""
 
 
 def strip(now: PageState) -> dict[str, Any]:
@@ -53,7 +54,8 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
     axis = _axis(now, "power")
     held = now.memory.ranges.get(axis), now.memory.ranges.get(axis + _WHOLE)
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
-    kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
+    band = now.answers.get(shown_doubt(now)[0].key)
+    kind = _KINDS[change_kind(change or 0.0, band and band.sureness)]
     if design == reference.design:
         marks = now.flown.marks(state.solution, units)
         total = None if failed else state.solution.power.total
@@ -63,7 +65,7 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
     else:
         name = against(design, reference.design, pinned).removeprefix(f"{design.aircraft.name} ")
-        chart = power_change_chart(curve, mu, change, name, units, held)
+        chart = power_change_chart(curve, mu, change, name, units, held, band and band.change_band)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
     chart, fastest = with_speeds(chart, curve, design)
@@ -103,4 +105,4 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
     return (points, work("flights", now.flown.trim_flights)) if plain else (points,)
 
 
-STRIP = Panel(strip, works=trims_asked, turns=True, remember=remember_ranges)
+STRIP = Panel(strip, works=lambda now: (*trims_asked(now), *shown_doubt(now)), turns=True, remember=remember_ranges)

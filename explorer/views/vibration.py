@@ -21,9 +21,6 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.trim import DEFAULT_OPTIONS, HubLoads, analyse, why_no_hub_loads
 from rotor.trim.hub_loads import band_inflows
 
-_NOTICEABLE = 0.5
-"""Changes of the index below this [% of itself] have no colour."""
-
 
 def vibration(now: PageState) -> dict[str, Any]:
     """The row of the power card, the words in the scene, and those beside the switch."""
@@ -39,15 +36,15 @@ def vibration(now: PageState) -> dict[str, Any]:
 
 
 def works(now: PageState) -> tuple[PanelWork, ...]:
-    """The loads of a reference without bending, those of the solution with their band, and its trim without bending."""
+    """The loads of the solution and of a reference with their bands, and the trim of the solution without bending."""
     state = now.state
     if state is None or not state.solution.design.models.bending:
         return ()
     solution, reference = state.solution, state.reference
-    compared = reference.converged and not reference.design.models.bending
+    compared = reference.converged and reference.design != solution.design
     return (
-        *((_loads_work(now, reference, False),) if compared else ()),
         _loads_work(now, solution, True),
+        *((_loads_work(now, reference, True),) if compared else ()),
         PanelWork("rigid", (solution.design,), lambda superseded, tell: _rigid_power(solution)),
     )
 
@@ -99,7 +96,7 @@ def _row(now: PageState, state: SessionState) -> VibrationPart:
     band = "band over inflow models: computing"
     if loads.band is not None:
         band = f"{number(loads.band[0], 1)} to {number(loads.band[1], 1)} over inflow models"
-    change, kind = _change(state, loads, _loads(now, state.reference, False))
+    change, kind = _change(state, loads, _loads(now, state.reference, True))
     return VibrationPart(
         _title(loads),
         index=number(loads.index, 1),
@@ -112,13 +109,16 @@ def _row(now: PageState, state: SessionState) -> VibrationPart:
 
 
 def _change(state: SessionState, loads: HubLoads, reference: HubLoads | None) -> tuple[str, str]:
-    """Against A, or the blade as built; and its class."""
+    """Against A, or the blade as built, with its band; and its class, none where the inflow models differ in sign."""
     if reference is None or state.reference.design == state.solution.design:
         return "", ""
     percent = 100.0 * (loads.index / reference.index - 1.0)
-    kind = "" if abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad"
-    against = "A" if state.pinned is not None else "as built"
-    return f"{number(percent, 0, sign=True)} % vs. {against} ({number(reference.index, 1)})", kind
+    band, against = loads.change_band(reference), "A" if state.pinned is not None else "as built"
+    if band is None:
+        return f"{number(percent, 0, sign=True)} % vs. {against}", ""
+    low, high = (number(end, 0, sign=True) for end in band)
+    kind = "good" if band[1] < 0.0 else "bad" if band[0] > 0.0 else ""
+    return f"{number(percent, 0, sign=True)} ({low}…{high}) % vs. {against}{'' if kind else ': unclear'}", kind
 
 
 def _how_bent(solution: Solution) -> list[SceneLabel]:

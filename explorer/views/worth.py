@@ -95,7 +95,7 @@ def worth(now: PageState) -> dict[str, Any]:
 def worth_row(
     one: SliderSensitivity, power: PowerBudget, units: Units, band: float | None = None, *, stale: bool = False
 ) -> SliderSaving:
-    """The change of `power` by a step up, with its sign and band [W], and which way saves unless that is unclear; one
+    """The change of `power` by a step up, with its sign and band [W], and which way saves if that is known; one
     decimal more than power has."""
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
     digits = 1 + fineness(power, units)
@@ -109,7 +109,7 @@ def worth_row(
     said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
     less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
     sentence = f"{title}: {step} more changes power by {said if way else less}."
-    if way and band is not None and sureness(change, band) == "unclear":
+    if way and (band is None or sureness(change, band) == "unclear"):
         way, value = "", f"{value} {one.unit_text(units)}"
     elif way:
         sentence += f" A {'higher' if way == 'up' else 'lower'} value saves power."

@@ -18,14 +18,19 @@
       : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
-    card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+    card.innerHTML = `<div><div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
+      <button class="rxf-held" data-do="drawer" data-value="trust" data-explorer="held"
+        title="Of rotors that had no part in the size of ±. How far to trust it" ${power.held ? '' : 'hidden'}>
+        ${text(power.held)}</button></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
-    const why = card.querySelector('.rxf-why'), clauses = power.why.split('; ');
+    const why = card.querySelector('.rxf-why');
+    const said = power.why.replace(/ ± | (?=k?W|hp)/g, one => one.replaceAll(' ', '\u00a0'));
+    const clauses = said.split('; ');
     const room = parseFloat(getComputedStyle(why).minHeight) + 1;
-    why.textContent = power.why.replace(/(\d) (k?W|hp)/g, '$1\u00a0$2');
+    why.textContent = said;
     while (clauses.length > 1 && why.offsetHeight > room) {
       clauses.pop();
       why.textContent = `${clauses.join('; ')}.`;

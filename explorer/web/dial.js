@@ -51,9 +51,14 @@
   }
   const ends = list => [Math.min(...list), Math.max(...list)];
   const mean = list => list.reduce((sum, value) => sum + value, 0) / list.length;
-  function needs(power) {
-    const size = `${fixed(Math.abs(power), Math.abs(power) < 10 ? 1 : 0)} ${RX.shown('dial').unit}`;
-    return Math.abs(power) < .05 ? 'needs no more power' : power > 0 ? `needs ${size} more` : `saves ${size}`;
+  function needs(powers) {
+    const [power] = powers, [low, high] = ends(powers), {unit} = RX.shown('dial');
+    const digits = Math.abs(power) < 10 ? 1 : 0;
+    if (Math.abs(power) < .05) return 'needs no more power';
+    if (low * high <= 0) return `power unclear (${signed(low, digits)}…${signed(high, digits)} ${unit})`;
+    const range = powers.length > 1 ? ` (${[low, high].map(end => fixed(Math.abs(end), digits)).join('…')})` : '';
+    const size = `${fixed(Math.abs(power), digits)}${range} ${unit}`;
+    return power > 0 ? `needs ${size} more` : `saves ${size}`;
   }
   function shakes(index) {
     if (!index.length) return 'vibration is shown from µ 0.2';
@@ -65,7 +70,7 @@
   // Power and vibration in one sentence.
   function verdict() {
     const dial = RX.shown('dial'), now = change();
-    return now ? `${needs(now.power[0])}; ${shakes(now.index)}` : dial.problem || dial.words;
+    return now ? `${needs(now.power)}; ${shakes(now.index)}` : dial.problem || dial.words;
   }
 
   // Values over the chosen dial on a grid, the other harmonics as they are.
@@ -264,7 +269,8 @@
   // Two meters: the bar is the band over inflow models, the mark the value, the line the same without n/rev.
   function meter(name, models, own, most, least, words) {
     const at = value => 50 + 50 * clamp(value / most, -1, 1), [low, high] = ends(models).map(at);
-    const kind = Math.abs(own) < least ? '' : own > 0 ? 'loss' : 'gain';
+    const agreed = models.length > 1 && Math.min(...models) * Math.max(...models) > 0;
+    const kind = Math.abs(own) < least || !agreed ? '' : own > 0 ? 'loss' : 'gain';
     return `<div class="rxd-meter" role="img" aria-label="${name}: ${words}"><span>${name}</span>
       <div><i style="left:${low}%;width:${high - low}%"></i><s style="left:50%"></s>
         <b data-kind="${kind}" style="left:${at(own)}%"></b></div>

@@ -454,6 +454,7 @@ interface RxPowerPart {
   ideal: number | null;
   ideal_title: string;
   why: string;
+  held: string;
 }
 
 interface RxPowerShare {

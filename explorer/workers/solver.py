@@ -12,17 +12,7 @@ from typing import Any
 
 from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
 from rotor.design.quantities import PRESETS
-from rotor.optimisation import (
-    Concept,
-    Objective,
-    Schedule,
-    SchedulePlan,
-    Search,
-    at_condition,
-    evaluate_objective,
-    run_plan,
-    run_search,
-)
+from rotor.optimisation import Concept, Objective, Schedule, SchedulePlan, Search, at_condition, run_plan, run_search
 from rotor.optimisation.descent import descend_together
 from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.evaluator import Evaluator, TrimHistory
@@ -233,11 +223,9 @@ class ScheduleTask:
         schedule = run_plan(plan, tell, stop)
         if schedule.complete:
             fixed = schedule.cells[-1].optimum.design
-            powers = (
-                evaluate_objective(Objective(plan.quantity, (leg,)), fixed, gradient=False).power
-                for leg in plan.conditions
-            )
-            tell(FixedBlade(tuple(powers), schedule.gain_doubt(plan.concepts[0].name)))
+            legs = [Objective(plan.quantity, (leg,)) for leg in plan.conditions]
+            doubts = (saving_doubt(leg, fixed, plan.design_at(k)) for k, leg in enumerate(legs))
+            tell(FixedBlade(tuple(doubts), schedule.gain_doubt(plan.concepts[0].name)))
         return schedule
 
 
@@ -245,7 +233,7 @@ class ScheduleTask:
 class FixedBlade:
     """The best fixed blade, for comparison with one that moves."""
 
-    powers: tuple[float | None, ...] = ()
-    """On each leg [W]; None where it does not trim."""
+    doubts: tuple[Doubt | None, ...] = ()
+    """On each leg its power and what it saves; None where it does not trim."""
     gain: Doubt | None = None
     """How sure it is what moving saves beyond it."""

@@ -20,12 +20,16 @@ from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actua
 from rotor.actuator.section import default_placement
 from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
+from rotor.design.uncertain import UNCERTAIN
 from rotor.dynamics.structure import heavier
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
 from rotor.support.chart import Axis, Chart, Line
 from rotor.support.units import GRAVITY
+from rotor.trim.analysis import Analysis
+from rotor.trim.doubt import Doubt, banded
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -66,6 +70,8 @@ class BreakEven:
     """Linear twist at the first condition [rad per radius]."""
     masses: Array
     """Mass of all blades whose carrying costs as much as the twist saves [kg]."""
+    ideal_band: float
+    """Uncertainty of `ideal_saving`, ± [W]."""
 
     @property
     def ideal_saving(self) -> float:
@@ -130,7 +136,10 @@ def break_even(pair: ConditionPair) -> BreakEven:
         gross[k] = max(base.fixed.power - power, float(gross[k - 1]))
         masses[k] = task.mass(float(rates[k]), swing, base.fixed.power, float(masses[k - 1]))
     span = 1.0 - root
-    return BreakEven(pair, base.fixed.power, span * largest, span * twists, gross, rates, masses)
+    ideal = difference_doubt(pair.shares, [best.solutions[0] for best in base.best], base.fixed.solutions)
+    assert ideal is not None
+    within = ideal.change_band or 0.0
+    return BreakEven(pair, base.fixed.power, span * largest, span * twists, gross, rates, masses, within)
 
 
 class _Flown:
@@ -209,11 +218,21 @@ class OtherStroke:
     """Before its mass [W], (strokes,); never falling."""
     per_kg: float
     """Power that a kilogram on board costs [W]."""
+    changes: Array
+    """What each uncertain input adds to the power with each stroke, before its mass [W], (inputs, strokes)."""
+    changes_per_kg: Array
+    """And to `per_kg` [W], (inputs,)."""
 
     def net(self, twist: float, mass: float) -> float:
         """Net saving of a range of twist [rad] and a mass on all blades [kg]; twist beyond the line's range is not
         used."""
         return float(np.interp(twist, self.twists, self.saved)) - self.per_kg * mass
+
+    def band(self, twist: float, mass: float) -> float:
+        """Uncertainty of `net`, ± [W]."""
+        rows: list[Array] = list(self.changes)
+        at = [float(np.interp(twist, self.twists, row)) for row in rows]
+        return float(np.linalg.norm(np.array(at) + self.changes_per_kg * mass))
 
     def mass_allowed(self, twist: float) -> float:
         """Mass on all blades at which it breaks even [kg]; 0 where the twist alone costs more than it saves."""
@@ -241,28 +260,49 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
             f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
-    start, near = [verdict.resting.values], verdict.optimum.solutions
+    parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
+    if not flown:  # The trims were left behind.
+        flown = best_actuated(base.pair, base.concept, installed, starts=[verdict.optimum.values]).solutions
+    near, own = flown, [Analysis(trim) for trim in flown]
+    # The doubts whose sum is that of the power with each stroke.
+    doubts: dict[float, tuple[Doubt | None, ...]] = {0.0: (parts["blade"], parts["stiffness"]), 1.0: ()}
     for stroke in OTHER_STROKES:
         found = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start, near=near)
         powers[stroke], near = found.power, found.solutions
-    strokes = np.array(sorted(powers))
-    power = np.minimum.accumulate([powers[stroke] for stroke in strokes.tolist()])
-    saved = verdict.reference_power - verdict.drive.hold_power - power
-    return OtherStroke(strokes * installed.attainable, saved, verdict.mass_cost / mass)
+        doubts[stroke] = (difference_doubt(base.pair.shares, near, own),)
+    strokes = sorted(powers)
+    least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
+    saved = np.array([verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least])
+    twists, per_kg, carried = (
+        np.array(strokes) * installed.attainable,
+        verdict.mass_cost / mass,
+        _changes(parts["mass"]),
+    )
+    net = _changes(verdict.doubt) - carried
+    changes = {stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()}
+    return OtherStroke(twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass)
+
+
+def _changes(doubt: Doubt | None) -> Array:
+    """What each uncertain input does to a difference [W], in the order of all."""
+    assert doubt is not None  # All that a verdict is made of trims.
+    found = {row.name: row.change or 0.0 for row in doubt.rows}
+    return np.array([found.get(row.name, 0.0) for row in UNCERTAIN])
 
 
 def pay_sentence(even: BreakEven) -> str:
     """One line on the twist, mass and drive that an actuator would need to break even on this rotor."""
     needed, ideal = even.requirement, even.ideal_saving
     change = math.degrees(abs(even.change))
+    saves = banded(ideal, even.ideal_band, "W")
     if not even.worthwhile:
         return (
-            f"No actuator pays: unlimited twist saves {ideal:.0f} W of {even.fixed_power / 1e3:.0f} kW "
+            f"No actuator pays: unlimited twist saves, of {even.fixed_power / 1e3:.0f} kW, {saves} "
             f"({change:.1f}° between the optima)."
         )
     return (
         f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W; "
-        f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg."
+        f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg. Unlimited twist saves {saves}."
     )
 
 

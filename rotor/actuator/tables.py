@@ -159,7 +159,7 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
         f"An actuator pays if its twist, linear along the blade, has this range ({100.0 * WANTED_SHARE:.0f} % of what "
         "unlimited twist saves over the best fixed blade, the ideal) and all blades together gain no more than this "
         "mass while it draws no more than this power; less of one allows more of the other. Mass alone: the last "
-        "column.",
+        "column. Sign: that of the ideal.",
     )
     return table_of("What an actuator would have to be", [_wanted(even) for even in lines], notes)
 
@@ -170,7 +170,8 @@ def _wanted(even: BreakEven) -> Row:
         "rotor": pair.design.aircraft.name,
         "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
         "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
-        "ideal kW": f"{even.ideal_saving / 1e3:.2f}",
+        "ideal kW": f"{even.ideal_saving / 1e3:.2f} ± {even.ideal_band / 1e3:.2f}",
+        "sign": sureness(even.ideal_saving, even.ideal_band),
         "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
         "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,
         "drive ≤ W": f"{needed.drive:.0f}" if pays else NONE,

@@ -177,6 +177,12 @@ class Verdict:
         )
 
     @property
+    def fuel_band(self) -> float | None:
+        """Uncertainty of `fuel_saving`, ± [kg/s], in proportion to that of power; None where it is not known."""
+        saved, band = self.fuel_saving, self.net_band
+        return None if saved is None or band is None or not self.net_saving else band * abs(saved / self.net_saving)
+
+    @property
     def broken(self) -> tuple[Limit, ...]:
         """Limits that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
@@ -334,9 +340,12 @@ def _digits(verdict: Verdict) -> int:
 
 def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
-    sentences, saved = [_reach(verdict), _savings(verdict)], verdict.fuel_saving
+    sentences, saved, band = [_reach(verdict), _savings(verdict)], verdict.fuel_saving, verdict.fuel_band
     if saved is not None:
-        sentences.append(f"Net: {abs(3600.0 * saved):.1f} kg/h {'less' if saved >= 0.0 else 'more'} fuel.")
+        size = (
+            f"{abs(3600.0 * saved):.1f} kg/h" if band is None else banded(abs(3600.0 * saved), 3600.0 * band, "kg/h", 1)
+        )
+        sentences.append(f"Net fuel: {'saves' if saved >= 0.0 else 'costs'} {size}.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")
     return " ".join(sentences)

@@ -13,7 +13,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, break_even, break_even_chart, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
-from rotor.actuator.tables import ActuatorTable, kilowatts, pay_table, table_5_1, table_5_2
+from rotor.actuator.tables import ActuatorTable, pay_table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge, part_words, reference, verdict_details, verdict_sentence
 from rotor.command import common
 from rotor.dynamics.structure import check_blade
@@ -119,6 +119,7 @@ def record(verdict: Verdict) -> dict[str, Any]:
         "net_saving_w": verdict.net_saving,
         "net_saving_band_w": verdict.net_band,
         "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
+        "fuel_band_kg_h": None if verdict.fuel_band is None else 3600.0 * verdict.fuel_band,
         "limits": [asdict(limit) for limit in verdict.limits],
         "caveats": list(verdict.caveats),
     }
@@ -138,7 +139,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "against": args.against,
         **dict.fromkeys(("ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w")),
         "part_bands_w": None,
-        **dict.fromkeys(("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h")),
+        **dict.fromkeys(("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h", "fuel_band_kg_h")),
         "limits": [],
         "caveats": [],
     }
@@ -149,10 +150,7 @@ def report(verdict: Verdict) -> str:
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
     twists = [common.short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
-    saved, gross = verdict.fuel_saving, dict(verdict.savings)["gross"]
-    fuel = (
-        "" if saved is None else f"  (fuel: {abs(3600.0 * saved):.1f} kg an hour {'less' if saved > 0.0 else 'more'})"
-    )
+    gross = dict(verdict.savings)["gross"]
     lines = [
         verdict_sentence(verdict),
         wrapped(verdict_details(verdict)),
@@ -162,9 +160,9 @@ def report(verdict: Verdict) -> str:
         "",
         f"savings against {reference(verdict)}",
         f"  gross, by its twist         {part_words(verdict, 'gross', gross)}  "
-        f"(of unlimited twist: {_kw(verdict.ideal_saving).strip()})",
+        f"(unlimited twist {part_words(verdict, 'ideal', verdict.ideal_saving)})",
         *(f"  {name:<28}{part_words(verdict, name, part)}" for name, part in verdict.savings if name != "gross"),
-        f"  net                         {part_words(verdict, 'net', verdict.net_saving)}{fuel}",
+        f"  net                         {part_words(verdict, 'net', verdict.net_saving)}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °",
@@ -214,6 +212,7 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
         "advance_ratios": list(even.pair.advance_ratios),
         "message": pay_sentence(even),
         "ideal_saving_w": even.ideal_saving,
+        "ideal_band_w": even.ideal_band,
         "optima_apart_deg": math.degrees(abs(even.change)),
         "pays_from": pays if even.worthwhile else None,
         "line": {
@@ -227,10 +226,6 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:
     common.print_result(args, lambda: {key: value for key, value in asdict(table).items() if key != "keys"}, table.text)
     return 0
-
-
-def _kw(power: float) -> str:
-    return f"{kilowatts(power):>8} kW"
 
 
 def _placement(args: argparse.Namespace) -> Placement:

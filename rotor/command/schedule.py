@@ -11,12 +11,11 @@ from rotor.design.aircraft import in_words, reported_names
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
-from rotor.optimisation.schedule import InFlightGain, Schedule, ScheduleOptimum, SchedulePlan, run_plan
+from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
 from rotor.support.table import CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_text, power_unit
 from rotor.support.user_input import parse_range
-from rotor.trim.doubt import banded
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
@@ -168,25 +167,16 @@ def report(schedule: Schedule) -> str:
     for concept in schedule.plan.concepts:
         gain = schedule.in_flight_gain(concept.name)
         if gain is not None:
-            symbol, size = power_unit(gain.baseline)
+            (symbol, size), sure = power_unit(gain.baseline), schedule.gain_doubt(concept.name)
             sentence = (
                 f"{concept.title}: starting design {gain.baseline / size:.1f} {symbol}, best fixed "
                 f"{gain.fixed / size:.1f} {symbol}, variable {gain.moving / size:.1f} {symbol}. "
-                f"Variable twist {_beyond(schedule, concept.name, gain)} beyond that."
+                f"{'' if sure is None else f'Beyond that, variable twist {sure.saving_words}.'}"
             )
             lines.append(wrapped(sentence, "  "))
     if not schedule.complete:
         lines.append("Stopped before the end.")
     return "\n".join(lines)
-
-
-def _beyond(schedule: Schedule, concept: str, gain: InFlightGain) -> str:
-    """What variable twist saves beyond the best fixed one; without a band where that is not known."""
-    symbol, size = power_unit(gain.baseline)
-    sure = schedule.gain_doubt(concept)
-    if sure is None or sure.change_band is None or sure.sureness is None:
-        return f"saves {gain.gain / size:.1f} {symbol}"
-    return f"saves {banded(gain.gain / size, sure.change_band / size, symbol, 1)}"
 
 
 def _where(schedule: Schedule, condition: int | None) -> str:

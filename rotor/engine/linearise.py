@@ -232,9 +232,9 @@ def begin(system: System, grid: Grid, x: Array) -> Point:
 
 
 def with_data(point: Point, data: Any) -> Point:
-    """R(x) with other section data; channels and slopes of the shapes stay the same."""
-    grid = replace(point.grid, data=data)
-    return _with_forces(point.system, grid, (point.x, point.z, point.by_roots, point.phi), point.channels)
+    """R(x) with other section data, and the flow at the sections; channels and slopes of the shapes stay the same."""
+    at = point.x, point.z, point.by_roots, point.phi
+    return _with_forces(point.system, replace(point.grid, data=data), at, point.channels, flow=True)
 
 
 _At = tuple[Array, Array, Array, Array]

@@ -42,25 +42,27 @@ def _cold(design: Design) -> Sequence[Solution]:
 def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
     """The uncertainty of a mean power and of its difference from that of the baseline.
 
-    None where one does not trim, or the objective is induced power.
+    None where one does not trim.
     """
-    if objective.quantity == "induced":
-        return None
     here, there = (
         evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)
     )
-    return difference_doubt(objective.shares, here, there)
+    return difference_doubt(objective.shares, here, there, induced=objective.quantity == "induced")
 
 
 def difference_doubt(
-    shares: Sequence[float], here: Sequence[Solution | Analysis], there: Sequence[Solution | Analysis]
+    shares: Sequence[float],
+    here: Sequence[Solution | Analysis],
+    there: Sequence[Solution | Analysis],
+    *,
+    induced: bool = False,
 ) -> Doubt | None:
-    """The uncertainty of a mean power over conditions, and of its difference from other trims; None where one is
-    missing."""
+    """The uncertainty of a mean power over conditions, or of induced power alone, and of its difference from other
+    trims; None where one is missing."""
     ours, theirs = ([analysed(trim) for trim in trims] for trims in (here, there))
     if min(len(here), len(there)) < len(shares) or not all(trim.solution.converged for trim in (*ours, *theirs)):
         return None
-    return mean_doubt(shares, ours, theirs)
+    return mean_doubt(shares, ours, theirs, induced=induced)
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,7 @@ def best_twist_doubt(
     hessian = 0.5 * (hessian + hessian.T)
     changes = [mean_changes(objective.shares, each.trims) for each in found]
     names = list(changes[0])
-    by_input = np.array([[each[name] for name in names] for each in changes])
+    by_input = np.array([[each[name].sum() for name in names] for each in changes])
     shifts = _solved(hessian, -slopes(by_input))
     words = {row.name: row.words for row in uncertain_inputs(design)}
     others = [with_other_inflow(each) for each in designs]

@@ -100,7 +100,7 @@ class Optimum:
     baseline_index: float | None = None
     """Vibration index of the design given [%] where objective or limits ask for it."""
     doubt: Doubt | None = None
-    """How sure the saving is; None where the band was not requested, or the objective is induced power."""
+    """How sure the saving is; None where the band was not requested."""
     doubt_band: tuple[ParameterBand, ...] = ()
     """Where each parameter may lie by what is uncertain; empty where that is not known."""
     doubt_cost: float | None = None

@@ -115,14 +115,14 @@ class Schedule:
     def gain_doubt(self, concept: str) -> Doubt | None:
         """How sure the gain of in-flight twist is: every condition is solved with both blades; None without a gain."""
         fixed, shares = self.at(None, concept), Objective(self.plan.quantity, self.plan.conditions).shares
-        if self.in_flight_gain(concept) is None or fixed is None or self.plan.quantity != "total":
+        if self.in_flight_gain(concept) is None or fixed is None:
             return None
         moving = [self.at(k, concept) for k in range(len(shares))]
         designs = [cell.design for cell in moving if cell is not None]
         flights = [condition.flight for condition in self.plan.conditions]
         here = [solve(replace(design, condition=flight)) for design, flight in zip(designs, flights, strict=True)]
         there = [solve(replace(fixed.design, condition=flight)) for flight in flights]
-        return difference_doubt(shares, here, there)
+        return difference_doubt(shares, here, there, induced=self.plan.quantity == "induced")
 
     def in_flight_gain(self, concept: str) -> InFlightGain | None:
         """Gain of in-flight twist; None while an optimum of the concept is missing."""

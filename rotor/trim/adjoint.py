@@ -149,6 +149,12 @@ class _Linear:
         """The multipliers of `total_terms`, (equations,)."""
         return self.multipliers(MeasureSlopes(terms=self.total_terms))
 
+    @property
+    def induced_weights(self) -> ElementSlopes:
+        """Of induced power, in its unit."""
+        e, cell = self.elements, self.problem.disk.dr[:, None] / len(self.problem.disk.psi)
+        return ElementSlopes(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
+
     def slopes(self, measure: MeasureSlopes) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
@@ -244,16 +250,13 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     Raises RuntimeError for the total power of a free rotor, which is zero.
     """
     problem = adjoint.problem
-    cell = problem.disk.dr[:, None] / len(problem.disk.psi)
     if problem.design.models.trim == "free-rotor" and objective == "total":
         raise RuntimeError(
             "A free rotor takes no power from its shaft, so shaft power has no gradient: use the objective induced, or "
             "trim wind-tunnel."
         )
     if objective == "induced":
-        e = adjoint.elements
-        weights = ElementSlopes(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
-        by_element = adjoint.by_pitch(weights)
+        by_element = adjoint.by_pitch(adjoint.induced_weights)
     else:
         by_element = adjoint.by_pitch(adjoint.total_terms) * tail_gain(adjoint.solution)
     by_element = by_element * problem.design.power_unit

@@ -7,6 +7,7 @@ from functools import cached_property
 from rotor.aero.problem import Problem
 from rotor.columns.flight import flight_system
 from rotor.engine.linearise import evaluate
+from rotor.support.arrays import Array
 from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.adjoint import Adjoint, Objective, PitchGradient, power_along
 from rotor.trim.hover import hover
@@ -51,8 +52,8 @@ class Analysis:
         return power_along(self.adjoint)
 
     @cached_property
-    def power_changes(self) -> Mapping[str, float]:
-        """What every uncertain input does to total power [W], where it is larger by its size."""
+    def power_changes(self) -> Mapping[str, Array]:
+        """`rotor.trim.power_changes.power_changes` [W]."""
         return power_changes(self.adjoint)
 
 

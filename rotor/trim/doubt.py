@@ -9,13 +9,17 @@ They say little about how induced power differs between two designs. For that in
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import Literal
+
+import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
+from rotor.support.arrays import Array
 from rotor.support.markup import tag
 from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.units import power_unit
@@ -23,6 +27,7 @@ from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
 from rotor.trim.low_speed import hover_share
 from rotor.trim.newton import FEW_DIGITS, Guess
+from rotor.trim.power_changes import PARTS, by_part
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -42,6 +47,8 @@ class DoubtRow(Uncertain):
     """Change of total power where the input is larger by its size [W]."""
     change: float | None = None
     """Change by the input of the power less that of the design compared with [W]; None without one."""
+    changes: tuple[float, ...] = ()
+    """`change` by `PARTS`; empty without one, and where propulsive power takes the place of parasite power."""
 
     @property
     def size_words(self) -> str:
@@ -75,8 +82,8 @@ class Doubt:
     """SPEC of its twist."""
     models: tuple[OtherModels, ...] = ()
     """Beside the band, not in it."""
-    of_total: bool = True
-    """Whether `power` is total power; else the drag of a free rotor times speed."""
+    of: Literal["Power", "Induced power", "Drag times speed"] = "Power"
+    """What `power` is: of a free rotor the last."""
     sourced: bool = True
     """Whether all that makes the change has a source, as in `sureness`."""
 
@@ -100,6 +107,12 @@ class Doubt:
             return None
         band = math.hypot(*(row.change or 0.0 for row in self.rows))
         return band if max(abs(self.change), band) < self._least else max(band, self._least)
+
+    @property
+    def part_bands(self) -> Mapping[str, float]:
+        """Uncertainty of the change of each part of power, ± [W]; empty without a change, and on a stand."""
+        rows = np.array([row.changes for row in self.rows if row.changes])
+        return dict(zip(PARTS, np.linalg.norm(rows, axis=0).tolist(), strict=True)) if rows.size else {}
 
     @property
     def _least(self) -> float:
@@ -128,8 +141,7 @@ class Doubt:
         """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
-        name = "Power" if self.of_total else "Drag times speed"
-        words = f"{name} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        words = f"{self.of} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
         return f"{words} {design} {self.saving_words}." if self.saving_words else words
 
     @property
@@ -161,6 +173,7 @@ class Doubt:
                 | {"power_w": row.power, "change_w": row.change}
                 for row in self.rows
             ],
+            "part_bands_w": dict(self.part_bands),
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
         }
 
@@ -239,30 +252,35 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
     return replace(found, models=alternative_models(*designs)) if models else found
 
 
-def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None) -> Doubt:
-    """`doubt` of a mean power over conditions."""
+def mean_doubt(
+    shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None, *, induced: bool = False
+) -> Doubt:
+    """`doubt` of a mean power over conditions, or of induced power alone."""
     first = here[0].solution.design
     if there is not None and (_is_free(first) or _is_free(there[0].solution.design)):
         raise ValueError("A free rotor takes no power from its shaft, so no saving is known: leave against out.")
-    changes, differences = mean_changes(shares, here), dict[str, float]()
+    changes, differences, none = mean_changes(shares, here), dict[str, Array](), np.zeros(len(PARTS))
     if there is not None:
         others = mean_changes(shares, there)
-        differences = {name: changes.get(name, 0.0) - others.get(name, 0.0) for name in {**changes, **others}}
+        differences = {name: changes.get(name, none) - others.get(name, none) for name in {**changes, **others}}
         for share, one, other in zip(shares, here, there, strict=True):
             for name, change in _inflow_differences(one.solution, other.solution).items():
-                differences[name] = differences.get(name, 0.0) + share * change
-    rows = [
-        DoubtRow(**vars(row), power=changes.get(row.name, 0.0), change=differences.get(row.name))
-        for row in uncertain_inputs(first)
-        if row.name in changes or row.name in differences
-    ]
+                differences[name] = differences.get(name, none) + share * change
+    rows = list[DoubtRow]()
+    for row in uncertain_inputs(first):
+        if row.name in changes or row.name in differences:
+            power, change = (
+                float((found.get(row.name, none)[: 1 if induced else None]).sum()) for found in (changes, differences)
+            )
+            parts = () if there is None or first.condition.stand else tuple(differences[row.name].tolist())
+            rows.append(DoubtRow(**vars(row), power=power, change=None if there is None else change, changes=parts))
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
-        _mean_power(shares, here),
+        _mean_power(shares, here, induced),
         tuple(rows),
-        None if there is None else _mean_power(shares, there),
+        None if there is None else _mean_power(shares, there, induced),
         None if there is None else there[0].solution.design.twist.spec(),
-        of_total=not _is_free(first),
+        of="Induced power" if induced else "Drag times speed" if _is_free(first) else "Power",
         sourced=there is None or _sourced(first, there[0].solution.design),
     )
 
@@ -273,17 +291,17 @@ def _sourced(*designs: Design) -> bool:
     return len(carried) < 2 or all(one is None or one.sourced for one in carried)
 
 
-def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str, float]:
-    """What every uncertain input does to a mean power over conditions [W], as `rotor.trim.power_changes`."""
-    mean = dict[str, float]()
+def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str, Array]:
+    """What every uncertain input does to mean powers over conditions by `PARTS` [W], as `rotor.trim.power_changes`."""
+    mean = dict[str, Array]()
     for share, trim in zip(shares, trims, strict=True):
         for name, change in trim.power_changes.items():
             mean[name] = mean.get(name, 0.0) + share * change
     return mean
 
 
-def _inflow_differences(here: Solution, there: Solution) -> dict[str, float]:
-    """What the inflow model does to the difference of two powers [W], by uncertain input.
+def _inflow_differences(here: Solution, there: Solution) -> dict[str, Array]:
+    """What the inflow model does to the difference of two powers by `PARTS` [W], by uncertain input.
 
     Errors that two inflow models share cancel in a difference of designs; those that they do not share stay. In hover,
     and where the other model has no trim, it is a part of the change of induced power.
@@ -291,12 +309,12 @@ def _inflow_differences(here: Solution, there: Solution) -> dict[str, float]:
     designs = here.design, there.design
     size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
     hovering = any(design.hovering for design in designs)
-    first, second = (None if hovering else _power_with_other_inflow(each) for each in (here, there))
-    induced = size["hover_wake_percent"] * (here.power.induced - there.power.induced)
+    first, second = (None if hovering else _powers_with_other_inflow(each) for each in (here, there))
+    change = by_part(here.power) - by_part(there.power)
+    induced = size["hover_wake_percent"] * change * (1.0, 0.0, 0.0, 0.0)
     if first is None or second is None:
         return {"hover_wake_percent": induced}
-    differ = known_power(here) - known_power(there) - (first - second)
-    found = {"inflow_model_percent": size["inflow_model_percent"] * differ}
+    found = {"inflow_model_percent": size["inflow_model_percent"] * (change - (first - second))}
     share = max(map(hover_share, designs))
     return {**found, "hover_wake_percent": share * induced} if share else found
 
@@ -314,15 +332,15 @@ class _Asked:
     """Of the trim of the same design."""
 
 
-def _power_with_other_inflow(solution: Solution) -> float | None:
-    """[W]; None where it does not trim."""
-    return _power(_Asked(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
+def _powers_with_other_inflow(solution: Solution) -> Array | None:
+    """By `PARTS` [W]; None where it does not trim."""
+    return _powers(_Asked(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
 
 
 @lru_cache(maxsize=64)
-def _power(asked: _Asked) -> float | None:
+def _powers(asked: _Asked) -> Array | None:
     other = solve(asked.design, asked.start, FEW_DIGITS)
-    return known_power(other) if other.converged else None
+    return by_part(other.power) if other.converged else None
 
 
 def known_power(solution: Solution) -> float:
@@ -331,8 +349,9 @@ def known_power(solution: Solution) -> float:
     return power.total - power.parasite if _is_free(solution.design) else power.total
 
 
-def _mean_power(shares: Sequence[float], trims: Sequence[Analysis]) -> float:
-    return sum(share * known_power(trim.solution) for share, trim in zip(shares, trims, strict=True))
+def _mean_power(shares: Sequence[float], trims: Sequence[Analysis], induced: bool) -> float:
+    powers = (trim.solution.power.induced if induced else known_power(trim.solution) for trim in trims)
+    return sum(share * power for share, power in zip(shares, powers, strict=True))
 
 
 def _is_free(design: Design) -> bool:

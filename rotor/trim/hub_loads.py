@@ -11,7 +11,7 @@ frequencies too, and below µ 0.2 the number is that of the wake model. So it co
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -45,8 +45,20 @@ class HubLoads:
     """ψ N_b at the largest value [rad], by the same names."""
     index: float
     """√((½ F_x)² + (0.67 F_y)² + F_z²)/W + √(M_x² + M_y²)/(R W) [%]."""
-    band: tuple[float, float] | None
-    """Least and largest index over several inflow models [%]."""
+    indices: Mapping[str, float] | None
+    """Index by inflow model, its own among them [%]."""
+
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """Least and largest index over several inflow models [%]."""
+        return (min(self.indices.values()), max(self.indices.values())) if self.indices else None
+
+    def change_band(self, other: "HubLoads") -> tuple[float, float] | None:
+        """Least and largest change of the index from another's over the inflow models [%]; None where not known."""
+        here, there = self.indices or {}, other.indices or {}
+        pairs = [(here[name], there[name]) for name in here if name in there]
+        changes = [100.0 * (index / before - 1.0) for index, before in ((self.index, other.index), *pairs)]
+        return (min(changes), max(changes)) if pairs else None
 
     def record(self) -> dict[str, Any]:
         """For `solve --json`."""
@@ -91,12 +103,11 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve | None = None, band: b
             return None
     _, values = terms_and_loads(trim.adjoint)
     index = 100.0 * index_of(design, values)[0]
-    others = _indices(design, solve) if band else []
+    indices = {design.models.inflow: index, **_indices(design, solve)} if band else None
     amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
     sizes: dict[str, float] = dict(zip(LOADS, amplitudes, strict=True))
     angles: dict[str, float] = dict(zip(LOADS, phases, strict=True))
-    ends = (min([index, *others]), max([index, *others])) if band else None
-    return HubLoads(design.rotor.blades, sizes, angles, index, ends)
+    return HubLoads(design.rotor.blades, sizes, angles, index, indices)
 
 
 def band_inflows() -> tuple[str, ...]:
@@ -104,14 +115,14 @@ def band_inflows() -> tuple[str, ...]:
     return tuple(name for name, model in INFLOW_MODELS.items() if model.in_index_band)
 
 
-def _indices(design: Design, solve: Solve) -> list[float]:
-    """The index with each inflow model with which the design trims [%]."""
-    indices = list[float]()
+def _indices(design: Design, solve: Solve) -> dict[str, float]:
+    """The index with each other inflow model with which the design trims [%]."""
+    indices = dict[str, float]()
     for name in band_inflows():
         if name != design.models.inflow:
             other = solve(replace(design, models=replace(design.models, inflow=name)), None)
             loads = hub_loads(other, solve=solve, band=False) if other.solution.converged else None
-            indices += [] if loads is None else [loads.index]
+            indices |= {} if loads is None else {name: loads.index}
     return indices
 
 

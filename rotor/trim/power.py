@@ -91,7 +91,7 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     watts = design.power_unit
     width = disk.dr / len(disk.psi)
     e = elements
-    induced = float(width @ (_around(e.induced, e.fz) + e.swirl * e.fx.sum(axis=1))) * watts
+    induced = induced_power(problem, e)
     profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
     parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
@@ -102,6 +102,12 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     damping = total.damping * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
+
+
+def induced_power(problem: Problem, elements: BladeElements) -> float:
+    """Σ (λ_i dF_z + u dF_x) [W]."""
+    e, width = elements, problem.disk.dr / len(problem.disk.psi)
+    return float(width @ (_around(e.induced, e.fz) + e.swirl * e.fx.sum(axis=1))) * problem.design.power_unit
 
 
 def outside_power(problem: Problem) -> tuple[float, float]:

@@ -23,13 +23,13 @@ from rotor.columns.hover import hover_system
 from rotor.design.design import Design
 from rotor.design.quantity import replaced
 from rotor.design.uncertain import uncertain_inputs
-from rotor.engine.linearise import Point, evaluate, with_data
+from rotor.engine.linearise import evaluate, with_data
 from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import hover_share
-from rotor.trim.newton import FEW_DIGITS, newton
-from rotor.trim.power import outside_power
+from rotor.trim.newton import FEW_DIGITS, LinearisedTrim, newton
+from rotor.trim.power import PowerBudget, induced_power, outside_power
 from rotor.trim.solution import Solution
 
 WAKE_PATH, WAKE_SLOPE = "wake_path_percent", "wake_path_slope_percent"
@@ -37,17 +37,28 @@ _STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
 
 
-def power_changes(adjoint: Adjoint) -> dict[str, float]:
-    """What every uncertain input does to total power [W], where it is larger by its size.
+PARTS = ("induced", "profile", "parasite", "tail")
+"""Parts of power to which a change is attributed; what dampers and gusts take counts as profile power."""
 
-    Of a free rotor, what the errors of the model do to its drag times speed.
+
+def by_part(power: PowerBudget) -> Array:
+    """The power of each of `PARTS` [W], (4,), the rest in profile power."""
+    return np.array(
+        [power.induced, power.total - power.induced - power.parasite - power.tail, power.parasite, power.tail]
+    )
+
+
+def power_changes(adjoint: Adjoint) -> dict[str, Array]:
+    """What every uncertain input does to the power of each of `PARTS` [W], (4,), where it is larger by its size.
+
+    Of a free rotor, what the errors of the model do to its drag times speed. On a stand profile has propulsive power.
     """
     solution = adjoint.solution
     near = None if solution.design.models.trim == "free-rotor" else _PowerNearby(adjoint)
-    changes = dict[str, float]()
+    changes = dict[str, Array]()
     for row in uncertain_inputs(solution.design):
         if row.name in _POWERS:
-            if power := _POWERS[row.name](solution):
+            if (power := _POWERS[row.name](solution)).any():
                 changes[row.name] = 0.01 * row.size * power
         elif near is None:
             continue
@@ -70,37 +81,42 @@ class _PowerNearby:
     def __init__(self, adjoint: Adjoint) -> None:
         self.problem, self._point, self._terms = adjoint.problem, adjoint.point, adjoint.total_terms
         self._multipliers = adjoint.of_total
+        self._of_induced = adjoint.multipliers(adjoint.measure(adjoint.induced_weights))
         self._gain, self._guess = tail_gain(adjoint.solution), adjoint.solution.start
-        self._start = self._main(self.problem, self._point.z, self._point.q)
+        self._start = self._powers(adjoint.trim)
 
-    def _main(self, problem: Problem, z: Array, q: Array) -> float:
-        """Main-rotor power [W]."""
-        return float(self._terms.value(z, q)[0]) * problem.design.power_unit + sum(outside_power(problem))
+    def _powers(self, trim: LinearisedTrim) -> Array:
+        """Main-rotor power, and its induced and parasite parts [W], (3,)."""
+        problem, point = trim.problem, trim.point
+        parasite, climb = outside_power(problem)
+        main = float(self._terms.value(point.z, point.q)[0]) * problem.design.power_unit + parasite + climb
+        return np.array([main, induced_power(problem, trim.elements), parasite])
 
-    def change(self, problem: Problem) -> float:
-        """Total power of a problem less that of the trim [W], to first order."""
+    def change(self, problem: Problem) -> Array:
+        """Power of a problem less that of the trim by `PARTS` [W], to first order."""
         point = self._point
         if problem.scatter is not self.problem.scatter and not problem.design.hovering:
             there = with_data(point, problem.grid_data(1))  # Only the section's own data are other.
-            return self._difference(problem, there)
+            return self._difference(LinearisedTrim(problem, there))
         system = (hover_system if problem.design.hovering else flight_system)(problem)
         x = point.x.copy()
         x[: len(system.numbers)] = system.numbers
-        return self._difference(problem, evaluate(system, system.grid, x))
+        return self._difference(LinearisedTrim(problem, evaluate(system, system.grid, x, flow=True)))
 
-    def along_beddoes(self, part: float) -> float | None:
+    def along_beddoes(self, part: float) -> Array | None:
         """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; None without a trim."""
         there = newton(self.along(part), self._guess, FEW_DIGITS)
-        return self._difference(there.problem, there.point) if there.converged else None
+        return self._difference(there.linear) if there.converged else None
 
     def along(self, part: float) -> Problem:
         """With the wake moved by that part."""
         return replace(self.problem, course=replace(self.problem.course, beddoes=part))
 
-    def _difference(self, problem: Problem, there: Point) -> float:
-        point = self._point
-        missing = float(self._multipliers @ (there.residual - point.residual)) * problem.design.power_unit
-        return (self._main(problem, there.z, there.q) - self._start - missing) * self._gain
+    def _difference(self, there: LinearisedTrim) -> Array:
+        left = (there.point.residual - self._point.residual) * there.problem.design.power_unit
+        missing = np.array([self._multipliers @ left, self._of_induced @ left, 0.0])
+        main, induced, parasite = self._powers(there) - self._start - missing
+        return np.array([induced, main - induced - parasite, parasite, main * (self._gain - 1.0)])
 
 
 Change = Callable[[Problem, float], Problem | None]
@@ -176,9 +192,9 @@ _CHANGES: Mapping[str, Change] = {
     "tip_loss_percent": _tip_loss,
 }
 """By name, in the order of `assets/doubt.toml`."""
-_POWERS: Mapping[str, Callable[[Solution], float]] = {
-    "induced_power_percent": lambda solution: solution.power.induced * tail_gain(solution),
-    "profile_power_percent": lambda solution: solution.power.profile * tail_gain(solution),
-    "tail_rotor_percent": lambda solution: solution.power.tail,
+_POWERS: Mapping[str, Callable[[Solution], Array]] = {
+    "induced_power_percent": lambda solution: solution.power.induced * np.array([1, 0, 0, tail_gain(solution) - 1]),
+    "profile_power_percent": lambda solution: solution.power.profile * np.array([0, 1, 0, tail_gain(solution) - 1]),
+    "tail_rotor_percent": lambda solution: solution.power.tail * np.array([0, 0, 0, 1]),
 }
-"""Powers [W] of which a part is uncertain, by name; of the rotor's, with what the tail rotor takes for it."""
+"""By name the powers of `PARTS` [W] that are uncertain by a share; of the rotor's, with the tail rotor's for it."""

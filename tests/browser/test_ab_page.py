@@ -17,7 +17,7 @@ def overlay_seen(watched: Watched) -> bool:
 
 
 def total_row(watched: Watched) -> list[str]:
-    """A, B, Δ kW, Δ % of the total."""
+    """A, B, Δ kW with its band, and how sure it is, of the total."""
     row = watched.page.locator('[data-explorer="ab"] tr', has_text="Total").locator("td")
     row.nth(4).wait_for()  # The page fills the table anew with each answer.
     cells = row.all_inner_texts()
@@ -61,17 +61,19 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched.reads("pinned", r"A\s*UH-60A · segments −14/−8 at 0\.5\s+" + begun)
     page.keyboard.press("Escape")
     watched.says("against", ": same as A")
-    watched.until(lambda: total_row(watched)[2:] == ["0.0", "0.0"])
+    watched.until(lambda: total_row(watched)[2:] == ["0.0", ""])
     watched.until(lambda: overlay_seen(watched))  # A and B are one blade: the overlay is its jig shape.
     page.wait_for_function(f"() => {_BESIDE_A}")
 
     disk = watched.node("/rotor/disk/field")
     watched.press("Inboard", "PageUp", 9)
     watched.answered()
-    a, b, apart, _ = total_row(watched)
+    watched.until(lambda: "±" in total_row(watched)[2])
+    a, b, apart, word = total_row(watched)
     assert a == begun
     watched.says("total-power", b)
-    assert re.fullmatch(r"[+−]\d+\.\d", apart)
+    assert re.fullmatch(r"[+−][\d.]+ ± [\d.]+", apart)
+    assert word in ("sure", "likely", "unclear")
     watched.reads("against", "than A")
     plain = watched.node("/rotor/disk/field")
     assert plain != disk
@@ -95,6 +97,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     menu(watched)
     press(watched, "Swap A and B")
     watched.answered()
+    watched.until(lambda: "±" in total_row(watched)[2])
     swapped = total_row(watched)
     watched.says("total-power", a)
     assert swapped[:2] == [b, a]
@@ -103,7 +106,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     menu(watched)
     press(watched, "Back to A")
     watched.answered()
-    assert total_row(watched) == [b, b, "0.0", "0.0"]
+    assert total_row(watched) == [b, b, "0.0", ""]
 
     menu(watched)
     press(watched, "Unpin")

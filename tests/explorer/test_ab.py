@@ -13,6 +13,7 @@ from explorer.colours import PINNED_OVERLAY, VOID
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
 from explorer.model.session_state import Analyses, Pinboard, Pinned, apply_order
+from explorer.model.units import SI
 from explorer.picture.fields import FIELDS, difference, fitted_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import DrawnSolution, polar_grid
@@ -20,7 +21,8 @@ from explorer.scene.overlays import overlay_of
 from explorer.text import readout
 from explorer.text.design_words import title_words
 from explorer.text.status import cautions, status_panel
-from rotor import Caveat, Design, Solution, Status, make_design, solve
+from rotor import Caveat, Design, Solution, Status, doubt, make_design, solve
+from rotor.trim.doubt import sureness
 from tests.solved import with_caveats
 
 QUICK = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -151,22 +153,29 @@ def value(text: str) -> float:
 class TestReadOut:
     def test_every_part_has_a_b_and_the_difference(self, along: Solution, b: Solution):
         html = readout.compared_power_panel(b, along)
-        assert cells(html, "kW")[1:] == ["A", "B", "Δ kW", "Δ %"]
+        assert cells(html, "kW")[1:] == ["A", "B", "Δ kW", ""]
         apart = 0.0
         for title, name in (("Induced", "induced"), ("Profile", "profile"), ("Tail rotor", "tail")):
             one, other = getattr(along.power, name) / 1e3, getattr(b.power, name) / 1e3
-            shown = [value(text) for text in cells(html, title)[1:]]
+            shown = [value(text) for text in cells(html, title)[1:4]]
             assert_allclose(shown[:2], [one, other], atol=0.51)
-            assert_allclose(shown[2:], [other - one, 100.0 * (other / one - 1.0)], atol=0.051)
+            assert_allclose(shown[2], other - one, atol=0.051)
             apart += shown[2]
         assert_allclose(value(cells(html, "Total")[3]), apart + value(cells(html, "Parasite")[3]), atol=0.21)
-        assert cells(html, "Parasite")[3:] == ["0.0", "0.0"]  # The same airframe at the same speed.
+        assert cells(html, "Parasite")[3:] == ["0.0", ""]  # The same airframe at the same speed.
+        band = doubt(b, along)
+        banded = readout.compared_power_panel(b, along, SI, band)
+        for title, within in (("Induced", band.part_bands["induced"]), ("Total", band.change_band)):
+            change, word = cells(banded, title)[3:]
+            apart, shown = (value(text) for text in change.split(" ± "))
+            assert_allclose(shown, 1e-3 * (within or 0.0), rtol=0.1, atol=0.05)
+            assert word == sureness(apart, shown)
 
     def test_where_a_has_no_trim_there_are_dashes_and_a_sentence(self, lost: Solution, b: Solution):
         html = readout.compared_power_panel(b, lost)
         assert "no trim at this condition" in html
         assert cells(html, "Total")[1] == "–"
-        assert cells(html, "Total")[3:] == ["–", "–"]
+        assert cells(html, "Total")[3:] == ["–", ""]
         assert 'data-explorer="change"' not in html
         assert "–" in readout.compared_trim_panel(b, lost)
         assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)

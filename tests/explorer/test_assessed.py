@@ -4,7 +4,8 @@ import json
 import math
 import re
 from collections import defaultdict
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -16,9 +17,13 @@ from explorer.export.contents import on_board
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import provenance_lines
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
-from explorer.model.inputs import Inputs
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import SessionState
 from explorer.model.units import SI, adding
-from explorer.parts.actuate import AssessedPart
+from explorer.page import PANELS
+from explorer.parts.actuate import AssessedPart, PowerBar
+from explorer.parts.presses import SupposePress
+from explorer.parts.results import LinePiece
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.text.readout import limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade
@@ -26,8 +31,11 @@ from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
-from explorer.views.line import line_text, works
-from explorer.views.page_state import PageState, SetHand
+from explorer.views.line import LINE, line_text, works
+from explorer.views.page_state import OpenPanels, PageState, SetHand
+from explorer.views.pay import PAY
+from explorer.views.vibration import VIBRATION
+from explorer.views.worth import WORTH
 from explorer.workers.call import Call
 from rotor import Design, Solution, doubt
 from rotor.actuator import (
@@ -49,7 +57,7 @@ from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
-from rotor.trim.doubt import change_decimals
+from rotor.trim.doubt import change_decimals, sureness
 from rotor.trim.solve import solve
 from tests.actuate import actuate, asked, done, solved, told, worked
 
@@ -321,3 +329,89 @@ def test_rounded_parts_add_up():
     assert adding([58.37, 8.76, 11.67, 53.3]) == [58.0, 9.0, 12.0, 53.0]
     assert adding([-4.73, 0.38, 22.08, 0.0]) == [-4.0, 0.0, 22.0, 0.0]  # Not 1 for 0.38.
     assert adding([0.04, 0.04, 0.04], 1) == [0.1, 0.0, 0.0]
+
+
+_SIZE = r"[+−]?\d[\d\u2009]*(?:\.\d+)?"
+_WITHIN = re.compile(
+    rf"({_SIZE}) ± ({_SIZE})(?: kW| %)?(?: more| less)?(?: vs. reference)?(?: than [^,]*,|:| \() ?(sure|likely|unclear)"
+)
+_BETWEEN = re.compile(rf"({_SIZE}) %? ?\(({_SIZE})(?:…| to )({_SIZE})")
+_COLOURED = ("gain", "loss", "good", "bad")
+
+
+def parts_of(value: Any) -> Iterator[Any]:
+    """Every part that the page draws, and every text in it."""
+    yield value
+    if is_dataclass(value) and not isinstance(value, type):
+        value = [getattr(value, one.name) for one in fields(value)]
+    if isinstance(value, Mapping):
+        value = list(value.values())
+    if isinstance(value, list | tuple):
+        for each in value:
+            yield from parts_of(each)
+
+
+def size(text: str) -> float:
+    return float(text.replace("\u2009", "").replace("−", "-"))
+
+
+def check_bands(shown: Mapping[str, Any]) -> tuple[int, int]:
+    """Every value lies inside its band, has the word that its band gives, and no colour without sure or likely; how
+    many values have a band to either side, and how many have two ends."""
+    texts, ranges = set[tuple[str, str, str]](), set[tuple[str, str, str]]()
+    for part in parts_of(shown):
+        if isinstance(part, str):
+            plain = re.sub(r"<[^>]*>", "", part)
+            texts |= set(_WITHIN.findall(plain))
+            ranges |= set(_BETWEEN.findall(plain))
+        elif isinstance(part, PowerBar) and part.band:
+            assert (part.kind != "") == ("(unclear)" not in part.title), part
+        elif getattr(part, "kind", "") in _COLOURED and not isinstance(part, LinePiece):
+            words = " ".join(one for one in parts_of(part) if isinstance(one, str))
+            assert "unclear" not in words, words
+            between = [(size(low), size(high)) for _, low, high in _BETWEEN.findall(words)]
+            assert re.search(r"sure|likely|^drive", words) or any(low * high > 0.0 for low, high in between), words
+    for value, band, word in texts:
+        assert sureness(size(value), size(band)) == word
+    for value, low, high in ranges:
+        assert size(low) <= size(value) <= size(high), (value, low, high)
+    line = shown.get("line")
+    pieces = {piece.part: piece for piece in line.pieces} if line is not None else {}
+    word = pieces["sure"].text.removeprefix(", ") if "sure" in pieces else ""
+    texts |= {(pieces["moved"].text, pieces["sure-band"].text[3:], word)} if word else set()
+    if "moved" in pieces:
+        assert (pieces["moved"].kind != "") == (word in ("sure", "likely"))
+    if word:
+        assert sureness(size(pieces["moved"].text), size(pieces["sure-band"].text[3:])) == word
+    return len(texts), len(ranges)
+
+
+@pytest.mark.parametrize(("id", "state"), [("MFC_P1", "schedule"), ("AFC", "set"), ("SMA_tube", "stopped")])
+def test_every_value_of_actuate_lies_inside_its_band_and_has_its_word_and_colour(id: str, state: ActuatorState):
+    waves = read_harmonics("3:0.5:60", "test") if id == "AFC" else ()
+    now = answered("same-blade", DRIVEN, state, id, replace(INPUTS, twist_per_rev=waves))
+    now = replace(now, hand=replace(now.hand, on_stage=True))
+    found = [check_bands({name: part for panel in PANELS for name, part in panel.view(now).items()})]
+    found.append(check_bands(PAY.view(done(now, PAY.presses["suppose"](now, SupposePress(3.0, 20.0))))))
+    assert found[0][0] >= 5
+    assert found[1][0] >= 1
+
+
+@pytest.mark.parametrize("bends", [False, True])
+def test_every_value_of_explore_lies_inside_its_band_and_has_its_word_and_colour(bends: bool):
+    inputs = replace(INPUTS, built_outer=-6.0, bending=bends)
+    solution, built = (trimmed(one.design()) for one in (inputs, replace(inputs, built_outer=0.0)))
+    now = PageState(inputs, None, SessionState(inputs, ViewState(), solution, built, None), ui=OpenPanels("explore"))
+    now = replace(now, sliders=inputs.design())
+    for panel in (LINE, WORTH, VIBRATION) if bends else (LINE, WORTH):
+        now = worked(panel, now)
+    shown = {name: part for panel in PANELS for name, part in panel.view(now).items()}
+    assert check_bands(shown)[0] >= 5
+    parts = [part for part in shown["power"].parts if part.name in ("Induced", "Profile", "Tail")]
+    assert len([part for part in parts if _WITHIN.search(part.title)]) == 3
+    assert " ± " in shown["power"].why
+    assert shown["power"].held == "Three of four measured powers lie within ±"
+    if bends:
+        low, high = map(float, re.findall(r"[\d.]+", shown["vibration"].band))
+        assert low <= float(shown["vibration"].index) <= high
+        assert _BETWEEN.search(shown["vibration"].change)

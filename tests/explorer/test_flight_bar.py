@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -36,6 +37,7 @@ from explorer.views.page_state import PageState
 from rotor.actuator.flight import ActuatorFlight, standard_flight
 from rotor.actuator.verdict import Verdict
 from rotor.support.chart import DrawnBand, DrawnLine
+from rotor.trim.doubt import sureness
 from tests.actuate import actuate, asked, done, told
 
 INPUTS = Inputs(advance_ratio=0.2, elastic_twist=False)
@@ -138,9 +140,10 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert total.total
     written = [float(bar.text.replace("−", "-")) for bar in state.bars]
     assert sum(written[:-1]) == written[-1]
-    for bar, value in zip(state.bars, written, strict=True):  # Red is loss and green is gain.
+    for bar, value in zip(state.bars, written, strict=True):  # Red is loss and green is gain, where that is known.
         assert bar.value == pytest.approx(value, abs=1.0)
-        assert bar.kind == ("" if value == 0.0 else "loss" if value > 0.0 else "gain")
+        known = bar.value and (not bar.band or sureness(bar.value, bar.band) != "unclear")
+        assert bar.kind == ("" if not known else "loss" if bar.value > 0.0 else "gain")
     bands = {bar.name: bar.band for bar in state.bars}
     assert bands.pop("drive") == 0.0
     assert verdict.net_band is not None
@@ -152,7 +155,9 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert total.title == f"total {needs_words(verdict.net_saving, verdict.net_band, SI, sourced=False)}"
     assert verdict.fuel_saving is not None
     burnt = -3600.0 * verdict.fuel_saving
-    assert state.fuel.replace("−", "-") == f"{burnt:+.1f} kg/h of fuel"
+    used, word = re.findall(r"^([+-][\d.]+) ± [\d.]+ kg/h of fuel: (\w+)$", state.fuel.replace("−", "-"))[0]
+    assert float(used) == pytest.approx(burnt, abs=0.06)
+    assert word == sureness(verdict.net_saving, verdict.net_band) == "sure"
     assert state.fuel_kind == ("loss" if burnt > 0.0 else "gain")
 
 

@@ -29,7 +29,9 @@ from rotor import doubt, make_design, solve
 from rotor.optimisation import CONCEPTS, Progress, SchedulePlan, Search, WeightedCondition, at_condition, run_search
 from rotor.optimisation.results import ParameterBand
 from rotor.optimisation.results import SearchStatus as Status
+from rotor.support.chart import Points
 from rotor.support.processes import JobEnded, JobFailed
+from rotor.trim.doubt import sureness
 from tests.curves import curves
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -321,13 +323,24 @@ class TestSchedule:
         assert savings is not None
         assert twists is not None
         assert [one.label for one in twists.series] == ["hover", "", "fast", "fixed"]
-        assert [one.label for one in savings.series] == ["fixed", "variable"]
+        assert [one.label for one in savings.series] == ["", "", "fixed", "variable"]
         assert all(np.isfinite(one.y).all() for chart in (twists, savings) for one in curves(chart))
+        points = savings.series[0]
+        assert isinstance(points, Points)
+        order = (1, 2, 0)  # By speed.
+        bands = [sure.change_band_percent for leg in order if (sure := progress.doubts(leg)[0]) is not None]
+        assert_allclose(points.scatter, np.array(bands, dtype=float))
         empty = ScheduleProgress(progress.plan)
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
         table = schedule_view.table(progress)
         assert "Variable twist, beyond that" in table
         assert len(re.findall(r">[\d.]+ ± [\d.]+ kW: \w+<", table)) == 2
+        legs = re.findall(r'<span( class="[^"]*")?>([\d.−]+) ± ([\d.]+)<br/?><span class="rx-small">(\w+)<', table)
+        assert len(legs) == 6
+        for colour, saved, band, word in legs:
+            assert word == sureness(float(saved.replace("−", "-")), float(band))
+            sure = "rx-more" if saved[0] == "−" else "rx-less"
+            assert colour == ("" if word == "unclear" else f' class="{sure}"')
         assert "nan" not in table.lower()
         assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 
@@ -336,9 +349,9 @@ class TestSchedule:
         whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert drawn is not None
         assert whole is not None
-        fixed, moving = curves(drawn)
+        fixed, moving = curves(drawn)[-2:]
         assert_allclose(moving.x, [0.3])
-        assert_allclose(moving.y, curves(whole)[1].y[2:])
+        assert_allclose(moving.y, curves(whole)[-1].y[2:])
         assert math.isnan(fixed.y[0])  # Not known yet.
 
     def test_csv_reads_back(self, progress: ScheduleProgress):
@@ -348,6 +361,9 @@ class TestSchedule:
             condition = progress.plan.conditions[k].flight
             twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
             assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
+            apart = 100.0 * (1.0 - float(row["fixed_kw"]) / float(row["as_it_is_kw"]))
+            assert row["fixed_sureness"] == sureness(apart, float(row["fixed_doubt_percent"]))
+            assert row["sureness"] == sureness(float(row["saving_percent"]), float(row["saving_doubt_percent"]))
         leg = progress.plan.conditions[0]
         climbing = replace(progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),))
         text = schedule_view.csv_of(ScheduleProgress(climbing)).decode()

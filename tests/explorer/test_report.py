@@ -23,13 +23,14 @@ from explorer.export.provenance import versions
 from explorer.export.report import report_html
 from explorer.export.tables import blade, change_words, doubts, vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
-from explorer.model.units import UNITS
+from explorer.model.units import SI, UNITS
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.text.line import sentence
+from explorer.text.readout import part_change
 from explorer.web import json_block
 from rotor import Design, Status, doubt, hub_loads, make_design, solve
 from tests.tools.lint_web import html_faults
@@ -90,7 +91,11 @@ class TestReport:
     def test_says_power_parts_condition_caveats_and_versions(self, page: str):
         for solution in (NOW, FAST, BASELINE):
             assert f"{solution.power.total / 1e3:,.1f} kW".replace(",", "\u2009") in page
-        assert f"{100 * (NOW.power.total / BASELINE.power.total - 1):+.1f} %".replace("-", "−") in page
+        band = doubt(NOW, BASELINE)
+        assert band.saving_words in page
+        for part in ("total", "induced", "profile"):
+            change, word = part_change(part, NOW.power, BASELINE.power, band, SI)
+            assert f"<small>{change} kW: {word}</small>" in page
         for caveat in FAST.caveats:
             assert f"<li>{caveat.sentence}</li>" in page
         for name, number in versions().items():

@@ -55,7 +55,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     assert needed == pytest.approx(of_command, abs=1.0)
     assert len(of_command) == len(one.savings) + 1
     assert of_command[-1] == pytest.approx(1e-3 * one.net_saving, abs=0.051)
-    (kilograms,) = re.findall(r"fuel: ([\d.]+) kg an hour", printed)
+    (kilograms,) = re.findall(r"Net\s+fuel:\s+\w+\s+([\d.]+)", printed)
     assert kilograms in rail.fuel
 
 

@@ -38,9 +38,10 @@ def judged() -> PageState:
 
 @pytest.fixture(scope="module")
 def lined(judged: PageState) -> PageState:
-    """With a made-up line of 4°: x(2 − x) of 3000 W, less 200 W per kilogram."""
+    """With a made-up line of 4°: x(2 − x) of 3000 W, less 200 W per kilogram; band 800 x W, less 10 W per kilogram."""
     x = np.linspace(0.0, 1.0, 9)
-    line = OtherStroke(math.radians(4.0) * x, 3000.0 * x * (2.0 - x), 200.0)
+    changes = 800.0 * x[None, :], np.array([-10.0])
+    line = OtherStroke(math.radians(4.0) * x, 3000.0 * x * (2.0 - x), 200.0, *changes)
     return told(ACTUATOR_CARD, judged, other_stroke=line)
 
 
@@ -78,9 +79,12 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
     now = done(now, pressed)
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
-    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 kW over the mission", (2.0, 4.3))
-    assert shown.note == "With this range it pays below 11 kg; with this mass, above 0.6°."
+    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 ± 0.4 kW (sure) over the mission", (2.0, 4.3))
+    assert shown.note == "With this range it pays below 11 ± 1.4 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
+    near = PAY.view(done(now, move_supposed(now, SupposePress(2.0, 11.0))))
+    assert near["suppose"].words.endswith("(unclear) over the mission")
+    assert (near["suppose"].kind, near["actuator.pays"]) == ("", False)
     heavy = done(now, move_supposed(now, SupposePress(2.0, 50.0)))
     assert (PAY.view(heavy)["suppose"].kind, PAY.view(heavy)["actuator.pays"]) == ("loss", False)
     assert move_supposed(now, "off")[-1] == SetAddress("i", None)

@@ -24,13 +24,14 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
 from rotor.optimisation.search import Search, run_search
+from rotor.trim.doubt import sureness
 from rotor.trim.solve import solve
 
 KEYS = [
     "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg", "feasible",
     "voltages_v", "added_mass_kg", "torsion_frequency_per_rev", "against", "ideal_saving_w", "gross_saving_w",
     "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "part_bands_w", "net_saving_w", "net_saving_band_w",
-    "fuel_saving_kg_h", "limits", "caveats",
+    "fuel_saving_kg_h", "fuel_band_kg_h", "limits", "caveats",
 ]  # fmt: skip
 
 CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
@@ -151,7 +152,9 @@ def test_fuel_by_hand():
     slopes = [127.0 / 358.5 * pound / horse, 298.7 / 771.9 * pound / horse]
     assert judged.fuel_saving is not None
     assert slopes[0] < 3600.0 * judged.fuel_saving / judged.net_saving < slopes[1] * 1.000001
-    assert f"{abs(3600.0 * judged.fuel_saving):.1f} kg/h" in verdict_details(judged)
+    used, band, word = re.findall(r"Net fuel: \w+ ([\d.]+) ± ([\d.]+) kg/h: (\w+)", verdict_details(judged))[0]
+    assert float(used) == pytest.approx(abs(3600.0 * judged.fuel_saving), abs=0.06)
+    assert word == sureness(float(used), float(band)) == sureness(judged.net_saving, judged.net_band or 0.0)
 
 
 def test_a_class_of_engines_against_one_of_them():

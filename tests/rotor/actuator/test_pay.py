@@ -17,6 +17,7 @@ from rotor.actuator.optimum import ConditionPair, best_actuated
 from rotor.actuator.pay import WANTED_SHARE, BreakEven, break_even, other_stroke, pay_sentence, with_mass
 from rotor.actuator.tables import pay_table
 from rotor.design import LinearTwist
+from rotor.optimisation.doubt import difference_doubt
 
 
 def pair(rotor: str = "uh60a") -> ConditionPair:
@@ -57,11 +58,18 @@ def test_another_stroke_of_an_actuator_counts_as_its_verdict_counts():
         assert other.net(0.0, 0.0) == pytest.approx(judged.reference_power - judged.resting.power, abs=0.1)
         assert other.net(own, other.mass_allowed(own)) == pytest.approx(min(other.net(own, 0.0), 0.0), abs=0.1)
         assert judged.mass_allowed == pytest.approx(other.mass_allowed(own), abs=0.1)
+        assert judged.net_band == pytest.approx(other.band(own, mass), rel=1e-6)
         assert other.twist_for(1e4) is None
         twice = replace(judged.installed, shapes=2.0 * judged.installed.shapes)
         twice = replace(twice, rest_shapes=2.0 * twice.rest_shapes)
         found = best_actuated(judged.baseline.pair, judged.baseline.concept, twice, starts=[judged.resting.values])
         assert other.net(2.0 * own, 0.0) == pytest.approx(judged.reference_power - found.power, abs=20.0)
+        fixed, built = judged.baseline.fixed.solutions, map(solve, judged.baseline.pair.designs())
+        from_trims = fixed if against == "best-fixed" else tuple(built)
+        exact = difference_doubt(judged.baseline.pair.shares, found.solutions, from_trims)
+        assert other.band(2.0 * own, 0.0) == pytest.approx(exact and exact.change_band, rel=0.01)
+        still = difference_doubt(judged.baseline.pair.shares, judged.resting.solutions or from_trims, from_trims)
+        assert other.band(0.0, 0.0) == pytest.approx(still and still.change_band, rel=0.01, abs=1.0)
         paid = 0.5 * float(other.saved[0] + other.saved[-1]) / other.per_kg
         if paid > 0.0:
             assert other.net(other.twist_for(paid) or 0.0, paid) == pytest.approx(0.0, abs=0.1)

@@ -1,6 +1,7 @@
 """How sure a saving is, and where the best twist may lie, beside new searches with changed inputs."""
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -92,10 +93,19 @@ def test_over_conditions_rows_are_means():
         assert row.power == pytest.approx(0.25 * first + 0.75 * second, rel=1e-3, abs=1.0)
 
 
-def test_other_objectives_have_no_band():
+def test_induced_power_has_a_band_of_its_own():
     design = rotor.make_design(mu=0.2)
-    assert saving_doubt(at_condition(design, "induced"), design, design) is None
-    assert rotor.optimise(design, "linear", quantity="induced", starts=1).doubt is None
+    other = design.with_twist("linear:-12")
+    band, total = (
+        saving_doubt(at_condition(design, "induced"), other, design),
+        doubt(*map(rotor.solve, (other, design))),
+    )
+    assert band is not None
+    assert band.power == pytest.approx(rotor.solve(other).power.induced, rel=1e-6)
+    assert band.change_band == pytest.approx(total.part_bands["induced"], rel=0.01)
+    assert band.sentence.startswith("Induced power ")
+    found = rotor.optimise(design, "linear", quantity="induced", starts=1)
+    assert re.search(r"saves [\d.]+ ± [\d.]+ %: \w+$", found.saving_words)
 
 
 def test_hover_has_another_wake_with_more_twist(answer: Callable[..., Any]):

@@ -21,7 +21,7 @@ from rotor.support.assets import asset_path
 from rotor.trim import analyse
 from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, DoubtRow, banded, doubt, other_models, sureness
-from rotor.trim.power_changes import power_changes
+from rotor.trim.power_changes import PARTS, by_part, power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
 
@@ -91,7 +91,7 @@ def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
     here, _ = at_speed()
     design = here.design
     by_hand = 0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
-    assert 1.0 < power_changes(Analysis(here).adjoint)["drag_area_percent"] / by_hand < 1.25
+    assert 1.0 < power_changes(Analysis(here).adjoint)["drag_area_percent"].sum() / by_hand < 1.25
 
 
 @pytest.mark.parametrize("condition", CONDITIONS)
@@ -144,7 +144,7 @@ def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
     for sign in (1.0, -1.0):
         patch_sections("drag_rise_mach", sign * SIZES["drag_rise_mach"], patch)
         ends.append(rotor.solve(rotor.make_design(**options)).require().power.total)
-    assert found["drag_rise_mach"] == pytest.approx(0.5 * (ends[0] - ends[1]), rel=0.05)
+    assert found["drag_rise_mach"].sum() == pytest.approx(0.5 * (ends[0] - ends[1]), rel=0.05)
 
 
 def test_what_a_design_does_not_have_is_no_row():
@@ -294,3 +294,31 @@ def test_the_command_says_it_and_its_json_has_the_rows(printed: Callable[..., st
     assert {"inflow pitt-peters", "bending"} <= set(found["models"])
     assert found["change_w"] == pytest.approx(found["power_w"] - found["against_w"])
     assert math.hypot(*(row["power_w"] for row in found["rows"])) == pytest.approx(found["total_w"])
+
+
+@pytest.mark.parametrize("condition", CONDITIONS)
+def test_the_band_of_a_part_of_power_is_that_of_new_trims(condition: str):
+    """Of each part by itself: a stiffer blade changes induced and profile power, and those of the tail rotor follow."""
+    here, there = (rotor.solve(design).require() for design in designs(condition))
+    found = doubt(here, there)
+    row = next(row for row in found.rows if row.name == "torsional_stiffness_percent")
+
+    def slope(solution: rotor.Solution) -> Any:
+        """Change of the parts where the blade is stiffer by its size."""
+        structure = solution.design.rotor.blade.structure
+        assert structure is not None
+        ends: list[Any] = []
+        for factor in (1.01, 0.99):
+            stiffness = tuple(factor * each for each in structure.torsional_stiffness)
+            stiffer = replace(structure, torsional_stiffness=stiffness)
+            blade = replace(solution.design.rotor.blade, structure=stiffer)
+            design = replace(solution.design, rotor=replace(solution.design.rotor, blade=blade))
+            ends.append(by_part(rotor.solve(design).require().power))
+        return (ends[0] - ends[1]) * 0.5 * SIZES["torsional_stiffness_percent"]
+
+    exact = slope(here) - slope(there)
+    assert row.changes == pytest.approx(exact, abs=0.03 * float(np.abs(exact).max()))
+    assert sum(row.changes) == pytest.approx(row.change)
+    for k, part in enumerate(PARTS):
+        assert found.part_bands[part] == pytest.approx(math.hypot(*(each.changes[k] for each in found.rows)))
+    assert doubt(here).part_bands == {}
