@@ -1,12 +1,12 @@
-"""What a page without a server computes from: polynomials about one design, by the sliders of its twist law.
+"""What a page without a server computes from: polynomials about one design, by the sliders of its twist.
 
-Least squares over trims, of total and induced power with their exact gradients, to fourth order; of all else to second.
+Least squares over trims, of total and induced power with their exact gradients, to fourth order, of all else to second.
 Their error is measured at other trims. Sliders reach as far as the error of power is small.
 """
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -16,11 +16,13 @@ from scipy.optimize import minimize
 from scipy.stats import qmc
 
 from explorer.colours import PARTS
+from explorer.model.actuator_inputs import inputs_from_spec
 from explorer.model.inputs import LAWS, ROWS, inputs_of
 from explorer.model.sliders import limits
 from rotor import Design, Solution, solve
+from rotor.actuator.optimum import STATIONS, twisted
 from rotor.design.quantity import Slider
-from rotor.optimisation.concept import Concept
+from rotor.design.twist import REFERENCE_RADIUS, TwistLaw
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis, analysed, power_gradient
 from rotor.trim.doubt import doubt
@@ -65,36 +67,35 @@ class Handle:
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """The designs of a twist law about one of them."""
+    """The designs about one of them that its sliders reach: of its twist law, or of the drive of its actuator."""
 
     shared: Design
-    law: Concept
+    title: str
     handles: tuple[Handle, ...]
+    twist: Callable[[Sequence[float]], TwistLaw]
+    """Of the numbers of the sliders."""
+    by_number: Callable[[Sequence[float], Array], Array]
+    """∂θ_tw(r) by these numbers [rad], (sliders, stations)."""
 
     @property
     def here(self) -> Array:
         """Scaled sliders of the design that is shared."""
         return self.scaled([one.value for one in self.handles])
 
-    def scaled(self, values: Sequence[float]) -> Array:
-        """−1…1 over the sliders, from their numbers."""
-        return np.array([(value - one.centre) / one.half for value, one in zip(values, self.handles, strict=True)])
+    def scaled(self, numbers: Sequence[float]) -> Array:
+        """−1…1 over the sliders."""
+        return np.array([(number - one.centre) / one.half for number, one in zip(numbers, self.handles, strict=True)])
 
-    def shown(self, x: Array) -> list[float]:
-        """The numbers of the sliders."""
+    def numbers(self, x: Array) -> list[float]:
+        """Of the sliders, from −1…1."""
         return [one.centre + one.half * float(at) for at, one in zip(x, self.handles, strict=True)]
 
-    def values(self, x: Array) -> list[float]:
-        """Parameters of the law, SI."""
-        return [one.from_shown(value) for value, one in zip(self.shown(x), self.law.parameters, strict=True)]
-
     def design(self, x: Array) -> Design:
-        return replace(self.shared, twist=self.law.twist(self.values(x)))
+        return replace(self.shared, twist=self.twist(self.numbers(x)))
 
     def slopes(self, x: Array, r: Array) -> Array:
         """∂θ_tw(r)/∂x, (sliders, stations)."""
-        unit = [one.from_shown(handle.half) for one, handle in zip(self.law.parameters, self.handles, strict=True)]
-        return self.law.slopes(self.values(x), r) * np.array(unit)[:, None]
+        return self.by_number(self.numbers(x), r) * np.array([[one.half] for one in self.handles])
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +146,7 @@ class Fitted:
             minimize(lambda x: float(self.at(total, x[None])[0]), start, bounds=[(-1.0, 1.0)] * n) for start in starts
         ]
         x = min(found, key=lambda one: one.fun).x
-        values = [round(v, one.form.digits) for v, one in zip(self.family.shown(x), self.family.handles, strict=True)]
+        values = [round(v, one.form.digits) for v, one in zip(self.family.numbers(x), self.family.handles, strict=True)]
         return values, solve(self.family.design(self.family.scaled(values)), self.solution)
 
     @cached_property
@@ -175,21 +176,18 @@ def fitted(solution: Solution) -> Fitted:
     """The polynomials about a trimmed design; ValueError with one sentence where there are none."""
     if not solution.converged:
         raise ValueError(f"The design is not trimmed, so no page can be made of it: {solution.message}")
-    design, inputs = solution.design, inputs_of(solution.design)
+    design = solution.design
     if design.models.trim == "free-rotor":
         raise ValueError("A free rotor takes no power, so there is nothing to twist for: choose another trim.")
-    law = LAWS[inputs.law]
-    if not 0 < len(law.parameters) <= MOST_HANDLES or design.rotor.blade.carried is not None:
-        held = "The blade carries an actuator, and its" if design.rotor.blade.carried is not None else "The"
+    of = _of_law if design.rotor.blade.carried is None else _of_drive
+    count, error = len(of(design, 1.0).handles), math.inf
+    if not 0 < count <= MOST_HANDLES:
         raise ValueError(
-            f"{held} twist has no sliders that a page could take along: choose a law with 1 to {MOST_HANDLES} sliders, "
+            f"The twist has {count or 'no'} sliders, and a page takes along 1 to {MOST_HANDLES}: choose another law, "
             "for example linear or two segments."
         )
-    law = replace(law, base=design.rotor.builtin_twist if inputs.law == "builtin" else None)
-    error = math.inf
-    for share in _SHARES[max(0, len(law.parameters) - 3) :]:
-        family = Family(design, law, tuple(_handles(inputs, law, share)))
-        made = _made(family, solution)
+    for share in _SHARES[max(0, count - 3) :]:
+        made = _made(of(design, share), solution)
         if made is None:
             continue
         error = made.error
@@ -201,13 +199,65 @@ def fitted(solution: Solution) -> Fitted:
     )
 
 
-def _handles(inputs: Any, law: Concept, share: float) -> Iterator[Handle]:
+def _of_law(design: Design, share: float) -> Family:
+    """share: of the reach of each slider."""
+    inputs = inputs_of(design)
+    law = replace(LAWS[inputs.law], base=design.rotor.builtin_twist if inputs.law == "builtin" else None)
+    handles = list[Handle]()
     for name, one in zip(law.inputs, law.parameters, strict=True):
-        form, value = ROWS[name].slider, getattr(inputs, name)
+        form = ROWS[name].slider
         assert form is not None
         reach, ends = share * _REACH[one.shown_unit if one.angular else ""], limits(name, inputs.aircraft)
-        down, up = (math.floor(min(reach, abs(end - value)) / form.step + 1e-9) * form.step for end in ends)
-        yield Handle(name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value)
+        handles.append(_handle(name, form, getattr(inputs, name), reach, ends))
+
+    def values(numbers: Sequence[float]) -> list[float]:
+        return [one.from_shown(number) for number, one in zip(numbers, law.parameters, strict=True)]
+
+    size = np.array([[one.from_shown(1.0)] for one in law.parameters])
+    return Family(
+        design,
+        law.title,
+        tuple(handles),
+        lambda numbers: law.twist(values(numbers)),
+        lambda numbers, r: law.slopes(values(numbers), r) * size,
+    )
+
+
+def _of_drive(design: Design, share: float) -> Family:
+    """Of an actuator on board: the drive of each segment. share: of its range."""
+    carried, bare = design.rotor.blade.carried, design.bare
+    assert carried is not None
+    inputs = inputs_from_spec(carried.spec)
+    installed = inputs.installed(bare.rotor)
+    actuator = installed.actuator
+    sign = -1.0 if inputs.crossed and "crossed" in actuator.settings else 1.0
+    shapes = (
+        sign
+        / actuator.drive_swing
+        * np.array([np.interp(STATIONS, installed.r, each) for each in installed.shapes_in(bare)])
+    )
+    low, high = actuator.drive_range
+    step = 10.0 ** math.floor(math.log10(0.01 * (high - low)))
+    word, drives = "Voltage" if actuator.drive_unit == "V" else "Drive", inputs.driven_at(installed)
+    handles = list[Handle]()
+    for k, value in enumerate(drives):
+        name = f"{word} of segment {k + 1}" if len(drives) > 1 else word
+        form = Slider(f"{name} [{actuator.drive_unit}]", low, high, step)
+        handles.append(_handle(name, form, value, share * (high - low), (low, high)))
+    zero = np.array([np.interp(REFERENCE_RADIUS, STATIONS, shape) for shape in shapes])
+    return Family(
+        design,
+        carried.name.partition(" at ")[0],
+        tuple(handles),
+        lambda numbers: twisted(design.jig, np.array(numbers) @ shapes, carried.name),
+        lambda _, r: np.array([np.interp(r, STATIONS, shape) for shape in shapes]) - zero[:, None],
+    )
+
+
+def _handle(name: str, form: Slider, value: float, reach: float, ends: tuple[float, float]) -> Handle:
+    """A slider that goes as far as its reach and its ends let it, in whole steps."""
+    down, up = (math.floor(min(reach, abs(end - value)) / form.step + 1e-9) * form.step for end in ends)
+    return Handle(name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value)
 
 
 def _made(family: Family, solution: Solution) -> Fitted | None:

@@ -25,7 +25,7 @@ from explorer.picture.picture import field_values, flown_twist
 from explorer.picture.plan import outline, packed, reverse_flow_segments
 from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, PolarGrid, polar_grid
 from explorer.text.design_words import flight_words, model_words, title_words
-from explorer.text.line import flight_pieces, plain, twist_pieces
+from explorer.text.line import flight_pieces, plain, sentence, twist_pieces
 from explorer.text.readout import fineness, part_titles
 from rotor import Solution
 from rotor.support.arrays import Array
@@ -56,10 +56,9 @@ def live_html(solution: Solution, units: Units = SI) -> str:
         ),
     )
     validity = "Numbers here come from polynomials through trimmed designs, with the error stated above."
-    line = "".join(text for text, _ in _line(made, units))
     when = datetime.now().astimezone()
     styles = "report.css", "live.css"
-    return document_html(title_words(design), line, content, validity, when, styles, _SCRIPTS)
+    return document_html(title_words(design), sentence(solution, units), content, validity, when, styles, _SCRIPTS)
 
 
 class _Drawn:
@@ -100,7 +99,8 @@ def _rotor(made: Fitted, drawn: list[_Drawn], units: Units) -> Markup:
     box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
     over = tag("svg", marks, disk_marks(made.solution, 9.0, units), viewBox=box, role="img", aria_label="The disk")
     key = [
-        tag("span", tag("i", class_=name), title) for name, title in (("stall", "stall"), ("reverse", "reverse flow"))
+        tag("span", tag("i", class_=name), title)
+        for name, title in (("stall", "stall"), *([("reverse", "reverse flow")] if lines else []))
     ]
     bars = [tag("div", bar(one.field, one.range, f"bar-{k}"), data_scale=k) for k, one in enumerate(drawn)]
     return group(
@@ -127,9 +127,9 @@ def _sliders(made: Fitted) -> Markup:
         )
     buttons = (
         tag("button", "As shared", type="button", data_to="shared"),
-        tag("button", "Best twist in these ranges", type="button", data_to="best"),
+        tag("button", "Least power in these ranges", type="button", data_to="best"),
     )
-    return group(tag("h2", made.family.law.title), rows, tag("div.tabs", buttons))
+    return group(tag("h2", made.family.title), rows, tag("div.tabs", buttons))
 
 
 def _card(made: Fitted) -> Markup:
@@ -151,14 +151,18 @@ def _card(made: Fitted) -> Markup:
 
 def _line(made: Fitted, units: Units) -> list[tuple[str, int | None]]:
     """Words before the power, each piece with the slider whose number it is."""
-    design, law = made.solution.design, made.family.law
-    inputs = inputs_of(design)
-    handles = [one.name for one in made.family.handles]
-    if inputs.law == "builtin":  # Its changes are named although they are zero.
-        inputs = replace(inputs, **{law.inputs[0]: 1.0})
-    pieces = [(piece.text, piece.control.name if piece.control else "") for piece in twist_pieces(inputs, design)]
+    design = made.solution.design
+    inputs, handles = inputs_of(design), made.family.handles
     flight = plain(flight_pieces(inputs, units)).removesuffix(".")
-    return [(flight, None), *((text, handles.index(name) if name in handles else None) for text, name in pieces)]
+    if design.rotor.blade.carried is not None:
+        drives = [(", " if k else f" with {made.family.title} at ", k) for k in range(len(handles))]
+        unit = handles[0].form.label.partition("[")[2].rstrip("]")
+        return [(flight, None), *(piece for text, k in drives for piece in ((text, None), ("", k))), (f" {unit}", None)]
+    names = [one.name for one in handles]
+    if inputs.law == "builtin":  # Its changes are named although they are zero.
+        inputs = replace(inputs, **{names[0]: 1.0})
+    pieces = [(piece.text, piece.control.name if piece.control else "") for piece in twist_pieces(inputs, design)]
+    return [(flight, None), *((text, names.index(name) if name in names else None) for text, name in pieces)]
 
 
 def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
@@ -172,6 +176,7 @@ def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
         f"{worst} {unit.symbol} at most and {mean} {unit.symbol} on average, the angle of attack by "
         f"{number(angle.error(made), 2)}° (root mean square). The sliders end before this exceeds "
         f"{100.0 * TOLERANCE:g} % of power. ± is the uncertainty of the model itself.",
+        " What the drive takes is not in it." if made.solution.design.rotor.blade.carried is not None else "",
     )
 
 
@@ -186,7 +191,7 @@ def _model(made: Fitted, drawn: list[_Drawn], units: Units) -> dict[str, Any]:
     return {
         "handles": [
             {"centre": one.centre, "half": one.half, "digits": one.form.digits, "shared": one.value, "best": value,
-             "sign": inputs.law == "builtin"}
+             "sign": inputs.law == "builtin" and solution.design.rotor.blade.carried is None}
             for one, value in zip(family.handles, best, strict=True)
         ],
         "exponents": made.exponents.tolist(),

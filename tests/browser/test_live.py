@@ -67,7 +67,7 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
 
 def test_the_best_twist_and_the_way_back(page: Page, made: Fitted):
     values, best = made.best
-    page.get_by_role("button", name="Best twist in these ranges").click()
+    page.get_by_role("button", name="Least power in these ranges").click()
     page.wait_for_function("() => document.querySelector('h1').innerText.includes('less than as shared')")
     assert power(page) == pytest.approx(best.power.total / 1e3, abs=made.error / 1e3 + 0.5)
     shown = [float(page.locator(".slider input").nth(k).input_value()) for k in range(len(values))]

@@ -96,13 +96,31 @@ class TestPolynomials:
     [
         (PLAIN.with_twist("ideal"), "has no sliders"),
         (PLAIN.at(mass_kg=30000.0), "not trimmed"),
-        (ActuatorInputs(drives=(77.0,)).apply(make_design(inflow="drees")), "carries an actuator"),
         (make_design(rotor="pca2", trim="free-rotor"), "takes no power"),
     ],
 )
 def test_what_has_no_page_is_one_sentence(design: Design, sentence: str):
     with pytest.raises(ValueError, match=sentence):
         fitted(solve(design))
+
+
+@pytest.mark.parametrize("concept", ["linear", "two-segment"])
+def test_with_an_actuator_on_board_sliders_are_its_drives(concept: str):
+    bare = make_design(mu=0.2, inflow="drees", elements=16, azimuths=36)
+    design = ActuatorInputs(concept=concept, drives=(50.0,) * 5).apply(bare)
+    made = fitted(solve(design))
+    here = made.family.design(made.family.here)
+    assert np.allclose(here.twist(np.linspace(0.2, 1.0, 9)), design.twist(np.linspace(0.2, 1.0, 9)), atol=1e-9)
+    assert made.at(made.power["total"], made.family.here[None])[0] == pytest.approx(made.solution.power.total)
+    driven = ActuatorInputs(concept=concept, drives=(-40.0, 80.0)).apply(bare)
+    volts = (-200.0, 1200.0)[: len(made.family.handles)]
+    exact = solve(driven).power.total
+    x = made.family.scaled(volts)
+    assert np.abs(x).max() <= 1.0
+    assert float(made.at(made.power["total"], x[None])[0]) == pytest.approx(exact, abs=made.error + 1.0)
+    page = live_html(made.solution)
+    assert "with MFC P1 at 750" in page
+    assert "What the drive takes is not in it." in page
 
 
 def test_in_hover_and_in_other_units_it_is_made_as_well():
