@@ -76,6 +76,10 @@ class Family:
     """Of the numbers of the sliders."""
     by_number: Callable[[Sequence[float], Array], Array]
     """∂θ_tw(r) by these numbers [rad], (sliders, stations)."""
+    breaks: tuple[int, ...] = ()
+    """Sliders that are r/R where straight pieces meet."""
+    base: TwistLaw | None = None
+    """What the pieces are added to."""
 
     @property
     def here(self) -> Array:
@@ -119,7 +123,10 @@ class Fitted:
 
     def fit(self, values: Callable[[Solution], Any]) -> Array:
         """Coefficients to second order of values of any shape, (terms, …)."""
-        made = np.array([values(trim.solution) for trim in self.trims])
+        return self.fit_to(np.array([values(trim.solution) for trim in self.trims]))
+
+    def fit_to(self, made: Array) -> Array:
+        """`fit`, of values known at the trims, (trims, …)."""
         terms = _terms(self.x, _exponents(self.x.shape[1], 2))
         return _solved(terms, made.reshape(len(made), -1)).reshape(-1, *made.shape[1:])
 
@@ -220,6 +227,8 @@ def _of_law(design: Design, share: float) -> Family:
         tuple(handles),
         lambda numbers: law.twist(values(numbers)),
         lambda numbers, r: law.slopes(values(numbers), r) * size,
+        tuple(k for k, one in enumerate(law.parameters) if not one.angular),
+        law.base,
     )
 
 

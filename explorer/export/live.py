@@ -10,6 +10,7 @@ from datetime import datetime
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from explorer import web
 from explorer.charts.svg import HALF_EDGE, disk_marks
@@ -28,6 +29,7 @@ from explorer.text.design_words import flight_words, model_words, title_words
 from explorer.text.line import flight_pieces, plain, sentence, twist_pieces
 from explorer.text.readout import fineness, part_titles
 from rotor import Solution
+from rotor.design import TwistLaw
 from rotor.support.arrays import Array
 from rotor.support.markup import Markup, group, tag
 from rotor.trim.doubt import LEAST_REPORTED, LIKELY, SURE
@@ -191,7 +193,7 @@ def _model(made: Fitted, drawn: list[_Drawn], units: Units) -> dict[str, Any]:
     return {
         "handles": [
             {"centre": one.centre, "half": one.half, "digits": one.form.digits, "shared": one.value, "best": value,
-             "sign": inputs.law == "builtin" and solution.design.rotor.blade.carried is None}
+             "sign": inputs.law == "builtin" and "°" in one.form.label}
             for one, value in zip(family.handles, best, strict=True)
         ],
         "exponents": made.exponents.tolist(),
@@ -222,19 +224,28 @@ def _inset(made: Fitted) -> dict[str, Any]:
     solution, psi = made.solution, math.radians(_VIEW.azimuth_deg)
     rotor, twist = solution.design.rotor, flown_twist(solution, psi)
     places = np.concatenate(inset_places(rotor))
-    named = "this blade" if solution.elastic is None else "in flight"
-    of = made.fit(lambda one: np.degrees(flown_twist(one, psi)(places)))
+    named, family = "this blade" if solution.elastic is None else "in flight", made.family
+
+    def pieces(law: TwistLaw, r: ArrayLike) -> Array:
+        """What is straight between the breaks [°]; the page interpolates it, for a polynomial would round its kinks."""
+        bent = law(r) - (family.base(r) if family.base else 0.0)
+        return np.degrees(bent) if family.breaks else 0.0 * bent
+
+    of = made.fit(lambda one: np.degrees(flown_twist(one, psi)(places)) - pieces(one.design.twist, places))
+    ends = [[0.0, *(family.numbers(x)[k] for k in family.breaks), 1.0] for x in made.x]
+    knots = [pieces(trim.solution.design.twist, r) for r, trim in zip(ends, made.trims, strict=True)]
     return {
         **asdict(inset_sections(rotor, twist, twist, _VIEW.exaggeration)),
         "name": named, "name_hint": "", "overlay_name": "as shared", "overlay_hint": "",
-        "twist": [_short(row) for row in of.T],
+        "twist": list(map(_short, of.T)), "breaks": family.breaks,
+        "knots": list(map(_short, made.fit_to(np.array(knots) - np.array(knots)[:, -1:]).T)),
     }  # fmt: skip
-
-
-def _short(values: Array) -> list[float]:
-    return [float(f"{value:.7g}") for value in values]
 
 
 def _most(made: Fitted) -> list[float]:
     """Total powers, of which the largest fills the bar [W]."""
     return [trim.solution.power.total for trim in (*made.trims, *made.tested)]
+
+
+def _short(values: Array) -> list[float]:
+    return [float(f"{value:.7g}") for value in values]

@@ -59,8 +59,14 @@
       window.rotorDisk.fill(canvas, numbers, root, Math.min(canvas.clientWidth * devicePixelRatio, 900));
       one('path.stall').setAttribute('d', outline(over(stall, of)));
     }
-    function paintInset(of) {
-      const angles = inset.twist.map(row => sum(row, of)), {length} = inset.r;
+    function paintInset(values, of) {
+      const knots = [0, ...inset.breaks.map(k => values[k]), 1], bent = inset.knots.map(row => sum(row, of));
+      const straight = r => {
+        const k = Math.max(1, knots.findIndex(knot => r <= knot));
+        return lerp(bent[k - 1], bent[k], (r - knots[k - 1]) / (knots[k] - knots[k - 1]));
+      };
+      const {length} = inset.r, places = [...inset.r, ...inset.cuts.map(({r}) => r)];
+      const angles = inset.twist.map((row, k) => sum(row, of) + straight(places[k]) - straight(.75));
       const cuts = inset.cuts.map((cut, k) => ({...cut, theta: angles[length + k]}));
       painters.inset({...inset, theta: angles.slice(0, length), cuts});
     }
@@ -74,7 +80,7 @@
       within = Math.max(within, doubt.least);
       const [, word] = doubt.words.find(([ratio]) => Math.abs(change) >= ratio * within);
       const size = fixed(Math.abs(change), doubt.digits), none = !Number(size);
-      const against = none ? 'no change from the design as shared'
+      const against = none ? 'as much as the shared design'
         : `${banded(size, fixed(within, doubt.digits))} ${change > 0 ? 'more' : 'less'} than as shared, ${word}`;
       const words = handles.map((handle, k) => (handle.sign ? signed : fixed)(values[k], handle.digits));
       const line = model.line.map(([text, k]) => k === null ? text : words[k]).join('');
@@ -99,7 +105,7 @@
       tabs.forEach((tab, k) => tab.setAttribute('aria-pressed', String(k === field)));
       all('[data-scale]').forEach((scale, k) => { scale.hidden = k !== field; });
       paintDisk(of);
-      paintInset(of);
+      paintInset(values, of);
     }
     const again = soon(paint);
     for (const slider of sliders) slider.addEventListener('input', again);

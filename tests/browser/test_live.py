@@ -1,5 +1,6 @@
 """The page that travels, opened from disk: what its sliders show is what a trim gives."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from watched import window
 
 from explorer.export.fitted import Fitted, fitted
 from explorer.export.live import live_html
+from explorer.model.inputs import ViewState
+from explorer.picture.picture import flown_twist
 from rotor import make_design, solve
 
 DESIGN = make_design(mu=0.3, twist="segments:-12,-6@0.5", inflow="drees", elements=16, azimuths=36)
@@ -55,11 +58,13 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     for _ in range(30):
         page.keyboard.press("ArrowRight")
     page.wait_for_function("() => document.querySelector('h1').innerText.includes('−3.0')")
-    exact = solve(made.family.design(made.family.scaled([-12.0, -3.0, 0.5]))).power.total
+    trim = solve(made.family.design(made.family.scaled([-12.0, -3.0, 0.5])))
+    exact, tip = trim.power.total, math.degrees(float(flown_twist(trim, math.radians(ViewState().azimuth_deg))(1.0)))
     assert abs(exact - made.solution.power.total) > 2e3
     assert power(page) == pytest.approx(exact / 1e3, abs=made.error / 1e3 + 0.5)
     assert page.evaluate(colours) != before
     assert page.locator(".inset .rxf-overlay-cut").count() > 0
+    assert f"{tip:+.1f}°".replace("-", "−") in page.locator(".inset svg text").all_inner_texts()
     line = page.inner_text("h1")
     assert f"needs {power(page):.0f}\u00a0±\u00a0" in line
     assert "than as shared, " in line
