@@ -200,10 +200,9 @@ def fitted(solution: Solution) -> Fitted:
         error = made.error
         if error <= TOLERANCE * abs(solution.power.total):
             return made
-    why = "twists beside it do not trim" if math.isinf(error) else f"power would be {error / 1e3:.1f} kW off"
-    raise ValueError(
-        f"No page can be made of this design: even near its twist {why}. Choose a design farther from its limits."
-    )
+    off = f"power would be {error / 1e3:.1f} kW off even beside its twist"
+    why = "twists beside its own do not trim" if math.isinf(error) else off
+    raise ValueError(f"No page can be made of this design: {why}. Choose a design farther from its limits.")
 
 
 def _of_law(design: Design, share: float) -> Family:

@@ -59,7 +59,8 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
         page.keyboard.press("ArrowRight")
     page.wait_for_function("() => document.querySelector('h1').innerText.includes('−3.0')")
     trim = solve(made.family.design(made.family.scaled([-12.0, -3.0, 0.5])))
-    exact, tip = trim.power.total, math.degrees(float(flown_twist(trim, math.radians(ViewState().azimuth_deg))(1.0)))
+    twist = flown_twist(trim, math.radians(ViewState().azimuth_deg))
+    exact, tip = trim.power.total, math.degrees(twist([1.0])[0])
     assert abs(exact - made.solution.power.total) > 2e3
     assert power(page) == pytest.approx(exact / 1e3, abs=made.error / 1e3 + 0.5)
     assert page.evaluate(colours) != before
