@@ -68,7 +68,7 @@ def document_html(
         "report.html",
         {
             "title": title,
-            "line": line,
+            "line": line.replace(" ± ", "\u00a0±\u00a0"),
             "program": PROGRAM,
             "policy": web.policy(*(scripts if scripts != ("report.js",) else ())),
             "styles": web.styles(*styles),

@@ -127,6 +127,7 @@ def _section(report: DesignReport, k: int) -> Markup:
         tag("p.dim", f"With {active}.") if active else None,
         tag("p.dim", flight_words(design, report.units), tag("br"), model_words(design)),
         _caveats(solution),
+        figures.disks(report, entry, k),
         tag(
             "div.tables",
             tables.conditions(solution),
@@ -135,7 +136,6 @@ def _section(report: DesignReport, k: int) -> Markup:
             tables.doubts(report, entry),
         ),
         tables.blade(design),
-        figures.disks(report, entry, k),
         figures.along(solution),
         tag("details", tag("summary", "Design file"), tag("pre", text)),
         id=f"design-{k}",

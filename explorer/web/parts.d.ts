@@ -68,6 +68,7 @@ interface RxPresses {
   rotor: string;
   flown: string;
   default: string;
+  kind: string;
   story: number;
   guess: number;
   stop: number;
@@ -351,6 +352,7 @@ interface RxLecturePart {
 
 interface RxStepAnswer {
   right: number;
+  open: number[];
   answer: string;
   chart: RxDrawnChart;
   dots: [number, number, string][][];
@@ -409,6 +411,7 @@ interface RxPlanPart {
   before: RxStationValues | null;
   coloured: RxPackedTable | null;
   held: string | null;
+  wiped: RxPlanDisk | null;
 }
 
 interface RxPlanDisk {

@@ -153,7 +153,7 @@ class SceneViews:
         self._context.wake()
 
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
-        """The disk from above, drawn by the page itself; two rotors that are wiped stay in the scene."""
+        """The disk from above, drawn by the page itself."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
@@ -162,8 +162,8 @@ class SceneViews:
         before, other = self.before, self._actuator.lifted or self.before is not None
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
         if before is not None:
-            view = replace(view, stall=True, reverse_flow=True, drag_divergence=False)
-        elif self._view != "disk" or other or (view.wipe and pinned is not None):
+            view = replace(view, stall=True, reverse_flow=True, drag_divergence=False, wipe=False)
+        elif self._view != "disk" or other:
             self._hide_plan()
             return
         field = shown_field(view, pinned)

@@ -65,7 +65,7 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     assert power(page) == pytest.approx(exact / 1e3, abs=made.error / 1e3 + 0.5)
     assert page.evaluate(colours) != before
     assert page.locator(".inset .rxf-overlay-cut").count() > 0
-    assert f"{tip:+.1f}°".replace("-", "−") in page.locator(".inset svg text").all_inner_texts()
+    assert f"{tip:+.1f}°".replace("-", "−") in page.locator(".inset svg text").all_text_contents()
     line = page.inner_text("h1")
     assert f"needs {power(page):.0f}\u00a0±\u00a0" in line
     assert "than as shared, " in line
