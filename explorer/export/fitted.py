@@ -173,11 +173,6 @@ class Fitted:
         of_change[0] -= self.at(of_change, self.family.here[None])[0]  # No change where nothing is changed.
         return of_power, of_change
 
-    @property
-    def count(self) -> int:
-        """Trims in all, with that of the design."""
-        return len(self.trims) + len(self.tested) + 1
-
 
 def fitted(solution: Solution) -> Fitted:
     """The polynomials about a trimmed design; ValueError with one sentence where there are none."""
@@ -239,11 +234,8 @@ def _of_drive(design: Design, share: float) -> Family:
     installed = inputs.installed(bare.rotor)
     actuator = installed.actuator
     sign = -1.0 if inputs.crossed and "crossed" in actuator.settings else 1.0
-    shapes = (
-        sign
-        / actuator.drive_swing
-        * np.array([np.interp(STATIONS, installed.r, each) for each in installed.shapes_in(bare)])
-    )
+    shapes = np.array([np.interp(STATIONS, installed.r, each) for each in installed.shapes_in(bare)])
+    shapes *= sign / actuator.drive_swing
     low, high = actuator.drive_range
     step = 10.0 ** math.floor(math.log10(0.01 * (high - low)))
     word, drives = "Voltage" if actuator.drive_unit == "V" else "Drive", inputs.driven_at(installed)
@@ -264,7 +256,8 @@ def _of_drive(design: Design, share: float) -> Family:
 
 def _handle(name: str, form: Slider, value: float, reach: float, ends: tuple[float, float]) -> Handle:
     """A slider that goes as far as its reach and its ends let it, in whole steps."""
-    down, up = (math.floor(min(reach, abs(end - value)) / form.step + 1e-9) * form.step for end in ends)
+    room = value - ends[0], ends[1] - value
+    down, up = (math.floor(min(reach, max(each, 0.0)) / form.step + 1e-9) * form.step for each in room)
     return Handle(name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value)
 
 
@@ -302,15 +295,12 @@ def _power(family: Family, solution: Solution, x: Array, trims: Sequence[Analysi
         values = [getattr(trim.solution.power, name) for trim in trims]
         by = [power_gradient(trim, name).along(each) for trim, each in zip(trims, along, strict=True)]
         found[name] = _solved(rows, np.concatenate((values, np.array(by).T.ravel(), [_HELD * getattr(exact, name)])))
+    few = _terms(x, _exponents(n, 2))
     for name in ("parasite", "climb"):
-        found[name] = np.zeros(len(quartic))
-        quadratic = _terms(x, _exponents(n, 2))
-        found[name][: quadratic.shape[1]] = _solved(
-            quadratic, np.array([getattr(trim.solution.power, name) for trim in trims])
-        )
+        quadratic = _solved(few, [getattr(trim.solution.power, name) for trim in trims])
+        found[name] = np.pad(quadratic, (0, len(quartic) - len(quadratic)))
     # The tail rotor's power follows the total.
-    tail = [trim.solution.power.tail for trim in trims]
-    slope, offset = np.polyfit(_totals(trims), tail, 1)
+    slope, offset = np.polyfit(_totals(trims), [trim.solution.power.tail for trim in trims], 1)
     found["tail"] = slope * found["total"]
     found["tail"][0] += offset
     for name, coefficients in found.items():
