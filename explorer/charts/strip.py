@@ -1,9 +1,11 @@
 """The charts of the results strip as plain values: power over µ, α and lift.
 
-Each chart compares this design with its reference. Gaps are NaN.
+Each chart compares this design with its reference. Gaps are NaN. Power has two scales: that of the speeds about the
+least, in which one designs, and the whole.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Literal
@@ -30,6 +32,10 @@ LOOKS: dict[Role, tuple[str, float, str]] = {
     "limit": ("var(--rx-stall)", 1.3, "3 3"),
 }
 """Colour, width [px] and dashes by role."""
+Scales = tuple[Range | None, Range | None]
+NONE: Scales = (None, None)
+_BOWL = 1.25
+"""Powers up to this part of the least lie on the scale that a chart opens with."""
 _LEAST_SWEPT = 4
 """Fewest points from which a top speed is shown."""
 INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
@@ -50,27 +56,60 @@ def _hover_dot(y: float) -> Points:
     return Points("", (0.0,), (y,), SAVING, size=3.5, words=("hover",))
 
 
+_FINE = np.linspace(SWEEP[0], SWEEP[-1], 5 * len(SWEEP) - 4)
+"""Advance ratios at which a curve is drawn, those of `SWEEP` among them."""
+
+
+def _smooth(role: Role, power: Array, *, filled: bool = False) -> Line:
+    """A cubic through the values of a sweep, with its gaps."""
+    known = np.isfinite(power)
+    if known.sum() < _LEAST_SWEPT:
+        return role_line(role, SWEEP, power, filled=filled)
+    between = np.interp(_FINE, SWEEP, known) > 1.0 - 1e-9
+    values = CubicSpline(np.array(SWEEP)[known], power[known])(_FINE)
+    return role_line(role, _FINE, np.where(between, values, np.nan), filled=filled)
+
+
+def _near(power: Array, values: Array) -> list[float]:
+    """The values where the power of a sweep is about the least; all where the air drives the rotor."""
+    least = min(_known(power.tolist()), default=0.0)
+    return values[power < (_BOWL * least if least > 0.0 else math.inf)].tolist()
+
+
 def power_change_chart(
-    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, previous: Range | None = None
+    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, held: Scales = NONE
 ) -> Chart:
     """Change of total power against the reference over µ; hover and the present condition are dots.
 
     `curve`: in kW over `SWEEP`. `change`: at the present condition [W], None without trim. `reference`: its name.
+    `held`: the two scales before.
     """
     unit = units.power[0]
     apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
     mus = np.array(SWEEP)
     now = math.nan if change is None else unit.of(change)
-    seen = [value for value in (*apart[mus <= max(0.4, mu)], now, 0.0) if math.isfinite(value)]
-    line = role_line("saving" if curve.current else "earlier", mus, apart, filled=curve.current)
+    seen = (*apart[mus <= max(0.4, mu)], now, 0.0)
+    near, whole = _scales((*_near(curve.design, apart), now, -2.0, 2.0), (*seen, -2.0, 2.0), held)
+    line = _smooth("saving" if curve.current else "earlier", apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
         "Power over µ",
-        Axis("µ", (0.0, SWEEP[-1])),
-        Axis(f"{unit.symbol} vs. {reference}", held_range(previous, min(-2.0, *seen), max(2.0, *seen))),
+        Axis("µ", (0.0, SWEEP[-1]), (0.0, 0.2, 0.4)),
+        Axis(f"{unit.symbol} vs. {reference}", near, whole=whole),
         (line, *hover, now_dot(mu, now)),
         note=autorotation_words(curve),
     )
+
+
+def _scales(near: Sequence[float], whole: Sequence[float], held: Scales) -> tuple[Range, Range | None]:
+    """The axis about some values, and that of all where it is another; each is held while its values fit."""
+    ends = ([end(_known(of), default=math.nan) for end in (min, max)] for of in (near, whole))
+    first, second = (held_range(before, low, high) for before, (low, high) in zip(held, ends, strict=True))
+    return first, None if second == first else second
+
+
+def _known(values: Sequence[float]) -> list[float]:
+    return [value for value in values if math.isfinite(value)]
 
 
 def autorotation_words(curve: PowerCurve) -> str:
@@ -87,15 +126,15 @@ def total_power_chart(
     mu: float,
     total: float | None,
     units: Units = SI,
-    held: Range | None = None,
+    held: Scales = NONE,
     marks: Points | None = None,
     design: Design | None = None,
 ) -> Chart:
     """Total power over µ of a design that is its own reference; hover and the present condition are dots.
 
-    `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
-    `marks`: main-rotor power measured in flight; then the computed one is a line. `design`: draws the power of its
-    engines, where the rotor file has it.
+    `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the two scales
+    before. `marks`: main-rotor power measured in flight; then the computed one is a line. `design`: draws the
+    power of its engines, where the rotor file has it.
     """
     unit = units.power[0]
     here = curve.in_unit(unit)
@@ -104,11 +143,11 @@ def total_power_chart(
     flown = ((), ()) if marks is None else (marks.x, marks.y)
     fastest = max(flown[0], default=0.4)  # Measured flights end far below µ 0.4, so their axis is shorter.
     values = (*power[mus <= max(fastest + 0.03, mu)], now, *flown[1])
-    seen = [value for value in values if math.isfinite(value)]
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
     known = curve.current and math.isfinite(power[least])
     role: Role = "saving" if curve.current else "earlier"
-    driven = role_line(role, mus, np.where(power < 0.0, power, np.nan), filled=True)
+    line = _smooth(role, power)
+    driven = replace(line, y=[min(value, 0.0) or math.nan for value in line.y], filled=True)
     value = "driven by the air" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
     note, engines = autorotation_words(curve), []
     if design is not None and design.aircraft.installed_power is not None:
@@ -119,16 +158,17 @@ def total_power_chart(
         note += " Gearbox losses and limits are not included, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
-    shaft = [] if here.main_rotor is None or marks is None else [role_line("reference", mus, here.main_rotor)]
-    y_range = held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan))
+    shaft = [] if here.main_rotor is None or marks is None else [_smooth("reference", here.main_rotor)]
+    bowl, all_of_it = _near(power, power), (0.0, *values)
+    y_range, whole = _scales((*bowl, now, *flown[1]) if bowl else all_of_it, all_of_it, held)
     return Chart(
         "Power over µ",
-        Axis("µ", (0.0, SWEEP[-1])),
-        Axis(f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol, y_range),
+        Axis("µ", (0.0, SWEEP[-1]), (0.0, 0.2, 0.4)),
+        Axis(f"{unit.symbol}; dashed: rotor" if shaft else unit.symbol, y_range, whole=whole),
         (
-            *_mostly_seen(engines, y_range),
+            *_mostly_seen(engines, whole or y_range),
             *shaft,
-            role_line(role, mus, power),
+            line,
             *([driven] if (power < 0.0).any() else []),
             *([] if marks is None else [marks]),
             *([_hover_dot(float(power[0]))] if curve.current else []),
@@ -176,13 +216,13 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
         walls.append((top, "engines"))
     if design.vertical_speed == 0.0:
         marks = _economic_speeds(tuple(x.tolist()), tuple(power.tolist()))
-    drawn = np.array(next(line.y for line in chart.series if isinstance(line, Line) and line.colour == SAVING))[known]
+    drawn = next(line for line in chart.series if isinstance(line, Line) and line.colour == SAVING)
 
     def mark(mu: float, word: str) -> Points:
         return Points(
             "",
             (mu,),
-            (float(np.interp(mu, x, drawn)),),
+            (float(np.interp(mu, drawn.x, drawn.y)),),
             SAVING,
             "ring",
             words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",),

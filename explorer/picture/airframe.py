@@ -1,10 +1,12 @@
 """The helicopter without blades: hub, cuffs, swashplate, pitch links and mast, and the airframe below them.
 
-The airframe is read from `assets/airframe.glb`, a UH-60A by its published dimensions or a generic
-one. Metres, hub at the origin, level attitude: x aft, y starboard, z up.
+The airframe is read from `assets/airframe.glb`, a UH-60A by its published dimensions or a generic one, which gets the
+length and tail rotor of its helicopter as far as they are known. Metres, hub at the origin, level attitude: x aft, y
+starboard, z up.
 """
 
 import math
+import tomllib
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
@@ -13,6 +15,7 @@ import trimesh
 
 from explorer.picture.blade_mesh import Mesh, joined_meshes, revolved, tube
 from rotor import Rotor
+from rotor.design.aircraft import TailRotor
 from rotor.support.assets import asset_path
 
 _DRAWN_FOR = 8.1788
@@ -99,23 +102,57 @@ class Airframe:
     """Height of the ground below the hub [m], negative."""
 
 
+_NOSE, _CABIN, _TAIL, _END = -4.1, (-1.7, 3.0), 9.7, 10.34
+"""Of the generic airframe along x: nose, cabin from the shaft on that keeps its shape, tail rotor, end of the fin."""
+
+
 @lru_cache(maxsize=4)
-def airframe(rotor: Rotor) -> Airframe:
-    """The airframe that goes with a rotor, as large as the rotor asks for."""
+def airframe(rotor: Rotor, tail: TailRotor | None = None) -> Airframe:
+    """The airframe that goes with a rotor, as large as the rotor asks for; `tail`: its tail rotor, if open."""
     parts, ground = _shipped()
     scale = size(rotor.radius)
     if rotor.name == "UH-60A":
-        name, body, dark = "uh60a", parts["uh60a-body"], parts["uh60a-dark"]
-    elif rotor.radius > _WHEELS_ABOVE_M:
-        name, body, dark = (
-            "generic",
-            joined_meshes((parts["generic-body"], parts["generic-legs"])),
-            parts["generic-wheels"],
-        )
-    else:
-        name, body, dark = "generic", parts["generic-body"], parts["generic-skids"]
-    glass = parts[f"{name}-glass"]
-    return Airframe(body.scaled(scale), glass.scaled(scale), dark.scaled(scale), scale * ground[name])
+        body, glass, black = (parts[f"uh60a-{part}"].scaled(scale) for part in ("body", "glass", "dark"))
+        return Airframe(body, glass, black, scale * ground["uh60a"])
+    wheels = rotor.radius > _WHEELS_ABOVE_M
+    body = joined_meshes((parts["generic-body"], parts["generic-legs"])) if wheels else parts["generic-body"]
+    *gear, blade = _open_tail_rotor(parts["generic-wheels" if wheels else "generic-skids"])
+    own = tomllib.loads(asset_path("airframes.toml").read_text(encoding="utf-8")).get(rotor.name, {})
+    end = own.get("tail_m", tail.arm + scale * (_END - _TAIL) if tail else scale * _END) / scale
+    nose = end - own["length_m"] / scale if own else _NOSE
+
+    def fitted(mesh: Mesh) -> Mesh:
+        x, y, z = mesh.vertices.T
+        x = np.interp(x, (_NOSE, *_CABIN, _TAIL, _END), (nose, *_CABIN, end - (_END - _TAIL), end))
+        return Mesh(np.column_stack([x, y, z]), mesh.faces).scaled(scale)
+
+    dark = [fitted(part) for part in gear]
+    if tail is not None:
+        dark += _tail_rotor(blade, tail, scale)
+    return Airframe(fitted(body), fitted(parts["generic-glass"]), joined_meshes(dark), scale * ground["generic"])
+
+
+def _open_tail_rotor(dark: Mesh) -> list[Mesh]:
+    """Gear, part by part, and last one blade of the tail rotor; its hub and other blades are left out."""
+    parts = trimesh.Trimesh(dark.vertices, dark.faces, process=False).split(only_watertight=False)
+    meshes = [Mesh(np.asarray(part.vertices, dtype=float), np.asarray(part.faces, dtype=np.uint32)) for part in parts]
+    turning = [mesh for mesh in meshes if mesh.vertices[:, 0].min() > 0.8 * _TAIL and mesh.vertices[:, 1].min() > 0.3]
+    blade = max(turning, key=lambda mesh: mesh.vertices[:, 0].max())
+    return [*(mesh for mesh in meshes if mesh not in turning), blade]
+
+
+def _tail_rotor(blade: Mesh, tail: TailRotor, scale: float) -> list[Mesh]:
+    """Hub and blades at their published place, on starboard. `blade`: of the generic airframe."""
+    hub = np.array([_TAIL, 0.43, -0.62])
+    out = blade.vertices - hub
+    to = np.array([tail.arm, scale * hub[1], scale * hub[2]])
+    factor = tail.radius / np.linalg.norm(out, axis=1).max()
+    blades = list[Mesh]()
+    for k in range(tail.blades):
+        turn = trimesh.transformations.rotation_matrix(2.0 * math.pi * k / tail.blades, [0.0, 1.0, 0.0])[:3, :3]
+        blades.append(Mesh(to + factor * out @ turn.T, blade.faces))
+    across = 0.11 * tail.radius * np.array([0.0, 1.0, 0.0])
+    return [tube(to - across, to + across, 0.1 * tail.radius), *blades]
 
 
 @cache

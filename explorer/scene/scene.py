@@ -17,6 +17,7 @@ from explorer.picture.airframe import airframe, mast, rotor_head, size
 from explorer.picture.blade_mesh import BladeForm, Faces, Mesh, blade_shape, joined_meshes, straight
 from explorer.picture.picture import Blades, Picture, Pose, axis_rotation
 from rotor import Design, Rotor
+from rotor.design.aircraft import TailRotor
 
 ROTOR, COMPARED = "/rotor", "/compared"
 """Names of the rotor of the sliders and of the one that it is compared with."""
@@ -122,7 +123,8 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._close, self._fitted = False, rotor
+        self._close = False
+        self._fitted: tuple[Rotor, TailRotor | None] = rotor, None
         self.behind = False
         """Whether the aircraft flies far behind something else: then the coloured disk is not in sight."""
         api.set_up_direction("+z")
@@ -144,14 +146,14 @@ class Scene:
         self._compared: RotorNodes | None = None
         self._comparing = self._alone = False
         self._light_up()
-        self._fit_airframe(rotor)
+        self._fit_airframe()
 
     def fit(self, design: Design) -> None:
         """Make room for a design; a rotor tested alone has no airframe."""
         rotor, alone = design.rotor, design.condition.stand is not None
-        if rotor != self._fitted:
-            self._fitted = rotor
-            self._fit_airframe(rotor)
+        if (fitted := (rotor, design.tail_rotor)) != self._fitted:
+            self._fitted = fitted
+            self._fit_airframe()
         self.rotor.fit(rotor)
         self.rotor.name_sides(disk_image.sides(design))
         if alone != self._alone:
@@ -212,17 +214,17 @@ class Scene:
     def _light_up(self) -> None:
         self._api.configure_environment_map("studio", environment_intensity=self._theme.environment)
 
-    def _fit_airframe(self, rotor: Rotor) -> None:
-        craft = airframe(rotor)
+    def _fit_airframe(self) -> None:
+        craft, radius = airframe(*self._fitted), self._fitted[0].radius
         for handle, mesh in ((self._body, craft.body), (self._glass, craft.glass), (self._dark_parts, craft.dark)):
             set_mesh(handle, mesh)
-        half, radius = disk_image.SHADOW_HALF * rotor.radius, rotor.radius
+        half = disk_image.SHADOW_HALF * radius
         self._shadow.render_width = self._shadow.render_height = 2.0 * half
         self._shadow.position = (disk_image.SHADOW_CENTRE * radius, 0.0, craft.ground - _BELOW_GROUND * size(radius))
         self._draw_shadow()
 
     def _draw_shadow(self) -> None:
-        mask = disk_image.shadow_mask(airframe(self._fitted), self._fitted.radius)
+        mask = disk_image.shadow_mask(airframe(*self._fitted), self._fitted[0].radius)
         viser_compat.set_png(self._shadow, disk_image.tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
 
     def _set_visible(self) -> None:

@@ -109,8 +109,17 @@ def _waves(design: Design | None) -> list[LinePiece]:
 def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bool = True) -> list[LinePiece]:
     """What it needs, with its band; where that is not `known` of this design, it is of the one before."""
     power, unit = solution.power, units.power[0]
-    if solution.design.models.trim == "free-rotor":
-        return [LinePiece(" "), LinePiece("needs no power", "total-power", title=band.sentence if band else "")]
+    if solution.design.models.trim == "free-rotor" and (ratio := solution.lift_to_drag) is not None:
+        # Its shaft has no power: the band is that of drag times speed.
+        within, drag = "", number(solution.lift_and_drag[1])
+        if band is not None and band.power:
+            within = f" ± {number(ratio * band.band / band.power, 1)}"
+        title = band.sentence if band else ""
+        ratio_words = (
+            LinePiece(number(ratio, 1), "total-power", title=title),
+            LinePiece(within, "within", stale=not known),
+        )
+        return [LinePiece(" has lift-to-drag ", "verb"), *ratio_words, LinePiece(f", drag {drag} N", WIDE)]
     total = number(abs(unit.of(power.total)), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
     pieces = [

@@ -18,6 +18,7 @@ from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, 
 from rotor import Solution
 from rotor.support.chart import Chart, drawn_chart
 
+_WHOLE = "-whole"
 _NOTICEABLE = 500.0
 """Changes of power below this [W] have no colour."""
 
@@ -49,7 +50,8 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
     design, reference, failed = state.solution.design, state.reference, bool(now.problem)
     # A preview, such as the flight of a schedule, is not what the sliders show.
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
-    held = now.memory.ranges.get(_axis(now, "power"))
+    axis = _axis(now, "power")
+    held = now.memory.ranges.get(axis), now.memory.ranges.get(axis + _WHOLE)
     change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
     kind: Kind = "" if change is None or abs(change) < _NOTICEABLE else "good" if change < 0.0 else "bad"
     if design == reference.design:
@@ -71,7 +73,9 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
 
 def remember_ranges(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
     """The axes that the next charts hold."""
-    ranges = {_axis(now, one.name): one.chart.y.range for one in shown.get("strip", ())}
+    axes = {_axis(now, one.name): one.chart.y for one in shown.get("strip", ())}
+    ranges = {name: axis.range for name, axis in axes.items()}
+    ranges |= {name + _WHOLE: axis.whole.range for name, axis in axes.items() if axis.whole is not None}
     return replace(now.memory, ranges={**now.memory.ranges, **ranges})
 
 

@@ -160,7 +160,8 @@ const Charts = (() => {
     const {series, rules = []} = chart, {left, right, top, base} = room, clip = `rxc${clips++ % 256}`;
     const place = {...room, settle: placer(chart, room, taken)};
     const ruled = rules.map(one => rule(one, place));
-    const dots = series.filter(({kind, mark}) => kind === 'points' && mark !== 'ring');
+    // A scale with a wider one beside it leaves to that what lies beyond.
+    const dots = series.filter(({kind, mark}) => kind === 'points' && mark !== 'ring' && !chart.y.whole);
     const drawn = series.filter(one => !dots.includes(one)).map(one => DRAWN[one.kind](one, place));
     return `<clipPath id="${clip}">
         <rect x="${left}" y="${top - 1}" width="${right - left + 2}" height="${base - top + 2}"/></clipPath>
@@ -176,21 +177,24 @@ const Charts = (() => {
   }
   const subscripts = words => text(words).replace(/\b([CU])_(\w)/g, '$1<sub>$2</sub>');
   // A whole chart into an element: heading with the key of its lines, and the drawing with what the pointer reads.
-  function fill(element, chart, {height, width = element.clientWidth}) {
+  // `scale`: a control before its value.
+  function fill(element, chart, {height, width = element.clientWidth, scale = ''}) {
     const {title, value, kind, note, y} = chart, high = height + (lower(chart) ? 17 : 0);
     const place = frame(chart, width, high, lower(chart) ? {bottom: 34} : {});
     const key = chart.series.filter(({label}) => label)
       .map(one => `<span class="rxf-legend-line">${swatch(one)}${text(one.label)}</span>`).join('');
-    const focus = element.contains(document.activeElement) && document.activeElement?.dataset.value;
+    const active = /** @type {any} */ (document.activeElement);
+    const {value: focus = '', page = ''} = element.contains(active) ? active.dataset : {};
     const spoken = text(`${title}, ${y.label ?? ''}. ${value ?? ''} ${note ?? ''}`);
     if (note) element.title = note; else element.removeAttribute('title');
     element.innerHTML = `
-      <div class="rxf-head"><b>${subscripts(title)}</b><span class="rxf-dim">${subscripts(y.label)}</span>${key}
+      <div class="rxf-head"><b>${subscripts(title)}</b><span class="rxf-dim">${subscripts(y.label)}</span>${key}${scale}
         <span class="rxf-num ${kind ? `rxf-${kind}` : ''}" data-value>${text(value)}</span></div>
       <svg viewBox="0 0 ${width} ${high}" role="img" aria-label="${spoken}">
         ${axes(chart, place)}${inside(chart, place)}<path data-hair pointer-events="none"/></svg>`;
     element.drawn = {chart, place};
-    if (focus) element.querySelector(`[data-do][data-value="${CSS.escape(focus)}"]`)?.focus({preventScroll: true});
+    const again = page ? '[data-page]' : focus && `[data-do][data-value="${CSS.escape(focus)}"]`;
+    if (again) element.querySelector(again)?.focus({preventScroll: true});
   }
   // A point with a press is a button, by keys as by the pointer.
   document.addEventListener('keydown', event => {

@@ -1,16 +1,23 @@
 // @ts-check
 // The strip below the scene, and the twist curve that can be dragged.
 (() => {
-  const {text, clamp, write, closest, paced, drag} = Common, {part} = RX;
+  const {text, clamp, write, closest, paced, drag, scale: grown} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', alpha: 'α'};
+  const whole = new Set();  // Charts that show all of their y, by name.
   function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
-    const width = Math.max(element.clientWidth - 32, 60), tight = element.toggleAttribute('data-tight', width < 260);
-    const chart = {...drawn, kind, speeds}, {title, y} = chart, height = Math.max(element.clientHeight - 38, 40);
+    const by = grown(), width = Math.max((element.clientWidth - 32) / by, 60);
+    const tight = element.toggleAttribute('data-tight', width < 260);
+    const y = {...drawn.y, ...whole.has(name) && drawn.y.whole};
+    const chart = {...drawn, y, kind, speeds}, {title} = drawn;
+    const height = Math.max((element.clientHeight - 18) / by - 20, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
-    Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height});
+    const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
+      title="All of the axis, or the part about the least. A double click does the same">
+      whole${tight ? '' : ' range'}</button>`;
+    Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height, scale});
     const {X, Y} = element.drawn.place, power = speeds && chart.series.at(-1).y[0];
     if (power !== null && power !== undefined) element.querySelector('svg').insertAdjacentHTML('beforeend',
       `<circle cx="${X(speeds.mu)}" cy="${Y(power)}" r="11" data-speed>
@@ -38,9 +45,17 @@
       end() { speeding.flush(); limit = ''; letGo(); },
     };
   });
+  function rescale(element) {
+    const {name} = element?.dataset ?? {};
+    if (!element?.drawn?.chart.y.whole) return;
+    if (!whole.delete(name)) whole.add(name);
+    RX.again('strip');
+  }
+  document.addEventListener('click', event => rescale(closest(event, '[data-page=scale]')?.closest('.rxf-chart')));
   document.addEventListener('dblclick', event => {
     const chart = closest(event, '[data-speed]')?.closest('.rxf-chart').drawn.chart;
     if (chart) RX.send('slide', ['advance_ratio', chart.speeds.fastest]);
+    else rescale(closest(event, 'svg')?.closest('.rxf-chart'));
   });
   RX.paint('strip', charts => {
     const strip = part('strip');
@@ -117,7 +132,8 @@
   // The twist curve: its handles are dragged, or moved by arrow keys.
   RX.paint('twist', twist => {
     for (const place of document.querySelectorAll('[data-curve]')) {
-      const {offsetWidth: width, offsetHeight: height} = place, stamp = JSON.stringify([twist, width, height]);
+      const by = grown(), [width, height] = [place.offsetWidth / by, place.offsetHeight / by];
+      const stamp = JSON.stringify([twist, width, height]);
       if (!width || (place.stamp === stamp && place.childElementCount)) continue;
       const {chart} = twist, focus = document.activeElement?.dataset?.knot;
       const frame = Charts.frame(chart, width, height, {left: 34});
@@ -139,8 +155,8 @@
     RX.send('knot', [name, 'start']);
     return {
       move({clientX, clientY}) {
-        const {left, top} = place.getBoundingClientRect(), {atX, atY} = place.frame;
-        knots.send([name, [atX(clientX - left), atY(clientY - top)]]);
+        const {left, top} = place.getBoundingClientRect(), {atX, atY} = place.frame, by = grown();
+        knots.send([name, [atX((clientX - left) / by), atY((clientY - top) / by)]]);
       },
       end() { setTimeout(() => RX.send('knot', [name, 'end']), 70); },
       escape() { knots.drop(); },

@@ -17,6 +17,12 @@ const Common = (() => {
   // HTML into an element that nobody else fills, unless it has it already: then its controls stay the same ones.
   const write = (element, html) => { if (element.written !== html) element.innerHTML = element.written = html; };
 
+  // How large type, cards and charts are: they grow with a window larger than that of a desk.
+  const scale = () => clamp(Math.min(innerWidth / 1650, innerHeight / 940), 1, 1.5);
+  const grow = () => page.style.setProperty('--rx-type', scale().toFixed(3));
+  addEventListener('resize', grow);
+  grow();
+
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   /** @returns {any} */
   const closest = ({target}, selector) => target instanceof Element ? target.closest(selector) : null;
@@ -82,7 +88,7 @@ const Common = (() => {
   }
 
   return {
-    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm, closest, soon, paced, drag,
+    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm, closest, scale, soon, paced, drag,
     viewer, node, setPose, project, follow,
   };
 })();

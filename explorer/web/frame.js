@@ -164,7 +164,7 @@
   const small = RX.small = matchMedia('(max-width: 860px), (max-height: 480px)'), more = () => 'more' in page.dataset;
   const beside = () => innerHeight <= 480;  // Where the window is low: then it stays open.
   function toggle(name) {
-    if (name === 'more') return;
+    if (name === 'more' || name === 'scale') return;
     const open = page.dataset.rail === 'open' && !state.bar?.drawer;
     if (state.bar?.drawer) RX.send('drawer', '');
     if (name === 'rail') showTab('controls', !open);
@@ -182,7 +182,7 @@
   };
   function sayOpen() {
     const open = page.dataset.rail === 'open' && !state.bar?.drawer;
-    for (const button of root.querySelectorAll('[data-page]')) {
+    for (const button of root.querySelectorAll('[data-page]:not([data-page=scale])')) {
       const {page: name} = button.dataset;
       button.ariaExpanded = String(name === 'more' ? more() : open && (name === 'rail' || name === page.dataset.tab));
     }

@@ -172,11 +172,17 @@ interface RxDrawnChart {
 }
 
 interface RxDrawnAxis {
-  label: string;
   range: [number, number];
   ticks: [number, string][];
+  label: string;
   log?: boolean;
   ends?: boolean;
+  whole?: RxDrawnScale | null;
+}
+
+interface RxDrawnScale {
+  range: [number, number];
+  ticks: [number, string][];
 }
 
 interface RxDrawnLine {

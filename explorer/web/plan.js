@@ -2,9 +2,10 @@
 // The disk as a plan: field, crisp outlines, labels outside the rim, values under the pointer, and the angle of attack
 // around the circle under it. The values lie in the page: reading them asks no server.
 (() => {
-  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, soon} = Common;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, write, scale, soon} = Common;
   const {part} = RX, page = document.documentElement, place = part('plan'), around = part('around');
-  const RADII = 40, AZIMUTHS = 120, LABEL = {width: 158, height: 40}, ROOM = 34;
+  const RADII = 40, AZIMUTHS = 120, ROOM = 34;
+  const LABEL = {get width() { return 158 * scale(); }, get height() { return 40 * scale(); }};
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
   const MOVING = 320;  // [px] Along the edge of the field while something moves.
   const COLOURS = {
@@ -66,19 +67,21 @@
   function arrange() {
     const {held} = RX.shown('plan'), {clientWidth: width, clientHeight: height} = place;
     const chart = around.firstElementChild;
-    const wide = !held && !RX.small.matches && width > 560 && width - CARDS > height - STACKED;
-    const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
+    const by = scale(), wide = !held && !RX.small.matches && width > 560 && width - CARDS * by > height - STACKED;
+    const both = width - CARDS * by - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
     const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
     const high = (held ? seen('.rxf-power')?.bottom ?? 0 : covered()) + ROOM;
     const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
-      : wide ? [CARDS, both ? LABEL.width + 26 : 70, ROOM, ROOM]
+      : wide ? [CARDS * by, both ? LABEL.width + 26 : 70, ROOM, ROOM]
         : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
     return {
       width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
       x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,
-      chart: chart && {width: Math.max(chart.clientWidth - 32, 80), height: Math.max(chart.clientHeight - 36, 40)},
+      chart: chart && {
+        width: Math.max((chart.clientWidth - 32) / by, 80), height: Math.max((chart.clientHeight - 16) / by - 20, 40),
+      },
     };
   }
 
@@ -174,7 +177,7 @@
     <span class="rxf-num">${text(words)}</span>${RX.price(name)}</div>`;
   const priceHeight = name => {
     const {lines, press} = RX.state.prices?.[name] ?? {lines: [], press: ''};
-    return 15 * lines.length + (press ? 26 : 0);
+    return scale() * (15 * lines.length + (press ? 26 : 0));
   };
   function free({taken, from, to}, wanted, size) {
     const tops = [clamp(wanted, from, to - size), ...taken.flatMap(([top, own]) => [top - size - 8, top + own + 8])];

@@ -46,6 +46,8 @@ class Axis:
     log: bool = False
     names: tuple[str, ...] = ()
     """Names of the places 0, 1, … of y, which then run down the left side; values and error bars lie along x."""
+    whole: Span | None = None
+    """Ends that show all, which the page draws on demand; None: those of `range`."""
 
 
 def _keep(series: object, *names: str) -> None:
@@ -204,15 +206,20 @@ def dash_lengths(line: Line) -> str | None:
     return _DASHES if line.dashes is True else line.dashes or None
 
 
-class DrawnAxis(Struct, frozen=True, omit_defaults=True):
-    """An axis with its ends and the places and texts of its ticks."""
+class DrawnScale(Struct, frozen=True):
+    """Ends of an axis, and the places and texts of its ticks."""
 
-    label: str
     range: Span
     ticks: list[tuple[float, str]]
+
+
+class DrawnAxis(DrawnScale, frozen=True, omit_defaults=True, kw_only=True):
+    label: str
     log: bool = False
     ends: bool = False
     """Whether words stand at its two ends alone."""
+    whole: DrawnScale | None = None
+    """The scale that shows all."""
 
 
 class _DrawnSeries(Struct, frozen=True, omit_defaults=True, tag_field="kind"):
@@ -278,8 +285,10 @@ def drawn_chart(chart: Chart) -> DrawnChart:
 def _drawn_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> DrawnAxis:
     scale = chart.x if axis == "x" else chart.y
     low, high = chart.span(axis)
-    ticks = chart.ticks(axis, about)
-    return DrawnAxis(scale.label, (float(low), float(high)), ticks, scale.log, len(scale.words) == 2)
+    ends, ticks, two = (float(low), float(high)), chart.ticks(axis, about), len(scale.words) == 2
+    whole = scale.whole
+    told = None if whole is None else DrawnScale(whole, [(at, tick_text(at)) for at in round_ticks(*whole, about)])
+    return DrawnAxis(ends, ticks, label=scale.label, log=scale.log, ends=two, whole=told)
 
 
 def _drawn_series(series: Series, colour: str, digits: dict[str, int]) -> DrawnLine | DrawnPoints | DrawnBand:

@@ -10,7 +10,7 @@ from watched import LARGE, ON_SCREEN, Visit, Watched
 MEASURE = (Path(__file__).parent / "overlaps.js").read_text(encoding="utf-8")
 CLEAN: dict[str, list[str]] = {"hit": [], "outside": [], "hidden": [], "nameless": [], "cut": []}
 SMALL = [(390, 844), (844, 390), (812, 734), (768, 1024)]
-MOST_NUMBERS, MOST_CONTROLS = 28, 36
+MOST_NUMBERS, MOST_CONTROLS = 31, 36
 """In the first view of a desk with a pointer, marks of axes and fields too. Other numbers wait for the pointer."""
 # Where the rim of the disk is, or the ends of the lifted blade: [left, right, top, bottom].
 SUBJECT = """name => {
@@ -66,6 +66,49 @@ def test_nothing_lies_over_anything(visit: Visit, width: int, height: int, least
     for drawer in ("share", "lecture"):
         watched.drawer(drawer)
         assert found(watched)[0] == CLEAN, drawer
+
+
+def test_the_chart_of_power_shows_the_bowl_and_all_of_it_on_demand(visit: Visit):
+    watched = visit(size=LARGE)
+    page = watched.page
+    chart, button = page.locator("[data-name=power]"), page.locator("[data-name=power] [data-page=scale]")
+    page.wait_for_function("() => RX.state.strip?.[0].chart.y.whole?.range[1] >= 3000")
+
+    def numbers() -> list[float]:
+        """Of the axis, from below."""
+        texts = chart.locator("svg text[text-anchor=end]").all_text_contents()
+        return [float(text) for text in texts if text.replace(".", "").isdigit()]
+
+    near = numbers()
+    assert near[0] > 500.0
+    assert 3 <= len(near) <= 5
+    button.focus()
+    page.keyboard.press("Enter")
+    watched.until(lambda: numbers()[0] == 0.0)
+    assert numbers()[-1] >= 3000.0
+    assert button.evaluate("button => button === document.activeElement && button.ariaPressed") == "true"
+    chart.locator("svg").dblclick(position={"x": 200, "y": 30})
+    watched.until(lambda: numbers() == near)
+
+
+def test_a_large_screen_has_large_type_charts_and_rail(visit: Visit):
+    watched = visit(size=(2560, 1440))
+    page = watched.page
+    assert found(watched)[0] == CLEAN
+    size = (
+        "name => { const box = document.querySelector(name).getBoundingClientRect(); return [box.width, box.height]; }"
+    )
+    assert page.evaluate(size, ".rxf-chart > svg")[1] > 220.0
+    assert page.evaluate(size, "[data-dock-region=right]")[0] > 480.0
+    assert page.evaluate("() => parseFloat(getComputedStyle(document.querySelector('.rxf-line')).fontSize)") > 24.0
+    # What is dragged in a drawing that has grown stays under the pointer.
+    knot = "[data-knot]:last-of-type [data-reach]"
+    x, y = watched.middle(knot)
+    watched.hold(x, y)
+    page.mouse.move(x, y - 30.0, steps=4)
+    watched.until(lambda: watched.middle(knot)[1] < y - 27.0)
+    assert watched.middle(knot)[1] == pytest.approx(y - 30.0, abs=3.0)
+    page.mouse.up()
 
 
 def has_room(watched: Watched, subject: str, height: int) -> None:

@@ -86,14 +86,15 @@ def parts_of(mesh: Mesh) -> list[trimesh.Trimesh]:
 @pytest.mark.parametrize("name", SHIPPED_ROTORS)
 class TestEveryRotor:
     def test_all_parts_are_closed_and_face_outward(self, name: str):
-        craft = airframe(rotor_named(name))
+        craft = airframe(rotor_named(name), shipped_aircraft(name).tail_rotor)
         for mesh in (craft.body, craft.dark, rotor_head(rotor_named(name)), mast(rotor_named(name).radius)):
             parts = parts_of(mesh)
             assert parts
             assert all(part.is_watertight and part.volume > 0.0 for part in parts)
 
     def test_it_clears_the_disk_and_stands_on_the_ground(self, name: str):
-        craft, radius = airframe(rotor_named(name)), rotor_named(name).radius
+        rotor = rotor_named(name)
+        craft, radius = airframe(rotor, shipped_aircraft(name).tail_rotor), rotor.radius
         inside = np.hypot(craft.body.vertices[:, 0], craft.body.vertices[:, 1]) < radius
         assert craft.body.vertices[inside, 2].max() < -0.05 * radius
         lowest = craft.dark.vertices[:, 2].min()
@@ -107,6 +108,27 @@ class TestEveryRotor:
         step = 360.0 / rotor.blades
         arms = np.unique(np.round(psi[far] / step) % rotor.blades)
         assert len(arms) == rotor.blades
+
+
+@pytest.mark.parametrize(("name", "length"), [("s61", 17.96), ("bo105", 8.56), ("gazelle", 9.53), ("r22", None)])
+def test_each_helicopter_has_its_length_and_its_tail_rotor(name: str, length: float | None):
+    aircraft = shipped_aircraft(name)
+    rotor, tail = rotor_named(name), aircraft.tail_rotor
+    craft = airframe(rotor, tail)
+    if length is not None:
+        assert np.ptp(craft.body.vertices[:, 0]) == pytest.approx(length, abs=0.02)
+    aft = [
+        part.vertices
+        for part in parts_of(craft.dark)
+        if part.vertices[:, 1].min() > 0.0 and part.vertices[:, 0].min() > 0.5 * rotor.radius
+    ]
+    if tail is None:  # A fan in the fin.
+        assert not aft
+        return
+    assert len(aft) == 1 + tail.blades
+    away = np.concatenate(aft) - aft[0].mean(axis=0)
+    assert aft[0].mean(axis=0)[0] == pytest.approx(tail.arm, abs=0.02)
+    assert np.linalg.norm(away, axis=1).max() == pytest.approx(tail.radius, rel=0.01)
 
 
 class TestBlackHawk:

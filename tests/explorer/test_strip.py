@@ -59,7 +59,7 @@ class TestPowerChange:
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "UH-60A as built")
         assert chart.y.label == "kW vs. UH-60A as built"
         assert lines(chart)[0].x[0] == 0.0
-        assert_allclose(lines(chart)[0].y, -50.0 * np.array(SWEEP), atol=1e-9)
+        assert_allclose(lines(chart)[0].y, -50.0 * np.array(lines(chart)[0].x), atol=1e-9)
         assert [(x, words) for x, _, words in dots(chart)] == [(0.0, "hover"), (0.2, "now")]
         assert chart.value == ""  # The card has it, with its band.
 
@@ -78,9 +78,30 @@ class TestPowerChange:
         curve.design[:] = 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2
         chart = total_power_chart(curve, 0.2, 720e3)
         assert (chart.y.label, chart.value) == ("kW", "least near µ 0.15")
-        assert_allclose(lines(chart)[0].y, 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2)
+        assert_allclose(lines(chart)[0].y, 700.0 + 8000.0 * (np.array(lines(chart)[0].x) - 0.15) ** 2)
         assert dots(chart) == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "now")]
-        assert chart.span("y")[0] == 0.0
+
+    def test_the_bowl_fills_its_chart_and_the_whole_is_at_hand(self):
+        """Of a bowl from 1,550 over 870 to 3,850 kW, whose 35 kW about the least were 1 % of the axis."""
+        curve = self.curve(0.0)
+        curve.design[:] = np.where(np.array(SWEEP) < 0.17, 870.0 + 23500.0 * (np.array(SWEEP) - 0.17) ** 2, 0.0)
+        curve.design[7:] = 870.0 + 38000.0 * (np.array(SWEEP)[7:] - 0.17) ** 2
+        near = total_power_chart(curve, 0.2, 904e3).y
+        drawn = drawn_chart(total_power_chart(curve, 0.2, 904e3)).y
+        assert near.range == (800.0, 1100.0)
+        assert near.whole == (0.0, 4000.0)
+        assert [at for at, _ in drawn.ticks] == [800.0, 900.0, 1000.0, 1100.0]
+        assert drawn.whole is not None
+        assert [at for at, _ in drawn.whole.ticks] == [0.0, 1000.0, 2000.0, 3000.0, 4000.0]
+        # What is flown is always within the axis, and measured powers are.
+        assert total_power_chart(curve, 0.0, 1550e3).y.range == (800.0, 1600.0)
+        flown = Points("", (0.1, 0.3), (700.0, 2000.0))
+        low, high = total_power_chart(curve, 0.2, 904e3, marks=flown).span("y")
+        assert low <= 700.0
+        assert high >= 2000.0
+        # A change is judged where one flies, too.
+        curve.reference[:] = curve.design + np.where(np.array(SWEEP) < 0.3, 5.0, 400.0)
+        assert power_change_chart(curve, 0.2, -5e3, "A").span("y")[0] > -50.0
 
     def test_the_top_speed_is_where_power_meets_that_of_the_engines(self):
         """A parabola meets a level at a place known in closed form; the points lie .025 apart."""
@@ -140,7 +161,7 @@ class TestPowerChange:
         curve = self.curve(0.0)
         curve.design[:] = math.nan
         chart = total_power_chart(curve, 0.2, 720e3, AVIATION)
-        assert chart.value == ""
+        assert (chart.value, chart.y.range, chart.y.whole) == ("", (0.0, 1500.0), None)
         assert dots(chart)[-1][1] == pytest.approx(720e3 / 745.699872, abs=0.1)
 
 

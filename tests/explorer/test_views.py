@@ -25,6 +25,7 @@ from explorer.views.power import held_power, power_card
 from explorer.views.strip import remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
+from rotor import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -205,9 +206,13 @@ class TestWithoutATrim:
 
 def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
     now = soon(now_at(FREE))
-    assert pieces(now)["total-power"].text == "needs no power"
+    assert now.state is not None
+    lift, drag = now.state.solution.lift_and_drag
+    band = doubt(now.state.solution)
+    assert pieces(now)["total-power"].text == f"{lift / drag:.1f}"
     assert pieces(now)["total-power"].title.startswith("Drag times speed")
-    assert ("within" in pieces(now), worth(now)["worth"], slopes_asked(now)) == (False, {}, ())
+    assert pieces(now)["within"].text == f" ± {lift / drag * band.band / band.power:.1f}"
+    assert (worth(now)["worth"], slopes_asked(now)) == ({}, ())
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
