@@ -144,10 +144,15 @@ def disk_drawing(
     """
     half = disk_image.half_width(100.0, min(pixels, disk_image.LARGEST))
     png = disk_png(solution, field, colour_range, size=pixels, marks=ALL_MARKS)
+    return image(-half, -half, 2 * half, 2 * half, png) + disk_marks(solution, letters, units)
+
+
+def disk_marks(solution: Solution, letters: float, units: Units) -> Markup:
+    """What stands around the disk in `disk_drawing`: rim, cut-out, azimuths, speed."""
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = [tag("circle", r=r, fill="none") for r in (100.0, cutout)]
     rim = tag("g", rings, tag("path", d=_ticks()), stroke=css(RIM), stroke_width=0.8)
-    return group(image(-half, -half, 2 * half, 2 * half, png), rim, _labels(letters), _flight(solution, letters, units))
+    return group(rim, _labels(letters), _flight(solution, letters, units))
 
 
 def _ticks() -> str:

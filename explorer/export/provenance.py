@@ -7,11 +7,13 @@ import re
 import zipfile
 from collections.abc import Sequence
 from dataclasses import fields
+from datetime import datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
+from explorer import web
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.picture import flown_twist
@@ -22,6 +24,7 @@ from rotor.aero.problem import grid_of
 from rotor.design.aircraft import in_words
 from rotor.support.arrays import Array
 from rotor.support.assets import commit
+from rotor.support.markup import Markup, group, tag
 from rotor.support.units import KNOT
 from rotor.support.user_input import csv_text
 from rotor.trim import DiskFields
@@ -46,6 +49,37 @@ def versions() -> dict[str, str]:
         numbers[PROGRAM] += f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
     numbers["Python"] = platform.python_version()
     return numbers
+
+
+def document_html(
+    title: str,
+    line: str,
+    content: Markup,
+    validity: str,
+    when: datetime,
+    styles: Sequence[str] = ("report.css",),
+    scripts: Sequence[str] = ("report.js",),
+) -> str:
+    """A file that opens without a server, with what its numbers are worth.
+
+    Of scripts other than the report's no further one may run in it.
+    """
+    return web.fill(
+        "report.html",
+        {
+            "title": title,
+            "line": line.replace(" ± ", "\u00a0±\u00a0"),
+            "program": PROGRAM,
+            "policy": web.policy(*(scripts if scripts != ("report.js",) else ())),
+            "styles": web.styles(*styles),
+            "when": f"{when.day} {when:%B %Y, %H:%M}",
+            "version": versions()[PROGRAM],
+            "content": content,
+            "validity": validity,
+            "versions": group(tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()),
+            "scripts": web.scripts(*scripts),
+        },
+    )
 
 
 def condition_line(design: Design) -> str:

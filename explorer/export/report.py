@@ -16,7 +16,8 @@ from explorer.colours import PARTS
 from explorer.export import figures, tables
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, on_board
 from explorer.export.figures import actuator_section
-from explorer.export.provenance import PROGRAM, versions
+from explorer.export.live import live_html
+from explorer.export.provenance import document_html
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
 from explorer.model.units import number
 from explorer.picture.fields import FIELDS
@@ -49,21 +50,12 @@ def report_html(
         actuator_section(report.actuator, report.units),
     ]
     sections = [_section(report, k) for k in range(len(report.shown))]
-    rows = [tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()]
-    return web.fill(
-        "report.html",
-        {
-            "title": title,
-            "line": title if several else (report.line or _line(report)).replace(" ± ", "\u00a0±\u00a0"),
-            "program": PROGRAM,
-            "policy": web.policy(),
-            "styles": web.styles("report.css"),
-            "when": f"{report.when.day} {report.when:%B %Y, %H:%M}",
-            "version": versions()[PROGRAM],
-            "content": group(overview, sections),
-            "versions": group(rows),
-            "scripts": web.scripts("report.js"),
-        },
+    return document_html(
+        title,
+        title if several else report.line or _line(report),
+        group(overview, sections),
+        "Every design here is trimmed: thrust balances weight and drag, and the parts of power add up to the total.",
+        report.when,
     )
 
 
@@ -167,6 +159,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.live:
+        if len(options.designs) > 1:
+            raise ValueError(f"--live takes one design, not {len(options.designs)}: make a file of each")
+        html = live_html(solve(load_design(options.designs[0])))
+        _write(options.out, html)
+        print(f"{options.out}: {len(html) / 1e3:.0f} kB")
+        return 0
     entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
     view = ViewState(field=options.field)
     first = entries[0].solution.design
@@ -193,13 +192,19 @@ def _parser() -> argparse.ArgumentParser:
     parser = OneLineParser(
         prog=command_words("explorer", "rotor-explorer") + " report",
         description="Write designs side by side as one HTML file that opens without a server.",
-        examples=(("Two designs", "a.json b.json --out report.html"),),
+        examples=(
+            ("Two designs", "a.json b.json --out report.html"),
+            ("One whose twist can be dragged", "a.json --live --out page.html"),
+        ),
     )
     parser.add_argument(
         "designs",
         nargs="+",
         metavar="FILE",
         help="design files; changes are relative to the baseline twist of the first",
+    )
+    parser.add_argument(
+        "--live", action="store_true", help="a page that travels: the sliders of one design's twist work in the file"
     )
     parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default report.html)")
     parser.add_argument(

@@ -304,7 +304,7 @@ _OUTLINE_POINTS = 25
 
 def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exaggeration: float) -> InsetBlade:
     """What the page draws the inset from, about 4 kB: eight sections, and edges between them."""
-    r, cuts = _places(rotor)
+    r, cuts = inset_places(rotor)
     places = np.concatenate((r, cuts, [REFERENCE_RADIUS]))
     *angles, datum = _degrees(twist, places)
     behind = None if overlay is None else _degrees(overlay, places)
@@ -323,7 +323,7 @@ def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exag
     )
 
 
-def _places(rotor: Rotor) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def inset_places(rotor: Rotor) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """r/R along the edges, and of the sections."""
     cutout = rotor.blade.root_cutout
     return np.linspace(cutout, 1.0, _EDGE_POINTS), np.round(cutout + (1.0 - cutout) * np.array(_SPANWISE), 2)
@@ -332,7 +332,7 @@ def _places(rotor: Rotor) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 @lru_cache(maxsize=4)
 def _outlines(rotor: Rotor) -> tuple[list[list[float]], ...]:
     chord = rotor.reference_chord
-    rings = [section_ring(rotor, float(r), _OUTLINE_POINTS) / chord for r in _places(rotor)[1]]
+    rings = [section_ring(rotor, float(r), _OUTLINE_POINTS) / chord for r in inset_places(rotor)[1]]
     return tuple(np.round(ring, 3).tolist() for ring in rings)
 
 

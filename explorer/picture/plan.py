@@ -171,7 +171,7 @@ def plan(
         mu=round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
         values=_values(solution) if at_rest else None,
         before=_values(pinned) if at_rest and pinned is not None else None,
-        coloured=_packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
+        coloured=packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
         wiped=_disk(pinned, field, colour_range) if view.wipe and pinned is not None else None,
     )
 
@@ -199,8 +199,8 @@ def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> li
     shares = region_shares(solution)
     regions = list[PlanRegion]()
     for name, (title, segments) in _REGIONS.items():
-        lines = _lines(segments(solution)) if getattr(view, name) else []
-        before = _lines(segments(pinned)) if pinned is not None and getattr(view, name) else []
+        lines = outline(segments(solution)) if getattr(view, name) else []
+        before = outline(segments(pinned)) if pinned is not None and getattr(view, name) else []
         if not lines and not before:
             continue
         area, thrust = shares[name]
@@ -224,7 +224,7 @@ def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
     return shares | {"stall": (solution.stalled_area, solution.stalled_thrust)}
 
 
-def _lines(segments: Array) -> list[list[list[float]]]:
+def outline(segments: Array) -> list[list[list[float]]]:
     """Segments (aft, starboard) as polylines (right, down), in radii."""
     if not len(segments):
         return []
@@ -239,11 +239,11 @@ def _values(solution: Solution) -> StationValues:
     angles = {"theta": disk.theta, "ahead": ahead, "lower": lower, "upper": upper}
     tables = {name: np.degrees(each) for name, each in angles.items()}
     tables |= {"u_t": disk.u_t, "u_p": disk.u_p, "mach": disk.mach, "cl": disk.cl}
-    packed = {name: _packed(np.broadcast_to(each, disk.mach.shape)) for name, each in tables.items()}
-    return StationValues([round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), packed)
+    steps = {name: packed(np.broadcast_to(each, disk.mach.shape)) for name, each in tables.items()}
+    return StationValues([round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), steps)
 
 
-def _packed(values: Array | Single) -> PackedTable:
+def packed(values: Array | Single) -> PackedTable:
     """A table as 16-bit steps between its least and its greatest value."""
     low, high = float(values.min()), float(values.max())
     step = max(high - low, 1e-9) / 65535.0

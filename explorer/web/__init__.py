@@ -4,6 +4,8 @@ What Python computes goes into them in two ways: into the served page as calls o
 (`explorer.hosting.browser.call`), into a file that is written as `{{name}}` of its HTML (`fill`), data as a JSON block.
 """
 
+import base64
+import hashlib
 import json
 import re
 from collections.abc import Mapping
@@ -32,6 +34,10 @@ _POLICY = (
     f"style-src 'unsafe-inline'; img-src {_INSIDE}; font-src data:; connect-src {_INSIDE}; base-uri 'none'; "
     "form-action 'none'"
 )
+_STRICT = (
+    "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data:; connect-src 'none'; "
+    "base-uri 'none'; form-action 'none'"
+)
 
 
 @cache
@@ -45,9 +51,15 @@ def fill(name: str, values: Mapping[str, str]) -> Markup:
     return Markup(re.sub(r"\{\{(\w+)\}\}", lambda match: group(values[match[1]]), text(name)))
 
 
-def policy() -> Markup:
-    """For the head of a file that is passed on: what is in it may run and be shown, nothing is asked of any host."""
-    return tag("meta", http_equiv="Content-Security-Policy", content=_POLICY)
+def policy(*names: str) -> Markup:
+    """For the head of a file that is passed on: what is in it may run and be shown, nothing is asked of any host.
+
+    names: of its scripts, of which no other may run; without them it holds a viewer.
+    """
+    hashes = (hashlib.sha256(text(name).encode()).digest() for name in names)
+    allowed = " ".join(f"'sha256-{base64.b64encode(each).decode()}'" for each in hashes)
+    content = _STRICT.format(allowed) if names else _POLICY
+    return tag("meta", http_equiv="Content-Security-Policy", content=content)
 
 
 def json_block(name: str, data: Any) -> Markup:

@@ -136,7 +136,7 @@
     material.customProgramCacheKey = () => 'rxDisk';
     material.needsUpdate = true;
   }
-  const numbersOf = text => unpack(text, new Uint8Array(text.length), 0, 1);
+  const numbersOf = text => text instanceof Uint8Array ? text : unpack(text, new Uint8Array(text.length), 0, 1);
   function unpack(text, data, channel, every = 4) {
     if (text === null) {  // Nothing is marked.
       for (let n = channel; n < data.length; n += every) data[n] = 255;

@@ -69,7 +69,7 @@
     const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>
-        <span class="rxf-dim">twist ×${times}${times > 1 ? ', as in the scene' : ''}</span>
+        <span class="rxf-dim">twist ×${times}${times > 1 && RX.state ? ', as in the scene' : ''}</span>
         <div class="rxf-key">${key(inset.name_hint, '', inset.name)}${
           overlay ? key(inset.overlay_hint, 'data-overlay',
             inset.overlay_name) : ''}<span>root ← r/R → tip</span></div></div>

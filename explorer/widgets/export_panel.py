@@ -19,12 +19,14 @@ from explorer.charts.plots import PowerCurves
 from explorer.export import film
 from explorer.export.blade import blade_stl
 from explorer.export.contents import DesignReport, ReportEntry
+from explorer.export.live import live_html
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
 from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, view_png
 from explorer.hosting.browser import call
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
+from explorer.model.units import units_of
 from explorer.picture.camera_views import FIELD_OF_VIEW, RIDE_VIEW, Camera, camera_axes, riding, seen_at
 from explorer.picture.element import AZIMUTHS, turn_of
 from explorer.picture.fields import FIELDS
@@ -67,6 +69,7 @@ class ExportPanel:
                 ("Picture", ".png", self._picture),
                 ("Film of a turn", "-turn.gif", self._film),
                 ("Report", "-report.html", self._report),
+                ("Page that travels", "-page.html", _live),
                 ("Tables", "-tables.zip", self._tables),
                 ("Design file", ".json", _design_file),
                 ("As-built STL", "-as-built.stl", lambda state: blade_stl(state.solution.design)),
@@ -203,6 +206,11 @@ class ExportPanel:
     def _say(self, kind: str, sentence: str) -> None:
         marks = {"data_explorer": "export", "data_kind": kind}
         self._state.content = tag("div.rx.rx-small.rx-export", sentence, **marks)
+
+
+def _live(state: SessionState) -> bytes:
+    """The present design, its twist on sliders that need no server."""
+    return live_html(state.solution, units_of(state.view.units, state.solution.design.aircraft)).encode()
 
 
 def _design_file(state: SessionState) -> bytes:

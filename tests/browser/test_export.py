@@ -81,6 +81,14 @@ def test_the_picture_is_the_same_from_a_window_of_another_shape(watched: Watched
     assert np.ptp(line) > 100
 
 
+def test_the_page_that_travels_is_small_and_has_its_numbers(watched: Watched, tmp_path: Path):
+    text = saved(watched, "Page that travels", tmp_path).read_text(encoding="utf-8")
+    assert len(text) < 2_000_000
+    assert asks_nobody(text)
+    assert 'id="model"' in text
+    assert f"needs {watched.text('total-power').replace(chr(0x2009), '')}" in text.replace("\u2009", "")
+
+
 def asks_nobody(text: str) -> bool:
     """Whether the policy that forbids requests stands before the first script."""
     return 0 < text.find("default-src 'none'") < text.index("<script")

@@ -1,6 +1,7 @@
-"""Take the pictures of the page that the documents show: `python -m tests.tools.pictures`.
+"""Make what the documents show of the page: `python -m tests.tools.pictures`.
 
-It needs Chromium (`make browser`). Software draws the scene, so one picture takes about half a minute.
+With `--live` only the page that travels. For pictures it needs Chromium (`make browser`). Software draws the scene, so
+one picture takes about half a minute.
 """
 
 import io
@@ -12,10 +13,13 @@ from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 from explorer.app import App
+from explorer.export.live import live_html
 from explorer.model.inputs import OPENING
+from rotor import make_design, solve
 from tests.chromium import LAUNCH_ARGUMENTS, find_chromium
 
 FOLDER = Path(__file__).parents[2] / "docs" / "images"
+LIVE = FOLDER.parent / "style"
 SIZE = (1500, 940)
 START = replace(OPENING, advance_ratio=0.22, mass_t=9.6)
 """Heavy: the disk has a stalled region."""
@@ -38,6 +42,10 @@ WebGL2RenderingContext.prototype.getParameter = function (name) {
 
 def main() -> int:
     """0, or 1 with a sentence where there is no browser."""
+    (LIVE / "twist.html").write_text(live_html(solve(make_design(mu=0.2))), encoding="utf-8")
+    _weigh(LIVE / "twist.html")
+    if "--live" in sys.argv:
+        return 0
     browser_path = find_chromium()
     if browser_path is None:
         print("No Chromium found: `make browser` gets one, ROTOR_CHROMIUM names one.", file=sys.stderr)
