@@ -372,7 +372,7 @@ def check_bands(shown: Mapping[str, Any]) -> tuple[int, int]:
             between = [(size(low), size(high)) for _, low, high in _BETWEEN.findall(words)]
             assert re.search(r"sure|likely|^drive", words) or any(low * high > 0.0 for low, high in between), words
     for value, band, word in texts:
-        assert sureness(size(value), size(band)) == word
+        assert sureness(size(value), size(band), sourced=False) == word
     for value, low, high in ranges:
         assert size(low) <= size(value) <= size(high), (value, low, high)
     line = shown.get("line")

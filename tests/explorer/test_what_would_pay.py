@@ -79,7 +79,7 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
     now = done(now, pressed)
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
-    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 ± 0.4 kW (sure) over the mission", (2.0, 4.3))
+    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 ± 0.4 kW (likely) over the mission", (2.0, 4.3))
     assert shown.note == "With this range it pays below 11 ± 1.4 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
     near = PAY.view(done(now, move_supposed(now, SupposePress(2.0, 11.0))))
