@@ -403,10 +403,13 @@
     prompt.style.transform = `translate(${left}px, ${top}px)`;
   }
   requestAnimationFrame(look);
-  // viser's remark on drawing in software is said for a while, and then makes room.
+  // viser's notifications lie in the top layer: its own lies below our cards. Its remark on drawing in software is said
+  // for a while, and then makes room.
   new MutationObserver(() => {
     for (const note of document.querySelectorAll('.mantine-Notification-root:not([data-seen])')) {
       note.dataset.seen = '';
+      const all = closest({target: note}, '[class*=Notifications-root]');
+      if (all && !all.popover) { all.popover = 'manual'; all.showPopover?.(); }
       if (/Software WebGL/.test(note.textContent)) setTimeout(() => note.querySelector('button')?.click(), 5000);
     }
   }).observe(document.body, {childList: true, subtree: true});
