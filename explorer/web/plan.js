@@ -124,7 +124,8 @@
   function placeLabels(regions) {
     if (!layout.wide) return [];
     const sizes = Object.fromEntries(regions.map(region => [region.name, LABEL.height + priceHeight(region.name)]));
-    const from = ((seen('.rxf-views:has(p)') ?? seen('.rxf-power'))?.bottom ?? 20) + 12, x = layout.width - LABEL.width - 16;
+    const above = seen('.rxf-views:has(p)') ?? seen('.rxf-power'), from = (above?.bottom ?? 20) + 12;
+    const x = layout.width - LABEL.width - 16;
     const to = (seen('.rxf-field')?.top ?? layout.height) - 12;
     const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[][]} */ ([])};
     const right = {x, end: x, from: 62, to: layout.height - 16, taken: /** @type {number[][]} */ ([])};

@@ -6,11 +6,12 @@
   const VERSION = 7938, SCISSOR_BOX = 3088, VIEWPORT = 2978, MANY = 4096;  // As WebGL numbers what is asked.
   const ASKED = {[VERSION]: 'WebGL 2.0', [SCISSOR_BOX]: [0, 0, 1, 1], [VIEWPORT]: [0, 0, 1, 1]};
   const ANSWERS = {
-    isContextLost: true, getContextAttributes: {}, getSupportedExtensions: [],
-    getShaderPrecisionFormat: {precision: 23, rangeMin: 127, rangeMax: 127}, getShaderInfoLog: '', getProgramInfoLog: '',
+    isContextLost: true, getContextAttributes: {}, getSupportedExtensions: [], getShaderInfoLog: '',
+    getProgramInfoLog: '', getShaderPrecisionFormat: {precision: 23, rangeMin: 127, rangeMax: 127},
   };
-  const asked = {getParameter: what => ASKED[what] ?? MANY, getExtension: name => /color_buffer/.test(name) ? {} : null};
-  const undrawn = canvas => new Proxy({...asked, canvas}, {
+  const undrawn = canvas => new Proxy({
+    canvas, getParameter: what => ASKED[what] ?? MANY, getExtension: name => /color_buffer/.test(name) ? {} : null,
+  }, {
     get: (own, /** @type {string} */ name) => own[name] ?? window.WebGL2RenderingContext?.[name]
       ?? (() => name in ANSWERS ? ANSWERS[name] : name.startsWith('create') ? {} : 0),
   });

@@ -10,8 +10,8 @@ from watched import COARSE, Watched
 from explorer.app import App
 
 FORBID_STORAGE = """
-for (const name of ['localStorage', 'sessionStorage'])
-    Object.defineProperty(window, name, {configurable: true, get() { throw new DOMException('denied', 'SecurityError'); }});
+const get = () => { throw new DOMException('denied', 'SecurityError'); };
+for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, name, {get, configurable: true});
 """
 """As Chromium does where cookies are blocked."""
 SENTENCE = ".rxf-views p"
@@ -28,7 +28,8 @@ def plan_is_drawn(page: Page) -> bool:
     """Whether the plan of the disk has outlines and colours."""
     return page.evaluate(
         """() => {
-            const plan = document.querySelector('[data-part=plan]'), [canvas] = plan.firstElementChild.shadowRoot.children;
+            const plan = document.querySelector('[data-part=plan]');
+            const [canvas] = plan.firstElementChild.shadowRoot.children;
             const {data} = canvas.getContext('2d').getImageData(canvas.width / 2, canvas.height / 4, 9, 1);
             return !plan.hidden && plan.querySelectorAll('svg path').length > 5 && data.some(value => value);
         }"""
@@ -36,9 +37,7 @@ def plan_is_drawn(page: Page) -> bool:
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844)])
-def test_without_webgl_all_but_the_scene_works(
-    browser: Browser, chromium_path: str, app: App, size: tuple[int, int]
-):
+def test_without_webgl_all_but_the_scene_works(browser: Browser, chromium_path: str, app: App, size: tuple[int, int]):
     arguments = [*LAUNCH_ARGUMENTS, "--disable-3d-apis"]
     poor = browser.browser_type.launch(executable_path=chromium_path, args=arguments)
     try:
@@ -94,4 +93,24 @@ def test_where_nothing_is_stored_the_page_works_and_says_what_is_lost(browser: B
     assert "keeps the design in the address" in note.inner_text()
     change_power(watched)
     assert not watched.complaints
+    context.close()
+
+
+def test_touch_and_forced_colours_leave_each_control_usable(browser: Browser, app: App):
+    """At the size of a desktop: a narrow window has other rules."""
+    context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True, forced_colors="active")
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    heights = """() => [...document.querySelectorAll('.rxf-line [data-slide]')].map(number => {
+        const {left, top, width, height} = number.getBoundingClientRect(), x = left + width / 2, y = top + height / 2;
+        return [-20, 20].every(off => document.elementFromPoint(x, y + off) === number) && height;
+    })"""
+    assert all(height >= 44 for height in watched.page.evaluate(heights))
+    colours = "name => [...document.querySelectorAll(name)].map(one => getComputedStyle(one).backgroundColor)"
+    modes, parts = (
+        watched.page.evaluate(colours, name) for name in (".rxf-modes button", ".rxf-parts > div:first-child > *")
+    )
+    assert modes[0] not in modes[1:]
+    assert len(set(parts)) > 3
     context.close()

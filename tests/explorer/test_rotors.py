@@ -126,7 +126,7 @@ class TestShelf:
     def test_files_come_in_any_order(self):
         first = UploadedFiles()
         assert "waits for a rotor file" in first.add("mine.c81", DECK).sentence
-        with pytest.raises(ValueError, match="cut.json is not a rotor file"):
+        with pytest.raises(ValueError, match=r"cut\.json is not a rotor file"):
             first.add("cut.json", b'{"rotor": {"rad')
         craft = first.add("my.toml", NAMES_DECK).aircraft
         later = UploadedFiles()
