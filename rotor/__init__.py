@@ -10,7 +10,7 @@
 
 Conventions:
 
-- SI units and radians. A name that ends in `_deg`, `_kw`, `_kt`, `_kg` or `_m` has that unit.
+- SI units and radians. A name that ends in `_deg`, `_w`, `_kt`, `_kg` or `_m` has that unit.
 - ψ = 0 over the tail, counter-clockwise seen from above, advancing side ψ = 90°. r = y/R.
 - Arrays over the disk are (radius, azimuth): elements first, azimuths second.
 - Velocities are over ΩR. λ is positive down through the disk, U_P likewise. β up, θ nose-up.
@@ -43,7 +43,10 @@ def __getattr__(name: str) -> object:
     try:
         value = globals()[name] = getattr(import_module("rotor.public"), name)
     except AttributeError:
-        raise AttributeError(f"module 'rotor' has no attribute {name!r}") from None
+        from rotor.support.user_input import did_you_mean
+
+        hint = did_you_mean(name, __dir__())
+        raise AttributeError(f"module 'rotor' has no attribute {name!r}{hint}", name=name) from None
     return value
 
 

@@ -18,6 +18,8 @@ from rotor.optimisation.search import optimise
 from rotor.optimisation.vibration import t_matrix, vibration_front
 from rotor.study.run import run_study
 from rotor.study.series import SweepTable, plot_power, schedule, sweep
+from rotor.trim.adjoint import PitchGradient
+from rotor.trim.analysis import power_gradient
 from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.doubt import doubt
 from rotor.trim.export import plot_field, save_solution, solution_record
@@ -28,9 +30,9 @@ from rotor.trim.solution import Caveat, Solution, Status
 from rotor.trim.solve import solve
 
 __all__ = (
-    "Aircraft", "Caveat", "Design", "Distribution", "FlightCondition", "Freedom", "Gust", "Limits", "Models", "Optimum",
-    "PowerBudget", "Rotor", "Solution", "Status", "SweepTable", "TrimState", "actuator", "distribution", "doubt",
-    "failure", "hub_loads", "load_design", "load_rotor", "make_design", "optimise", "parse_twist", "plot_field",
-    "plot_power", "run_study", "save_solution", "schedule", "solution_record", "solve", "solve_many", "sweep",
-    "t_matrix", "vibration_front", "with_actuator",
+    "Aircraft", "Caveat", "Design", "Distribution", "FlightCondition", "Freedom", "Gust", "Limits", "Models",
+    "Optimum", "PitchGradient", "PowerBudget", "Rotor", "Solution", "Status", "SweepTable", "TrimState", "actuator",
+    "distribution", "doubt", "failure", "hub_loads", "load_design", "load_rotor", "make_design", "optimise",
+    "parse_twist", "plot_field", "plot_power", "power_gradient", "run_study", "save_solution", "schedule",
+    "solution_record", "solve", "solve_many", "sweep", "t_matrix", "vibration_front", "with_actuator",
 )  # fmt: skip

@@ -34,7 +34,7 @@ matplotlib.use("Agg")
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
 API = (DOCS / "reference" / "api.md").read_text(encoding="utf-8")
-GUIDES = sorted((DOCS / "guide").glob("*.md"))
+GUIDES = [*sorted((DOCS / "guide").glob("*.md")), DOCS / "scale.md"]
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.md"))
 
 

@@ -41,8 +41,8 @@ design = rotor.make_design(rotor=mine, mu=0.25)
 table = rotor.sweep(design, [0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.32])
 rotor.plot_power(table)
 columns = table.to_dict()
-for mu, total in zip(columns["mu"], columns["total_kw"], strict=True):
-    print(f"µ {mu:.2f}: " + ("no trim" if total is None else f"{total:.1f} kW"))
+for mu, total in zip(columns["mu"], columns["power_total_w"], strict=True):
+    print(f"µ {mu:.2f}: " + ("no trim" if total is None else f"{total / 1e3:.1f} kW"))
 
 # %%
 # The best two-segment twist at µ = 0.25, and its saving.

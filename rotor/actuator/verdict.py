@@ -13,7 +13,7 @@ from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
 from rotor.actuator.section import HostBlade, Placement, default_placement
-from rotor.design.design import Design
+from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
@@ -217,8 +217,10 @@ def try_actuator(
 
     ValueError with one sentence for what cannot be used, RuntimeError where nothing trims.
     """
+    if isinstance(name, Design):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError("the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)")
     host = HostBlade("new", 0.5) if new_blade else HostBlade()
-    pair = ConditionPair(design, mu, share)
+    pair = ConditionPair(require_design(design), mu, share)
     placement = default_placement(plies)
     return judge(find_actuator(name), pair, find_concept(concept), placement, host, against=against)
 

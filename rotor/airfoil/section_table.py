@@ -265,7 +265,8 @@ class SectionTable:
         """Zero-lift angle of attack [rad] at `mach`, within -12..12 deg: Newton's method from the sampled crossing."""
         m = np.asarray(mach, dtype=np.float64)
         sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
-        alpha = sample[np.argmin(np.abs(self(sample, m[..., None]).cl), axis=-1)]
+        nearest = np.abs(self(sample, m[..., None]).cl) + 1e-9 * np.abs(sample)  # Of a body without lift: no angle.
+        alpha = sample[np.argmin(nearest, axis=-1)]
         for _ in range(4):
             here = self(alpha, m)
             step = here.cl / np.where(
@@ -273,6 +274,11 @@ class SectionTable:
             )  # The slope is zero at a peak.
             alpha = np.clip(alpha - np.clip(step, -_ZERO_LIFT, _ZERO_LIFT), -2.0 * _ZERO_LIFT, 2.0 * _ZERO_LIFT)
         return np.asarray(alpha)
+
+    @property
+    def lifts(self) -> bool:
+        """Whether it has lift at any angle; a round shank has none, and never stalls."""
+        return bool(self.coefficients[:, :, 0].any())
 
     def lift_slope(self, mach: ArrayLike) -> Array:
         """Mean lift slope [1/rad] within 2 deg of the zero-lift angle, at `mach`."""
@@ -306,6 +312,9 @@ def make_table(
     unknown = np.zeros(N_MACH + 1)
     bare = SectionTable(name, source, mach_limit, coefficients, unknown, unknown, fit_range)
     mach = mach_nodes()
+    if not bare.lifts:
+        none = np.full(N_MACH + 1, np.pi)
+        return replace(bare, alpha_stall_negative=-none, alpha_stall_positive=none)
     zero, attached = bare.zero_lift_alpha(mach), bare.lift_slope(mach)
     onsets = [
         zero + side * first_quarter_slope(bare(zero[:, None] + side * SEARCH_OUTWARD, mach[:, None]).cl_alpha, attached)
@@ -327,6 +336,8 @@ def between(first: SectionTable, second: SectionTable, share: float) -> SectionT
 
 def _check_lift(table: SectionTable) -> None:
     """ValueError with one sentence for lift that does not rise through zero near zero angle of attack."""
+    if not table.lifts:
+        return
     mach = mach_nodes()[mach_nodes() <= table.mach_limit + 1e-9]
     zero, slope = table.zero_lift_alpha(mach), table.lift_slope(mach)
     lift = table(zero, mach).cl

@@ -14,8 +14,10 @@ from rotor.support.user_input import make_folder
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "reproduce", run)
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; created if missing")
+    parser.add_argument("--figure", metavar="N", action="append", help="only this figure, e.g. 3.11; may be repeated")
+    number = "table {}".format
     parser.add_argument(
-        "--figure", metavar="N", action="append", help="only this one, e.g. 3.11 or 'table 4.1'; may be repeated"
+        "--table", metavar="N", action="append", dest="figure", type=number, help="only this table, e.g. 4.1"
     )
     parser.add_argument(
         "--trust", action="store_true", help="also write the trust page: validation.md, validation/, trust.csv"
@@ -72,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
     if not stopped:
         make([entry for entry in entries if entry.slow])
     reports.sort(key=lambda pair: entries.index(pair[0]))
-    results = write_results(reports, folder)
+    results = write_results(reports, folder, whole=not wanted)
     if args.trust and not stopped:
         sets = [make_set() for make_set in SETS.values()]
         sets += trust_sets(report for _, report in reports)

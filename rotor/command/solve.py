@@ -11,12 +11,11 @@ from rotor.actuator.installation import with_actuator
 from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
 from rotor.design.aircraft import in_words
 from rotor.design.design import Design
-from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import KNOT, power_unit
 from rotor.support.user_input import check_writable
 from rotor.trim.distribution import distribution
-from rotor.trim.doubt import Doubt, doubt
+from rotor.trim.doubt import Doubt, doubt, doubt_table
 from rotor.trim.export import solution_record
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.no_hub_loads import why_no_hub_loads
@@ -65,7 +64,8 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(report(solution))
         if sure is not None:
-            print(f"\n{doubt_table(sure)}")
+            sentence = wrapped(sure.in_words("Against the blade as built it"))
+            print(f"\n{sentence}\n\n{doubt_table(sure).text()}")
         if loads is not None:
             print(f"\nlift of one blade\n{loads.table()}")
     return 0 if solution.converged else 1
@@ -77,21 +77,6 @@ def _doubt(solution: Solution) -> Doubt:
     built = replace(design, twist=design.aircraft.twist_for(design.preset))
     other = None if built == design or design.models.trim == "free-rotor" else solve(built)
     return doubt(solution, other if other is not None and other.converged else None, models=True)
-
-
-def doubt_table(doubt: Doubt) -> str:
-    """The sentence, and what the band consists of."""
-    symbol, size = power_unit(doubt.power, doubt.band)
-    rows: list[tuple[CellValue, ...]] = [
-        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
-    ]
-    rows += [
-        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
-        for other in doubt.models
-    ]
-    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
-    sentence = wrapped(doubt.in_words("Against the blade as built it"))
-    return f"{sentence}\n\n{table(columns, rows).text()}"
 
 
 def _vibration(solution: Solution) -> dict[str, Any]:

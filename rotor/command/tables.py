@@ -54,41 +54,48 @@ def run_sweep(args: argparse.Namespace) -> int:
     solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
     if base:
         solutions = solutions.relative_to(base)
-    found = sweep_table(solutions, args.over)
+    whole = table((Column(key=name) for name in solutions.columns), solutions.rows)
     if args.csv:
-        found.write(args.csv)
-    common.print_result(
-        args, lambda: [dict(zip(solutions.columns, row, strict=True)) for row in solutions.rows], found.text
-    )
+        whole.write(args.csv)
+    common.print_result(args, whole.records, lambda: sweep_report(solutions, args.over))
     return 0 if all(solution.converged for solution in solutions) else 1
 
 
-def sweep_table(solutions: SweepTable, over: str) -> Table:
-    """Without the columns that are the same in all rows; the text has the status only where it did not converge."""
+def sweep_report(solutions: SweepTable, over: str) -> str:
+    """The table without columns that are the same in all rows; below it each caveat, of the first row that has it."""
     level = all(solution.design.vertical_speed == 0.0 for solution in solutions)
-    kept = [k for k, name in enumerate(solutions.columns) if name not in SHARED_COLUMNS or name == over]
-    fine = 0 if power_unit(*(solution.last_power.total for solution in solutions))[0] == "kW" else 3
-    columns = (_sweep_column(solutions.columns[k], level, fine) for k in kept)
-    rows = (
-        (*(row[k] for k in kept), "" if one.converged else f"{one.status.value}: {one.message}")
-        for row, one in zip(solutions.rows, solutions, strict=True)
-    )
-    return table((*columns, Column("", LEFT)), rows)
+    left_out = {"status", "caveats", "message", *SHARED_COLUMNS, *(("climb_m_s", "power_climb_w") if level else ())}
+    kept = [k for k, name in enumerate(solutions.columns) if name == over or name not in left_out]
+    symbol, size = power_unit(*(solution.last_power.total for solution in solutions))
+    columns = [_sweep_column(solutions.columns[k], symbol) for k in kept]
+    failures = ("" if one.converged else f"{one.status.value}: {one.message}" for one in solutions)
+    rows = [
+        (*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure)
+        for row, failure in zip(solutions.rows, failures, strict=True)
+    ]
+    sentences: dict[str, str] = {}
+    for caveat in (caveat for solution in solutions for caveat in solution.caveats):
+        sentences.setdefault(caveat.name, wrapped(f"caveat: {caveat.sentence}", "  "))
+    return "\n".join((table((*columns, Column("", LEFT)), rows).text(), *sentences.values()))
 
 
-def _sweep_column(name: str, level: bool, fine: int) -> Column:
-    """`fine`: further decimals of powers."""
-    if name in ("status", "message"):
-        return Column(key=name)
-    head = None if level and name.startswith("climb") else name
+def _in_unit(cell: CellValue, name: str, size: float) -> CellValue:
+    return cell / size if isinstance(cell, float) and _is_power(name) else cell
+
+
+def _is_power(name: str) -> bool:
+    return name.startswith("power_")
+
+
+def _sweep_column(name: str, symbol: str) -> Column:
+    """`symbol`: unit of the powers."""
     if name in ("twist", "sureness"):
-        return Column(head, LEFT, name)
+        return Column(name, LEFT)
     if name == "change_percent":
-        return Column("change %", "+.2f", name, ".3f")
-    if name.endswith("_kw"):
-        return Column(head, f"z.{1 + fine}f", name, f"z.{2 + fine}f")
-    shown = ".4g" if name in NUMBERS else ".1f" if name == "speed_kt" else ".2f"
-    return Column(head, shown, name, shown)
+        return Column("change %", "+.2f")
+    if _is_power(name):
+        return Column(f"{name[6:-2].replace('_', ' ')} {symbol}", "z.1f")
+    return Column(name, ".4g" if name in NUMBERS else ".1f" if name == "speed_kt" else ".2f")
 
 
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:

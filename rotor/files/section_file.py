@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 from msgspec import Meta
 
-from rotor.airfoil.c81 import C81Deck, format_c81, parse_c81
+from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
 from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, USED_ALPHA_DEG, SectionTraits, assemble_deck
 from rotor.airfoil.polars import Polar, PolarSet, parse_polars
@@ -33,6 +33,8 @@ _WORTH_SAYING = 0.01
 class OwnSectionTable(FileTable, frozen=True, kw_only=True):
     deck: Text | None = None
     polars: Text | Annotated[tuple[Text, ...], Meta(min_length=1)] | None = None
+    drag_coefficient: Annotated[float, Meta(ge=0.01, le=3.0)] | None = None
+    """Of a body without lift and moment."""
     outline: Text | None = None
     thickness: Annotated[float, Meta(ge=THICKNESS[0], le=THICKNESS[1])] | None = None
     """Thickness over chord; None: that of the outline."""
@@ -40,7 +42,7 @@ class OwnSectionTable(FileTable, frozen=True, kw_only=True):
     chord_ratio: Annotated[float, Meta(ge=0.5, le=2.0)] = 1.0
 
     def __post_init__(self) -> None:
-        one_of(self, "deck", "polars")
+        one_of(self, "deck", "polars", "drag_coefficient")
 
     @property
     def data(self) -> tuple[str, ...]:
@@ -76,7 +78,10 @@ def read_section(
     contents = [_file(("sections", name, key), file, texts, used) for file in table.data]
     outline, thickness, shape = _outline(table, name, texts, used)
     given, assumed, decks = None, list[str](), tuple[tuple[float, str], ...]()
-    if key == "deck":
+    if table.drag_coefficient is not None:
+        deck = _without_lift(name, table.drag_coefficient)
+        says = f"no lift and no moment, drag coefficient {table.drag_coefficient:g} at every angle and Mach number"
+    elif key == "deck":
         deck = contents[0]
         given = parse_c81(deck, table.data[0])
         says = _deck_says(given)
@@ -98,11 +103,18 @@ def read_section(
     try:
         installed = install_own(section)
     except ValueError as error:
-        first = table.data[0]
+        first = table.data[0] if table.data else name
         raise ValueError(f"{first}: {error}" if first not in str(error) else str(error)) from None
     if given is not None and (says := _off_its_knots(given, installed.table)):
         remarks.append(f"Section {name}: {says}")
     return section
+
+
+def _without_lift(name: str, drag: float) -> str:
+    """C81 text of a body that has the same drag at every angle, such as a round shank."""
+    alpha, mach, none = np.array([-180.0, 180.0]), np.array([0.0, 1.0]), np.zeros((2, 2))
+    lift, drags = C81Block(mach, alpha, none), C81Block(mach, alpha, none + drag)
+    return format_c81(C81Deck(name.upper()[:30], lift, drags, lift))
 
 
 def _outline(

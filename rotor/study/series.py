@@ -23,6 +23,7 @@ from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Schedule, SchedulePlan, run_plan
 from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
+from rotor.support.table import Column, table
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
 from rotor.trim.doubt import Doubt, doubt
@@ -79,7 +80,7 @@ class SweepTable:
         columns = sweep_columns([solution.design for solution in self.solutions])
         if not self.reference:
             return columns
-        place = columns.index("message")
+        place = columns.index("caveats")
         return (*columns[:place], *_CHANGES, *columns[place:])
 
     def relative_to(self, name: str) -> "SweepTable":
@@ -148,6 +149,10 @@ class SweepTable:
         """Write the table to a CSV file, with empty cells for what does not exist; ValueError for another suffix."""
         check_suffix(path, ".csv")
         write_whole(path, csv_text([self.columns, *self.rows]))
+
+    def _repr_html_(self) -> str:
+        rows = ([format(cell, ".5g") if isinstance(cell, float) else cell for cell in row] for row in self.rows)
+        return table(map(Column, self.columns), rows).html()
 
     def to_dataframe(self) -> Any:
         """The table as a pandas DataFrame, with the unit of each column that has one in `attrs["units"]`.
@@ -345,9 +350,9 @@ def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
     """Columns of a sweep over these designs."""
     names = ("speed_kt", *reported_names(design.unusual for design in designs))
     condition = (name for name in SWEPT if name in names)
-    powers = (f"{part}_kw" for part in POWERS)
+    powers = (f"power_{part}_w" for part in POWERS)
     blade = ("rotor", "twist", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev")
-    columns = (*blade, *condition, "status", *powers, "message")
+    columns = (*blade, *condition, "status", *powers, "caveats", "message")
     return (*columns, *VIBRATION) if any(design.models.bending for design in designs) else columns
 
 
@@ -364,7 +369,8 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "speed_kt": design.airspeed / KNOT,
         **design.numbers,
         "status": solution.status.value,
-        **({f"{part}_kw": getattr(power, part) / 1e3 for part in POWERS} if solution.converged else {}),
+        **({f"power_{part}_w": getattr(power, part) for part in POWERS} if solution.converged else {}),
+        "caveats": ", ".join(caveat.name for caveat in solution.caveats),
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
         **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
     }

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from rotor.support.markup import Markup, tag
 from rotor.support.terminal import wrapped
 from rotor.support.user_input import csv_text, write_whole
 
@@ -48,6 +49,13 @@ class Table:
             lines.append(wrapped(line, "    ") if texts[-1] and sides[-1] is str.ljust else line)
         return "\n".join(lines)
 
+    def html(self) -> Markup:
+        """The table for a notebook."""
+        shown = [(k, column) for k, column in enumerate(self.columns) if column.head is not None]
+        heads = tag("tr", [tag("th", column.head) for _, column in shown])
+        rows = (tag("tr", [tag("td", _formatted(row[k], _number(column))) for k, column in shown]) for row in self.rows)
+        return tag("table", tag("thead", heads), tag("tbody", rows))
+
     def csv(self) -> str:
         """The table as CSV text."""
         kept = [(k, column) for k, column in enumerate(self.columns) if column.key]
@@ -71,6 +79,10 @@ class Table:
 def table(columns: Iterable[Column], rows: Iterable[Iterable[CellValue]]) -> Table:
     """A table of rows."""
     return Table(tuple(columns), tuple(map(tuple, rows)))
+
+
+def _number(column: Column) -> str:
+    return "" if column.shown == LEFT else column.shown
 
 
 def _formatted(cell: CellValue, form: str) -> str:

@@ -18,7 +18,7 @@ from rotor.aero.inflow.local_momentum import BALANCED
 from rotor.aero.section import FX, FZ, RATE, TH, UP, UR, UT
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE
 from rotor.columns.hover import turning_of
-from rotor.design.twist import TwistLaw
+from rotor.design.twist import SpecTwist, TwistLaw
 from rotor.engine.linearise import MeasureSlopes, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import Terms
@@ -55,6 +55,15 @@ class PitchGradient(ShortRepr):
         Of a twist law the change of power [W] if it were added to the blade's twist, to first order, ().
         """
         return (twist(self.r) if callable(twist) else twist) @ self.by_element
+
+    def by_parameters(self, law: TwistLaw) -> Array:
+        """∂P by each number of a twist law, in the order of its SPEC [W/rad; W for a station r/R], (numbers,).
+
+        For `linear`, `quadratic`, `segments` and `spline` laws; TypeError for others.
+        """
+        if not isinstance(law, SpecTwist) or type(law).slopes is SpecTwist.slopes:
+            raise TypeError(f"twist {law.spec()} has no numbers to change: give linear, quadratic, segments or spline")
+        return law.slopes(self.r) @ self.by_element
 
 
 @dataclass(frozen=True, eq=False)

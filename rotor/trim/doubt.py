@@ -16,6 +16,8 @@ from functools import lru_cache
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.design.uncertain import Uncertain, uncertain_inputs
+from rotor.support.markup import tag
+from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
 from rotor.trim.forward import SLOWEST
@@ -138,6 +140,9 @@ class Doubt:
             return "neither saves nor costs"
         return f"{'saves' if change <= 0.0 else 'costs'} {banded(abs(100.0 * change / self.against), within, '%')}"
 
+    def _repr_html_(self) -> str:
+        return tag("p", self.sentence) + doubt_table(self).html()
+
     def record(self) -> dict[str, object]:
         """For `solve --doubt --json`."""
         return {
@@ -155,6 +160,20 @@ class Doubt:
             ],
             "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
         }
+
+
+def doubt_table(doubt: Doubt) -> Table:
+    """What the bands consist of."""
+    symbol, size = power_unit(doubt.power, doubt.band)
+    rows: list[tuple[CellValue, ...]] = [
+        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
+    ]
+    rows += [
+        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
+        for other in doubt.models
+    ]
+    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
+    return table(columns, rows)
 
 
 def sureness(change: float, band: float) -> str:

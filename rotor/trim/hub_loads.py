@@ -63,14 +63,14 @@ Solve = Callable[[Design, Solution | Guess | None], Analysis]
 """As `analyse`."""
 
 
-def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool = True) -> HubLoads | None:
+def hub_loads(given: Solution | Analysis, *, solve: Solve | None = None, band: bool = True) -> HubLoads | None:
     """Vibratory loads of all blades on the hub at N_b per revolution.
 
     A design whose blades do not bend is solved again with blades that bend.
 
     Parameters:
         given: a converged trim, or its `rotor.trim.Analysis`.
-        solve: how the further designs are trimmed.
+        solve: how the further designs are trimmed; by default `rotor.trim.solve.analyse`.
         band: whether to solve with the other inflow models too, for the range of the index.
 
     Returns:
@@ -80,7 +80,7 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve = analyse, band: bool 
     Raises:
         RuntimeError: the trim did not converge.
     """
-    trim = analysed(given)
+    trim, solve = analysed(given), solve or analyse
     design = trim.solution.require().design
     if why_no_hub_loads(design) is not None:
         return None

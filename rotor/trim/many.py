@@ -43,6 +43,8 @@ def solve_many(designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIO
         >>> [solution.converged for solution in rotor.solve_many(designs)]
         [True, True, True]
     """
+    if isinstance(designs, Design):
+        raise TypeError("designs is one design: give several in a list, or write rotor.solve(design)")
     return [trim.solution.light() for trim in analyse_many(list(designs), options=options)]
 
 

@@ -1,7 +1,7 @@
 """The trim of a problem from a guess by Newton's method, and whether it is accepted."""
 
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -21,9 +21,14 @@ from rotor.engine.waves import STEADY
 from rotor.support.arrays import Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SolverOptions(SystemTolerances):
     """Tolerances and limits of the solvers. The defaults serve every design; a test may tighten them."""
+
+    def __repr__(self) -> str:
+        changed = ((one.name, getattr(self, one.name)) for one in fields(self))
+        named = (f"{name}={value!r}" for name, value in changed if value != getattr(SolverOptions, name))
+        return f"{type(self).__name__}({', '.join(named)})"
 
     accepted_residual: float = 1e-7
     accepted_inflow: float = 1e-6

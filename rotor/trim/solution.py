@@ -21,6 +21,8 @@ from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
 from rotor.support.arrays import Array, Booleans, ShortRepr
+from rotor.support.markup import group, tag
+from rotor.support.table import LEFT, Column, table
 from rotor.support.units import power_unit
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
@@ -275,6 +277,14 @@ class Solution:
             total, *others = (f"{value / size:z.1f}" for value in values.values())
             power = f"power {total} {symbol}: {', '.join(map(' '.join, zip(parts, others, strict=True)))}"
         return f"{self.design}\n{state}\n{power}"
+
+    def _repr_html_(self) -> str:
+        state = (f"{self.status.value}: {self.message}", *(f"Caveat: {caveat.sentence}" for caveat in self.caveats))
+        powers = {name: value for name, value in vars(self.last_power).items() if value and name != "shaft"}
+        symbol, size = power_unit(self.last_power.total)
+        rows = ((name, value / size) for name, value in ({"total": self.last_power.total} | powers).items())
+        shown = table((Column("power", LEFT), Column(symbol, "z.1f")), rows).html() if self.converged else None
+        return group(tag("p", str(self.design)), shown, *(tag("p", words) for words in state))
 
     @property
     def converged(self) -> bool:

@@ -11,7 +11,6 @@ import subprocess
 import sys
 import urllib.request
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import matplotlib
@@ -25,7 +24,7 @@ import explorer
 import rotor
 import rotor.command.validate
 from rotor.__main__ import main
-from rotor.design.twist import LinearTwist, parse_twist
+from rotor.design.twist import LinearTwist, PiecewiseLinearTwist, parse_twist
 from rotor.support.units import KNOT
 from rotor.trim.analysis import power_gradient
 
@@ -183,17 +182,17 @@ class TestSweep:
         row: dict[str, Any] = dict(zip(table.columns, table.rows[0], strict=True))
         assert row["mu"] == 0.2
         assert_allclose(row["speed_kt"], table[0].design.airspeed / KNOT)
-        assert row["total_kw"] == table[0].power.total / 1e3
+        assert row["power_total_w"] == table[0].power.total
         read = pyarrow.table(table.to_dict())
         assert tuple(read.column_names) == table.columns
-        assert str(read.schema.field("total_kw").type) == str(read.schema.field("mu").type) == "double"
-        assert read.column("total_kw").to_pylist() == [row["total_kw"], None]
+        assert str(read.schema.field("power_total_w").type) == str(read.schema.field("mu").type) == "double"
+        assert read.column("power_total_w").to_pylist() == [row["power_total_w"], None]
         table.to_csv(tmp_path / "p.csv")
         with (tmp_path / "p.csv").open(encoding="utf-8", newline="") as file:
             good, bad = csv.DictReader(file)
         assert tuple(good) == table.columns
-        assert float(good["total_kw"]) == row["total_kw"]
-        assert (bad["total_kw"], bad["status"]) == ("", table[1].status.value)
+        assert float(good["power_total_w"]) == row["power_total_w"]
+        assert (bad["power_total_w"], bad["status"]) == ("", table[1].status.value)
 
     def test_several_designs_and_rotors_are_told_apart(self, design: rotor.Design):
         table = rotor.sweep([design, rotor.make_design(rotor="r22")], [0.1, 0.2])
@@ -233,20 +232,63 @@ class TestSweep:
         ):
             table.relative_to("linear:-5")
 
-    def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
-        """The tests do without pandas: something else takes its place."""
-        table = rotor.sweep(design, [0.2])
-        made = SimpleNamespace(DataFrame=lambda columns: SimpleNamespace(columns=columns, attrs={}))
-        monkeypatch.setitem(sys.modules, "pandas", made)
+    def test_a_pandas_frame_with_units_and_an_error_without_pandas(
+        self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch
+    ):
+        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
         frame = table.to_dataframe()
-        assert frame.columns == table.to_dict()
+        assert tuple(frame.columns) == table.columns
+        assert frame["power_total_w"].dtype == frame["mu"].dtype == "float64"
+        assert frame["power_total_w"].isna().tolist() == [False, True]
         units = frame.attrs["units"]
-        known = {"speed_kt": "kt", "mass_kg": "kg", "total_kw": "kW", "twist_deg_per_r": "°/R"}
+        known = {"speed_kt": "kt", "mass_kg": "kg", "power_total_w": "W", "twist_deg_per_r": "°/R"}
         assert known.items() <= units.items()
         assert not {"rotor", "mu", "pitch_per_rev", "message"} & units.keys()
         monkeypatch.setitem(sys.modules, "pandas", None)
         with pytest.raises(ImportError, match=r"a data frame needs pandas: pip install pandas"):
             table.to_dataframe()
+
+
+def test_a_notebook_shows_tables(design: rotor.Design):
+    """Every number of the text is in the markup, and no text is taken for markup."""
+    solution, band = (rotor.solve(rotor.make_design(mu=0.2, twist=f"linear:{rate}")) for rate in (-8, -12))
+    shown = solution._repr_html_()
+    assert f">{solution.power.total / 1e3:.1f}<" in shown
+    assert f">{solution.power.tail / 1e3:.1f}<" in shown
+    refused = rotor.solve(design.at(mass_kg=30_000))
+    assert "<table" not in refused._repr_html_()
+    found = rotor.doubt(solution, band)
+    assert all(f">{row.power / 1e3:+.2f}<" in found._repr_html_() for row in found.rows)
+    table = rotor.SweepTable((solution, refused))._repr_html_()
+    assert table.count("<tr>") == 3
+    assert f">{solution.power.total:.5g}<" in table
+
+
+def test_a_gradient_by_the_numbers_of_a_twist_law():
+    """The exact slope is the difference of two trims."""
+    design = rotor.make_design(mu=0.2, twist="segments:-12,-6@0.6")
+    law, step = design.twist, math.radians(0.01)
+    assert isinstance(law, PiecewiseLinearTwist)
+    gradient = rotor.power_gradient(rotor.solve(design))
+    with pytest.raises(TypeError, match="twist uh60a has no numbers to change"):
+        gradient.by_parameters(parse_twist("uh60a"))
+    for k, slope in enumerate(gradient.by_parameters(law)):
+        ends = [list(law.values) for _ in range(2)]
+        ends[0][k], ends[1][k] = ends[0][k] - step, ends[1][k] + step
+        low, high = (rotor.solve(design.with_twist(law.of(*end))).power.total for end in ends)
+        assert_allclose(slope, (high - low) / (2.0 * step), rtol=2e-3)
+
+
+def test_near_misses_name_what_is_meant(design: rotor.Design):
+    one: Any = design
+    with pytest.raises(AttributeError, match="did you mean 'optimise'"):
+        _ = rotor.optimize
+    with pytest.raises(TypeError, match=r"give several in a list, or write rotor.solve\(design\)"):
+        rotor.solve_many(one)
+    with pytest.raises(TypeError, match="the actuator's name comes first"):
+        rotor.actuator.try_actuator(one, one)
+    assert len(str(inspect.signature(rotor.solve))) < 500
+    assert "0x" not in str(inspect.signature(rotor.hub_loads))
 
 
 IMPORT = """

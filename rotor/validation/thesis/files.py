@@ -89,11 +89,13 @@ def write_csv(path: Path, report: Report, table: ReportTable) -> None:
     write_whole(path, csv_text([table.columns, *rows], heading))
 
 
-def write_results(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
-    """`results.json`: what the thesis says of each, our numbers and the verdict; `misprints.csv` beside it."""
-    found = misprint_table()
-    text = csv_text([found.columns, *found.rows], "# What the thesis omits or misprints\n")
-    write_whole(folder / "misprints.csv", text)
+def write_results(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, whole: bool = True) -> Path:
+    """`results.json`: what the thesis says of each, our numbers and the verdict; of the `whole` thesis `misprints.csv`
+    beside it."""
+    if whole:
+        found = misprint_table()
+        text = csv_text([found.columns, *found.rows], "# What the thesis omits or misprints\n")
+        write_whole(folder / "misprints.csv", text)
     path = folder / "results.json"
     records = [_record(entry.chapter, report) for entry, report in reports]
     write_whole(path, json.dumps(records, indent=2, ensure_ascii=False, allow_nan=False) + "\n")

@@ -14,6 +14,7 @@ from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import Contour, load_contour, parse_contour, resample, thickness_and_camber
 from rotor.airfoil.polars import Polar, parse_polars
 from rotor.airfoil.sections import load_section
+from rotor.design.aircraft import SEA_LEVEL_DENSITY
 from rotor.support.user_input import read_text
 
 POINTS = resample(load_contour("naca2412"), 41).points
@@ -296,3 +297,27 @@ def test_an_outline_gives_the_thickness_of_the_wave_drag_or_asks_for_it():
     windows = toml.replace('"b.dat"', "'data\\b.dat'")
     with pytest.raises(ValueError, match="which is missing: write / in paths"):
         read(windows, **files)
+
+
+def test_a_round_shank_has_drag_alone():
+    """In hover it takes ½ρ N_b ΔC_d Ω³ ∫c y³dy; its angle of attack does not matter, and it never stalls."""
+
+    def with_drag(drag: float) -> Aircraft:
+        spans = "[{start_r = 0.2, end_r = 0.3, section = 'shank'}, {start_r = 0.3, end_r = 1.0, section = 'naca0012'}]"
+        shank = f"\n[sections.shank]\ndrag_coefficient = {drag}\n"
+        return read(GOOD.replace('section = "naca0012"', f"spans = {spans}") + shank)
+
+    thin, thick = with_drag(0.4), with_drag(1.0)
+    assert any("no lift and no moment, drag coefficient 1 at" in remark for remark in thick.remarks)
+    blade = thick.rotor.blade
+    shank = blade.installed("shank").table
+    assert not shank(np.linspace(-3.0, 3.0, 50), 0.3).cl.any()
+    assert_allclose(shank(np.linspace(-3.0, 3.0, 50), 0.3).cd, 1.0)
+    low, high = (solve(make_design(rotor=craft, hover=True)) for craft in (thin, thick))
+    r = np.linspace(0.2, 0.2 + high.disk.dr[high.disk.r < 0.3].sum(), 2001)  # Elements have one section each.
+    along = np.trapezoid(blade.chord(r) * r**3, r) * thick.rotor.radius
+    wanted = 0.5 * SEA_LEVEL_DENSITY * thick.rotor.blades * 0.6 * thick.rotor.tip_speed**3 * along
+    assert_allclose(high.power.profile - low.power.profile, wanted, rtol=0.02)
+    fast = solve(make_design(rotor=thick, mu=0.25))
+    assert fast.converged
+    assert not fast.disk.stalled[fast.disk.r < 0.29].any()

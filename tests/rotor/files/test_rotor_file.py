@@ -245,7 +245,7 @@ def test_bad_section_files_get_one_sentence():
         (one, {"a.txt": polar_file(cut)}, "line 21: the polar of mine at Mach 0.3 covers"),
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "of cl: check the counts in line 1"),
-        ("\n[sections.mine]\n", {}, "line 20: there is no deck or polars: add one of them"),
+        ("\n[sections.mine]\n", {}, "line 20: there is no deck or polars or drag_coefficient: add one of them"),
         (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "name 'My Section' is taken or has characters"),
     ]  # fmt: skip
     for section, files, says in cases:
