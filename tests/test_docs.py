@@ -82,7 +82,7 @@ def names_of_the_page() -> set[str]:
     page = ROOT / "explorer"
     for path in (
         page / "page.py",
-        *(p for folder in ("widgets", "model", "charts") for p in (page / folder).rglob("*.py")),
+        *(p for folder in ("widgets", "model", "charts", "views") for p in (page / folder).rglob("*.py")),
     ):
         constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
         found |= {value for value in constants if isinstance(value, str)}

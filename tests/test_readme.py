@@ -96,7 +96,7 @@ def test_concepts_and_actuators():
     said(
         f"more segments or a curve save {100 * max(concepts[key] for key in ('two', 'three', 'quadratic')):.1f} % more"
     )
-    cost, _, word = banded(-actuators["best_kw"], actuators["best_band_kw"], "kW").partition(":")
+    cost, _, word = banded(-actuators["best_kw"], actuators["best_band_kw"], "kW", sourced=False).partition(":")
     said(
         f"the best of the {actuators['rows']:.0f} pairs in table 5.2 costs {cost} more than the best fixed twist:{word}"
     )

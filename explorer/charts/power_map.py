@@ -1,6 +1,7 @@
 """The map of power over two parameters of a concept: its trims, its drawing, and its least power in words."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
@@ -43,6 +44,8 @@ class PowerMap:
     """[W], (rows along y, columns along x); NaN where a design does not trim."""
     values: tuple[tuple[tuple[float, ...], ...], ...]
     """All parameters of each point."""
+    lowest: tuple[float, tuple[float, ...]]
+    """The least power [W], between the points too, and all parameters there."""
 
     @property
     def parameters(self) -> tuple[Parameter, Parameter]:
@@ -51,21 +54,15 @@ class PowerMap:
 
     @property
     def least(self) -> tuple[float, float, float]:
-        """Place (0…1 along x and y) and power [W] of the best grid point."""
-        row, column = self._best
-        n = len(self.powers) - 1
-        return column / n, row / n, float(self.powers[row, column])
+        """Place (0…1 along x and y) and power [W] of the least."""
+        power, values = self.lowest
+        return *self.place(values), power
 
-    @property
-    def best(self) -> tuple[float, ...]:
-        """All parameters of the best grid point."""
-        row, column = self._best
-        return self.values[row][column]
-
-    @property
-    def _best(self) -> tuple[int, int]:
-        row, column = np.unravel_index(np.nanargmin(self.powers), self.powers.shape)
-        return int(row), int(column)
+    def place(self, values: Sequence[float]) -> tuple[float, float]:
+        """Where all parameters lie, 0…1 along x and y."""
+        pairs = zip(self.task.axes, self.parameters, strict=True)
+        x, y = ((values[axis] - one.low) / (one.high - one.low) for axis, one in pairs)
+        return x, y
 
     def at(self, x: float, y: float) -> Design:
         """The design at a place, its other parameters those of the nearest grid point."""
@@ -91,11 +88,7 @@ def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[float, float] | None:
     values, r = nearest(task.concept, twist), np.linspace(0.15, 1.0, 40)
     if float(np.abs(task.concept.twist(values)(r) - twist(r)).max()) > _NEAR:
         return None
-    x, y = (
-        (values[axis] - parameter.low) / (parameter.high - parameter.low)
-        for axis, parameter in zip(task.axes, drawn.parameters, strict=True)
-    )
-    return x, y
+    return drawn.place(values)
 
 
 def rail_name(parameter: Parameter) -> str:
@@ -104,18 +97,18 @@ def rail_name(parameter: Parameter) -> str:
 
 
 def least_words(drawn: PowerMap, units: Units) -> str:
-    """The best grid point with all its parameters, and whether the map ends there."""
+    """The least with all its parameters, and whether the map ends there."""
 
     def at(parameter: Parameter, value: float) -> str:
         shown = number(parameter.shown(value), 1 if parameter.angular else 2)
         return f"{rail_name(parameter)} {shown} {parameter.shown_unit}"
 
     every = drawn.task.concept.parameters
-    best = ", ".join(at(*one) for one in zip(every, drawn.best, strict=True))
+    best = ", ".join(at(*one) for one in zip(every, drawn.lowest[1], strict=True))
     ends = [
         at(p, p.low + part * (p.high - p.low))
         for p, part in zip(drawn.parameters, drawn.least[:2], strict=True)
-        if part in (0.0, 1.0)
+        if min(part, 1.0 - part) < 1e-6
     ]
     beyond = f" It lies at the bound of {' and '.join(ends)}: less may lie beyond." if ends else ""
     return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"

@@ -99,12 +99,13 @@ class DesignReport:
 
 def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
     """The change of power here by the actuator on board, as the page says it; what it counts from; and whether it is
-    `more` or `less`."""
+    `more` or `less`; empty where that is not known, or nothing within its limits saves."""
     mass, here = mass_parts(driven.installed)["in all"], driven.here
     if here is None:
         return "", f"with {mass} on board", ""
     against = f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
-    return needs_words(-here.power, here.band, units), against, "more" if here.power > 0.0 else "less"
+    words = needs_words(-here.power, here.band, units, driven.sourced)
+    return words, against, {"loss": "more", "gain": "less", "": ""}[here.kind]
 
 
 def colours_of(report: DesignReport) -> list[str]:

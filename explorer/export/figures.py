@@ -31,7 +31,7 @@ AZIMUTHS = {0: "#0ca678", 90: "#e8590c", 180: "#1c7ed6", 270: "#9c36b5"}
 """Azimuths of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
 _BAR = 200.0
 _LETTERS = 13.0
-_CHART = 390.0, 260.0
+_CHART = 390.0, 240.0
 """[px] of a chart: two stand beside each other on paper, and their text is as large as that of a table."""
 _WIDE, _ROW, _NAME, _NUMBER = 480.0, 30.0, 92.0, 74.0
 """[px] of the balance: its width, a row, and the room for names and numbers beside the bars."""
@@ -187,7 +187,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     where = f"{verdict.installed.count}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
     unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
-    sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the flight."
+    sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the mission."
     parts = tag(
         "figure.chart",
         tag("figcaption", tag("b", "Extra power"), unit),
@@ -207,7 +207,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
 
 def _balance_bars(verdict: Verdict, units: Units) -> Markup:
     """Each part beside the end of the one before; what is left from zero."""
-    rows = balance(verdict.savings, units, verdict.net_band, verdict.bands)
+    rows = balance(verdict.savings, units, verdict.net_band, verdict.bands, verdict.sourced)
     ends, reached = [], 0.0
     for row in rows:
         start = 0.0 if row is rows[-1] else reached

@@ -54,7 +54,7 @@ def report_html(
         "report.html",
         {
             "title": title,
-            "line": title if several else report.line or _line(report),
+            "line": title if several else (report.line or _line(report)).replace(" ± ", "\u00a0±\u00a0"),
             "program": PROGRAM,
             "policy": web.policy(),
             "styles": web.styles("report.css"),
@@ -135,6 +135,7 @@ def _section(report: DesignReport, k: int) -> Markup:
         tag("p.dim", f"With {active}.") if active else None,
         tag("p.dim", flight_words(design, report.units), tag("br"), model_words(design)),
         _caveats(solution),
+        figures.disks(report, entry, k),
         tag(
             "div.tables",
             tables.conditions(solution),
@@ -143,7 +144,6 @@ def _section(report: DesignReport, k: int) -> Markup:
             tables.doubts(report, entry),
         ),
         tables.blade(design),
-        figures.disks(report, entry, k),
         figures.along(solution),
         tag("details", tag("summary", "Design file"), tag("pre", text)),
         id=f"design-{k}",

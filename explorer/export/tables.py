@@ -35,8 +35,9 @@ def change_words(report: DesignReport, entry: ReportEntry) -> Markup:
     if not report.comparable(entry):
         return tag("span.change.dim", "other flight condition")
     change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
-    kind = None if abs(change) < 0.05 else "less" if change < 0.0 else "more"
-    words = power_band(report, entry).saving_words or f"{number(change, 1, sign=True)} %"
+    band = power_band(report, entry)
+    kind = None if band.sureness in (None, "unclear") else "less" if change < 0.0 else "more"
+    words = band.saving_words or f"{number(change, 1, sign=True)} %"
     return tag("span.change", words, class_=kind)
 
 

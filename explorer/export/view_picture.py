@@ -60,9 +60,7 @@ def view_png(
     def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
 
-    height = 38
-    while len(lines := _wrapped(line, height, columns - 2 * _EDGE)) > 2:
-        height -= 2
+    lines, height = headline(line, columns - 2 * _EDGE)
     for k, words in enumerate(lines):
         write(_EDGE, 64 + k * 1.2 * height, words, height, ink)
     font = ImageFont.truetype(font_path(), 24)
@@ -93,6 +91,16 @@ def view_png(
     out = io.BytesIO()
     picture.save(out, "PNG", pnginfo=numbers)
     return out.getvalue()
+
+
+def headline(line: str, room: float) -> tuple[list[str], int]:
+    """At most two lines within `room` [px], about as long as each other, so that none is but a unit; their height."""
+    height = 38
+    while len(lines := _wrapped(line, height, room)) > 2:
+        height -= 2
+    while room > 20 and len(even := _wrapped(line, height, room)) == len(lines):
+        lines, room = even, room - 20
+    return lines, height
 
 
 def _wrapped(words: str, height: float, room: float) -> list[str]:

@@ -52,9 +52,9 @@ class ActuatorInputs:
     against: Against = "same-blade"
     advance_ratios: tuple[float, float] = (0.0, 0.3)
     drives: tuple[float, ...] = AT_REST
-    """Per cent of the positive or of the negative voltage, segments from the root."""
+    """Per cent of the positive or of the negative voltage, segments from the root; none below `least_drive`."""
     crossed: bool = False
-    """Fibres laid the other way, so that positive voltage turns the tip down."""
+    """Laid the other way, so that positive drive turns the tip down."""
 
     @property
     def mounting(self) -> tuple[Placement, HostBlade]:
@@ -94,12 +94,15 @@ class ActuatorInputs:
         return installed.tip(self.swings(installed))
 
     def reach(self, installed: InstalledActuator) -> tuple[float, float]:
-        """The twist in flight at either end of its drive, the lower first [rad]; what turns the tip one way only, the
-        way that it is set."""
-        whole = -100.0 if min(self.drives) < 0.0 else 100.0
-        ends = whole, -whole if installed.actuator.retrofit_swings[0] else 0.0
+        """The twist in flight at either end of its drive, the lower first [rad]."""
+        ends = self.least_drive, 100.0
         low, high = sorted(replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in ends)
         return low, high
+
+    @property
+    def least_drive(self) -> float:
+        """Low end of the drive [%]: zero for what turns the tip one way only."""
+        return -100.0 if find_actuator(self.actuator).drive_range[0] else 0.0
 
     def apply(self, design: Design) -> Design:
         """The design with the actuator on board, driven; the very same one on a blade of unknown structure."""
@@ -216,17 +219,25 @@ def lean_verdict(question: VerdictInputs) -> Verdict:
     return replace(verdict, baseline=base, resting=resting, optimum=optimum)
 
 
+def as_it_comes(id: str) -> dict[str, Any]:
+    """Of `ActuatorInputs`, another actuator: as it comes, whatever was tried before."""
+    start = ActuatorInputs(id)
+    return {name: getattr(start, name) for name in ("actuator", "plies", "chord", "crossed")}
+
+
 def verdict_tasks(question: VerdictInputs) -> dict[str, Call]:
-    """By actuator: the chosen one first, then all others."""
-    ids = dict.fromkeys((question.actuator, *actuators()))
-    return {id: Call(lean_verdict, (replace(question, actuator=id),)) for id in ids}
+    """By actuator: the chosen one first, then all others as they come, on the same blade and over the same mission."""
+    start = ActuatorInputs()
+    comes = replace(question, placement=replace(question.placement, plies=start.plies, chord=start.chord))
+    others = {id: replace(comes, actuator=id) for id in actuators() if id != question.actuator}
+    return {id: Call(lean_verdict, (one,)) for id, one in {question.actuator: question, **others}.items()}
 
 
 def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float) -> dict[str, Any]:
     """Of `ActuatorInputs`, the voltages of a flight at a place counted in its legs, straight between them, in whole per
     cent; nothing where it has none.
 
-    Fibres are laid the other way where the voltages of the flight oppose its twists.
+    It is laid the other way where the voltages of the flight oppose its twists, or its twists are those.
     """
     if not flight.swings:
         return {}
@@ -235,6 +246,8 @@ def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float
     if volts.size:
         swings, shares = shares, volts / actuator.drive_swing
         changes["crossed"] = installed.host.kind == "retrofit" and float(np.sum(swings * shares)) < 0.0
+    elif not actuator.drive_range[0]:
+        changes["crossed"], shares = float(np.sum(shares)) < 0.0, np.abs(shares)
     legs = np.arange(len(shares))
     drives = [100.0 * actuator.share_of(float(np.interp(leg, legs, share))) for share in shares.T]
     return {**changes, "drives": (*map(float, map(round, drives)), *AT_REST[len(drives) :])}

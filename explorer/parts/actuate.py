@@ -118,14 +118,14 @@ class EarnsPart:
 
 @dataclass(frozen=True)
 class AssessedPart:
-    """The actuator as set, in words: what it moves and costs, and gives over the flight.
+    """The actuator as set, in words: what it moves and costs, and gives over the mission.
 
     `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `flight`: what it gives by
-    schedule, over the `flights`. `vibration`: of what flies here. `over`: limits that are exceeded, `asked`: those that
-    only the best twist would exceed; `feasible`: what a press changes so that it can be built. `baselines`: name and
-    title of each blade that changes may count from; `against`: the name of the one that they do. `sentence`: all of it.
-    `pays`: words, and every second one a number with which it would pay, the other as it is: `range` of twist [°],
-    `kilograms`.
+    schedule over the mission, or why it cannot work; `flights`: the mission, and what it would give. `vibration`: of
+    what flies here. `over`: limits that are exceeded, `asked`: those that only the best twist would exceed; `feasible`:
+    what a press changes so that it can be built. `baselines`: name and title of each blade that changes may count from;
+    `against`: the name of the one that they do. `sentence`: all of it. `pays`: words, and every second one a number
+    with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
     """
 
     tip: str

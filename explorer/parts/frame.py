@@ -75,12 +75,13 @@ class StepPart:
 
 @dataclass(frozen=True)
 class StepAnswer:
-    """What it says after the guess, `right` being the place of the right option.
+    """What it says after the guess, `right` being the place of the right option, `open` of others within its band.
 
     `dots`: x, y and colour of each, by position of the control.
     """
 
     right: int
+    open: Sequence[int]
     answer: str
     chart: DrawnChart
     dots: Sequence[Sequence[tuple[float, float, str]]]

@@ -85,7 +85,9 @@ _ALONE = (
 PRESSES: dict[str, Any] = {
     **dict.fromkeys(_ALONE),
     **dict.fromkeys(("along", "hold"), bool),
-    **dict.fromkeys(("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default"), _Label),
+    **dict.fromkeys(
+        ("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default", "kind"), _Label
+    ),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand"), _Radius),
     **dict.fromkeys(("difference", "more"), _Switch),
@@ -94,6 +96,7 @@ PRESSES: dict[str, Any] = {
     "slide": SlidePress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
+    "kind": _Label,
     "against": Literal["same-blade", "best-fixed"],
     "state": Literal["set", "schedule", "stopped"],
     "suppose": _Switch | SupposePress,

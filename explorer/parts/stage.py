@@ -121,7 +121,7 @@ class PlanPart:
     words. `around`: the axes of the angle of attack over azimuth. `mu`: advance ratio along the disk. `values`: what is
     read under the pointer once nothing moves, `before` that of A. `coloured`: the field itself; `psi` of the columns
     begins at zero, `r` of the rows goes from `root` to 1. `held`: what the outlines beside are of while the blade is in
-    the hand; None: it is not.
+    the hand; None: it is not. `wiped`: the field of A, seen left of the handle while A is wiped over B.
     """
 
     disk: PlanDisk
@@ -138,6 +138,7 @@ class PlanPart:
     before: StationValues | None = None
     coloured: PackedTable | None = None
     held: str | None = None
+    wiped: PlanDisk | None = None
 
 
 @dataclass(frozen=True)

@@ -229,9 +229,10 @@ _NAMES = ("Mach", "M²")
 
 
 def shown_field(view: ViewState, pinned: Solution | None) -> Field:
-    """The field that the disk shows: as it is, or B − A once a design is pinned and the difference wanted."""
+    """The field that the disk shows: as it is, or B − A where wanted and a design is pinned, but not while that is
+    wiped over B."""
     field = FIELDS[view.field]
-    return difference(field, pinned) if view.difference and pinned is not None else field
+    return difference(field, pinned) if view.difference and not view.wipe and pinned is not None else field
 
 
 def difference(field: Field, pinned: Solution) -> Field:

@@ -174,7 +174,7 @@ def _labels(
 
     named = {name: f"{mass} kg of {name}" for name, mass in mass_parts(installed).items()}
     what = named.get(installed.actuator.noun[1], installed.actuator.name)
-    if "crossed" in installed.actuator.settings:
+    if installed.actuator.on_skin:
         what += f" at {'−45' if inputs.crossed else '45'}°"
     inner, outer = blade.spans[0][0], blade.spans[-1][1]
     for name, r, y, above in (

@@ -172,6 +172,7 @@ def plan(
         values=_values(solution) if at_rest else None,
         before=_values(pinned) if at_rest and pinned is not None else None,
         coloured=_packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
+        wiped=_disk(pinned, field, colour_range) if view.wipe and pinned is not None else None,
     )
 
 

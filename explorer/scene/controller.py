@@ -22,7 +22,6 @@ from explorer.picture.camera_views import View
 from explorer.picture.disk_numbers import disk_ink, disk_numbers
 from explorer.picture.fields import (
     CLIPPED_SHARE,
-    FIELDS,
     Field,
     fitted_range,
     keeps_range,
@@ -216,7 +215,7 @@ class SceneController:
         if overlay is None:
             as_built = baseline_of(solution.design)
             overlay = OtherBlade(as_built.rotor, as_built.twist, None)
-        field = _field(view, pinned)
+        field = shown_field(view, pinned)
         colour_range = self._range(solution, field)
         wanted = _Drawn(solution, pinned, view, colour_range, overlay, self._look)
         if self._drawn == wanted:
@@ -261,7 +260,7 @@ class SceneController:
         if drawn is None or self._rested:
             return
         solution, view = drawn.solution, drawn.view
-        field = _field(view, drawn.pinned)
+        field = shown_field(view, drawn.pinned)
         values = field_values(solution, field)
         if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
             fitted = fitted_range(field, values, trim=CLIPPED_SHARE)
@@ -325,7 +324,7 @@ class SceneController:
         drawn = self._drawn
         if drawn is None or self.scene.behind:
             return None
-        return _field(drawn.view, drawn.pinned), drawn.colour_range
+        return shown_field(drawn.view, drawn.pinned), drawn.colour_range
 
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""
@@ -351,8 +350,3 @@ class SceneController:
             fitted_range(field, field_values(solution, field), trim=CLIPPED_SHARE) if field.note else usual
         )
         return self._ranges[field.title]
-
-
-def _field(view: ViewState, pinned: Solution | None) -> Field:
-    """What the disk shows: B − A where wanted, but not while A is wiped over B."""
-    return FIELDS[view.field] if view.wipe else shown_field(view, pinned)

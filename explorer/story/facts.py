@@ -125,6 +125,8 @@ class StepFacts:
     right: int
     """Place of the right answer among those to choose from."""
     chart: StepChart
+    open: tuple[int, ...] = ()
+    """Places of other answers that its band does not rule out."""
 
     def words(self, units: Units) -> dict[str, str]:
         """The numbers as they are written."""
@@ -279,7 +281,9 @@ def _two_segments(step: LectureStep) -> StepFacts:
     level = (0.0,) * len(changes)
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
     chart = StepChart("inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines)
-    return blades.facts(numbers, 1.0 - b.power.total / a.power.total, chart, level, changes)
+    saving, band = 1.0 - b.power.total / a.power.total, 0.01 * (doubt(b, a).change_band_percent or 0.0)
+    facts = blades.facts(numbers, saving, chart, level, changes)
+    return _banded(step, facts, saving - band, saving + band)
 
 
 def _fixed_or_moving(step: LectureStep) -> StepFacts:
@@ -310,7 +314,7 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
     )
     lines = ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)
     chart = StepChart("advance ratio", "twist [°/R]", "angle", SPEEDS, "mu", lines, (low, high))
-    return _answered(step, stops, numbers, moving.gain, chart)
+    return _banded(step, _answered(step, stops, numbers, moving.gain, chart), min(gains), max(gains))
 
 
 def _power_or_vibration(step: LectureStep) -> StepFacts:
@@ -336,7 +340,7 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
     )
     lines, across = (ChartLine("front", "b", indices),), "power, change from A"
     chart = StepChart(across, "vibration index, change from A", "percent", powers, "signed", lines)
-    return _answered(step, tuple(stops), numbers, changes[0][1], chart)
+    return _banded(step, _answered(step, tuple(stops), numbers, indices[0], chart), *(0.01 * end for end in ends))
 
 
 def _rounded(wave: Harmonic) -> Harmonic:
@@ -443,6 +447,12 @@ def _answered(
         if bound
     }
     return StepFacts(stops, {**bounds, **numbers}, bisect_right(step.bounds, answer), chart)
+
+
+def _banded(step: LectureStep, facts: StepFacts, low: float, high: float) -> StepFacts:
+    """With the other answers from `low` to `high`, the ends of its band."""
+    places = range(bisect_right(step.bounds, low), bisect_right(step.bounds, high) + 1)
+    return replace(facts, open=tuple(place for place in places if place != facts.right))
 
 
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:

@@ -59,6 +59,7 @@ def answer_record(step: LectureStep, facts: StepFacts, units: Units) -> StepAnsw
     colours = [_colour(dot) for dot in chart.dots or [line.colour for line in chart.lines]]
     return StepAnswer(
         right=facts.right,
+        open=facts.open,
         answer=step.text.answer.format_map(facts.words(units)),
         chart=drawn_chart(Chart(chart.y_title + symbol, x_axis, Axis(), tuple(series))),
         dots=[

@@ -127,14 +127,23 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
 
 
 def change_pieces(
-    change: float, band: float | None, than: str, units: Units, known: bool = True, note: str = ""
+    change: float,
+    band: float | None,
+    than: str,
+    units: Units,
+    known: bool = True,
+    note: str = "",
+    *,
+    sourced: bool = True,
+    built: bool = True,
 ) -> list[LinePiece]:
-    """By how much [W] that is more or less than `than`, its band, and whether its sign is known."""
+    """By how much [W] that is more or less than `than`, its band, and whether its sign is known. `sourced`: as of
+    `sureness`; `built`: whether it could be, or less power is not green."""
     size, beside = change_sizes(change, band, units)
     if band is None and not any(digit in size for digit in "123456789"):
         return [LinePiece(f": no change from {than}", "against")]
-    word = "" if band is None else sureness(change, band)
-    kind: Kind = "" if word in ("", "unclear") else "bad" if change > 0.0 else "good"
+    word = "" if band is None else sureness(change, band, sourced=sourced)
+    kind: Kind = "" if word in ("", "unclear") else "bad" if change > 0.0 else "good" if built else ""
     return [
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),
@@ -170,7 +179,8 @@ def sentence(solution: Solution, units: Units, reference: Solution | None = None
     if reference is not None and reference.design != design:
         within = None if band is None else band.change_band
         change = solution.power.total - reference.power.total
-        pieces += change_pieces(change, within, than_words(design, reference.design, pinned=False), units)
+        than, sourced = than_words(design, reference.design, pinned=False), band is None or band.sourced
+        pieces += change_pieces(change, within, than, units, sourced=sourced)
     return plain(pieces)
 
 

@@ -15,6 +15,7 @@ from explorer.model.units import BLANK, SI, WATT, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
+from rotor.actuator.verdict import flight_text
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import Doubt, change_decimals, sureness
@@ -301,7 +302,11 @@ class BalanceRow(NamedTuple):
 
 
 def balance(
-    savings: Sequence[tuple[str, float]], units: Units, band: float | None = None, bands: Sequence[float] = ()
+    savings: Sequence[tuple[str, float]],
+    units: Units,
+    band: float | None = None,
+    bands: Sequence[float] = (),
+    sourced: bool = True,
 ) -> list[BalanceRow]:
     """What each part needs and what all do.
 
@@ -316,16 +321,18 @@ def balance(
     return [
         BalanceRow(
             name, value, number(shown, digits, sign=True), unit.of(sure),
-            f"{name} {needs_words(-unit.size * value, sure, units)}" if sure else "",
+            f"{name} {needs_words(-unit.size * value, sure, units, sourced)}" if sure else "",
         )
         for name, value, shown, sure in rows
     ]  # fmt: skip
 
 
 def needs(verdict: Verdict, units: Units) -> str:
-    """The power that an actuator needs over its flight, or saves, and how sure that is."""
-    net = verdict.net_saving
-    words = needs_words(net, verdict.net_band, units)
+    """The power that an actuator needs over its mission, or saves, and how sure that is; first, why it cannot work."""
+    net, actuator = verdict.net_saving, verdict.installed.actuator
+    words = needs_words(net, verdict.net_band, units, verdict.sourced)
+    if actuator.forbidden:
+        return f"is {actuator.forbidden}; could it work, it {words}"
     return words + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
 
 
@@ -335,11 +342,11 @@ def change_sizes(change: float, band: float | None, units: Units) -> tuple[str, 
     return number(abs(unit.of(change)), digits), "" if band is None else f" ± {number(unit.of(band), digits)}"
 
 
-def needs_words(net: float, band: float | None, units: Units) -> str:
-    """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more`."""
+def needs_words(net: float, band: float | None, units: Units, sourced: bool = True) -> str:
+    """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more (sure)`. `sourced`: as of `sureness`."""
     size, symbol = "".join(change_sizes(net, band, units)), units.power[0].symbol
     words = f"saves {size} {symbol}" if net > 0.0 else f"needs {size} {symbol} more"
-    return words if band is None else f"{words} ({sureness(net, band)})"
+    return words if band is None else f"{words} ({sureness(net, band, sourced=sourced)})"
 
 
 def banded(change: float, band: float, units: Units, *, least: int = 0, sign: bool = False) -> str:
@@ -379,7 +386,7 @@ def fuel_words(saved: float | None) -> str:
 def pair_words(verdict: Verdict) -> str:
     """The two flight conditions of a verdict."""
     first, second = verdict.baseline.pair.advance_ratios
-    return f"mean of µ {first:g} and µ {second:g}"
+    return f"mean of {flight_text(first)} and {flight_text(second)}"
 
 
 def limit_words(name: str) -> str:

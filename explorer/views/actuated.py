@@ -86,17 +86,19 @@ def _built(now: PageState) -> "ActuatedBlade | str":
 
 
 class PowerChange(NamedTuple):
-    """A change of power [W], more is positive, and its band, to both sides; None: not known."""
+    """A change of power [W], more is positive, and its band, to both sides; None: not known. `built`: whether what
+    makes it is known to keep its limits."""
 
     power: float
     band: float | None
+    built: bool = True
 
     @property
     def kind(self) -> Literal["gain", "loss", ""]:
-        """Empty where its sign is not known."""
+        """Empty where its sign is not known, and for a gain that nothing within its limits makes."""
         if self.band is None or sureness(self.power, self.band) == "unclear":
             return ""
-        return "loss" if self.power > 0.0 else "gain"
+        return "loss" if self.power > 0.0 else "gain" if self.built else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +157,8 @@ class ActuatedBlade:
         task = self.now.of(doubt_here)
         doubt = None if task is None else self.now.answers.get(task.key)
         change = flown.power.total - other.power.total + drive
-        return PowerChange(change, None if doubt is None else doubt.change_band)
+        band = None if doubt is None or doubt.sureness is None else doubt.change_band  # Less is what trims end at.
+        return PowerChange(change, band, self.built)
 
     @property
     def vibration(self) -> tuple[float, ...] | None:
@@ -166,7 +169,18 @@ class ActuatedBlade:
     @property
     def over_flight(self) -> PowerChange | None:
         """Mean over the mission, at its best twist."""
-        return None if self.verdict is None else PowerChange(-self.verdict.net_saving, self.verdict.net_band)
+        one = self.verdict
+        return None if one is None else PowerChange(-one.net_saving, one.net_band, one.buildable)
+
+    @property
+    def built(self) -> bool:
+        """Whether it is known to keep its limits."""
+        return self.verdict is not None and self.verdict.buildable
+
+    @property
+    def sourced(self) -> bool:
+        """Whether all its values have a source, as `rotor.trim.doubt.sureness` asks."""
+        return self.installed.actuator.provenance.sourced
 
 
 def against_words(one: ActuatedBlade, against: Against) -> str:

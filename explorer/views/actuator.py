@@ -78,6 +78,7 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
         },
         {
             **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
+            "crossed": "Fibres at −45°" if actuator.on_skin else "Turns the tip down",
             "plies": f"{actuator.noun[1].capitalize()}{' per side' if actuator.on_skin else ''}",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
@@ -109,7 +110,7 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
     start, whole = now.hand.pulled
     if not start:  # It was not taken.
         return ()
-    drives = tuple(min(max(drive + share * whole, -_FULL_DRIVE), _FULL_DRIVE) for drive in start)
+    drives = tuple(min(max(drive + share * whole, inputs.least_drive), _FULL_DRIVE) for drive in start)
     return (SetHand(BY_HAND, {"drives": drives}),)
 
 

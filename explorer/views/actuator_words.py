@@ -22,10 +22,11 @@ _SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
 
 
 def voltage_bar(actuator: Actuator) -> Markup:
-    """The colours that it is drawn in: both sides of its drive, each to its own end."""
+    """The colours that it is drawn in: each side of its drive to its own end."""
     low, high = actuator.drive_range
-    stops = ",".join(css(drive_colour(actuator, k / 8.0)) for k in range(-8, 9))
-    marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
+    stops = ",".join(css(drive_colour(actuator, k / 8.0)) for k in range(-8 if low else 0, 9))
+    marks = ((0.0, low), (50.0, 0.5 * high), (100.0, high))
+    marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high)) if low else marks
     ticks: list[Markup] = []
     for at, value in marks:
         words = f"{number(value)} {actuator.drive_unit}" if at == 100.0 else number(value)

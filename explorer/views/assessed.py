@@ -44,12 +44,21 @@ def _vibration(one: ActuatedBlade) -> str:
     return f"vibration {mean} % ({low}…{high})"
 
 
+def _gives(one: ActuatedBlade, units: Units) -> str:
+    """Over its mission."""
+    whole = one.over_flight
+    return "" if whole is None else needs_words(-whole.power, whole.band, units, one.sourced)
+
+
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
     moves = f"{total} on board turn the tip by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
+    forbidden = one.installed.actuator.forbidden
+    moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:
-        moves += f" By schedule it {needs_words(-flight.power, flight.band, units)} over the flight."
+        could = "Could it work, by" if forbidden else "By"
+        moves += f" {could} schedule it {_gives(one, units)} over the mission."
     mass = None if verdict is None else verdict.mass_allowed
     if flight is None or mass is None:
         return moves, ()
@@ -87,14 +96,15 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
     (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
-    whole = one.over_flight
+    forbidden, gives = one.installed.actuator.forbidden, _gives(one, units)
+    could = f"could it work: {gives}, " if forbidden else ""
     part = AssessedPart(
         tip=_angle(one.inputs.tip(one.installed)),
         reach=_reach(one),
         mass=total,
         masses=tuple(parts),
-        flight="" if whole is None else needs_words(-whole.power, whole.band, units),
-        flights="" if one.verdict is None else pair_words(one.verdict),
+        flight=forbidden or gives,
+        flights="" if one.verdict is None else f"{could}{pair_words(one.verdict)}",
         vibration=_vibration(one),
         problem=here_problem(now),
         over=over,

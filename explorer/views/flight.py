@@ -143,13 +143,14 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, units.power[0].symbol)
     if verdict is None:
         return state
+    gain: Sign = "gain" if verdict.buildable else ""
     used = None if verdict.fuel_saving is None else -3600.0 * verdict.fuel_saving
     return replace(
         state,
         where=f"by schedule, {pair_words(verdict)}",
-        bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands),
+        bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands, verdict.buildable, verdict.sourced),
         fuel=fuel_words(verdict.fuel_saving),
-        fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else "gain",
+        fuel_kind="" if used is None or abs(used) < 0.05 else "loss" if used > 0.0 else gain,
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
     )
 
@@ -158,25 +159,32 @@ def _earns_here(now: PageState, problem: str) -> EarnsPart:
     """The same in this flight; nothing is drawn until it is known."""
     parts, hovers = now.of(parts_here), now.inputs.advance_ratio == 0.0
     here = None if (one := actuated_blade(now)) is None else one.here
+    how = (True, True) if one is None else (one.built, one.sourced)
     speed = 0.0 if now.sliders is None else now.inputs.advance_ratio * now.sliders.rotor.tip_speed
     return EarnsPart(
         "ready" if parts else "problem" if problem else "computing",
         now.units.power[0].symbol,
         here=True,
         where="in hover" if hovers else f"at {now.units.speed[0].text(speed)}",
-        bars=_bars([part[:2] for part in parts], now.units, here and here.band, [part[2] for part in parts]),
+        bars=_bars([part[:2] for part in parts], now.units, here and here.band, [part[2] for part in parts], *how),
     )
 
 
 def _bars(
-    savings: Sequence[tuple[str, float]], units: Units, band: float | None, bands: Sequence[float]
+    savings: Sequence[tuple[str, float]],
+    units: Units,
+    band: float | None,
+    bands: Sequence[float],
+    built: bool,
+    sourced: bool,
 ) -> tuple[PowerBar, ...]:
-    rows = balance(savings, units, band, bands) if savings else []
+    rows = balance(savings, units, band, bands, sourced) if savings else []
+    kinds: list[Sign] = [_sign(row.text) for row in rows]
+    if kinds and kinds[-1] == "gain" and not built:
+        kinds[-1] = ""
     return tuple(
-        PowerBar(
-            row.name, round(row.value, 3), row.text, _sign(row.text), row is rows[-1], round(row.band, 3), row.words
-        )
-        for row in rows
+        PowerBar(row.name, round(row.value, 3), row.text, kind, row is rows[-1], round(row.band, 3), row.words)
+        for row, kind in zip(rows, kinds, strict=True)
     )
 
 
@@ -190,7 +198,7 @@ def asks(now: PageState) -> tuple[Questions, ...]:
 
 
 def choose(now: PageState, which: str) -> tuple[Effect, ...]:
-    """The balance of power here, or over the flight."""
+    """The balance of power here, or over the mission."""
     return (SetHand({"here": which == "here"}),)
 
 

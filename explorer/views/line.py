@@ -25,6 +25,7 @@ from explorer.views.flight import STATES
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.power import status
 from explorer.views.work import shown_doubt
+from rotor.actuator.verdict import MIN_SHOWN_W
 from rotor.design.quantity import Slider
 
 _BUILT = [row.slider.label.partition(" [")[0] for row in map(TWISTS.get, LAWS["builtin"].inputs) if row and row.slider]
@@ -67,11 +68,14 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     state, drives = one.now.hand.state, one.inputs.drives[: len(one.installed.shapes)]
     word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
     late = state == "schedule" and one.flight is None
-    pieces = [LinePiece(f" with {one.name} "), LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
+    forbidden = one.installed.actuator.forbidden
+    pieces = [LinePiece(f" with {one.name} ")]
+    pieces += [LinePiece(f"({forbidden}) ", "forbidden", "bad")] if forbidden else []
+    pieces += [LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
         label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
         pieces += [LinePiece(", ")] if k else []
-        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label), drive))
+        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label, low=one.inputs.least_drive), drive))
     waves = [
         f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°" for each in one.now.inputs.twist_per_rev
     ]
@@ -83,13 +87,16 @@ def _change_here(one: ActuatedBlade) -> list[LinePiece]:
     here, now, against = one.here, one.now, one.question.against
     if here is None:
         return [LinePiece(": computing the change …", "moved", stale=True)]
+    if here.band is None and abs(here.power) < MIN_SHOWN_W:
+        return [LinePiece(": no change from the blade without it", "against")]
     than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
     digit = 0.5 * 10.0 ** -fineness(now.state.solution.power, now.units) if now.state is not None else 0.5
     note = ", drive included" if abs(now.units.power[0].of(drive_here(now) or 0.0)) >= digit else ""
     reach = one.installed.actuator.range_limits
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
-    return change_pieces(here.power, here.band, than, now.units, note=note) + over
+    how = {"sourced": one.sourced, "built": one.built}
+    return change_pieces(here.power, here.band, than, now.units, note=note, **how) + over
 
 
 def _change(now: PageState) -> list[LinePiece]:

@@ -1,4 +1,5 @@
-"""What would pay: the mass that the actuator as set might have, over its range, and where real and supposed ones stand.
+"""What would pay: the mass that the actuator as set might have, over its range, and where real and supposed ones stand;
+all kinds in a table below their menu.
 
 The supposed actuator is dragged (`explorer/web/flight.js`) and stays in the address. Line and balance are those of
 `explorer.views.actuated`: at the chosen actuator both say the same.
@@ -11,14 +12,19 @@ from typing import Any
 
 import numpy as np
 
+from explorer.model.actuator_inputs import as_it_comes
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import Sign, SupposePart
 from explorer.parts.presses import SupposePress
-from explorer.text.readout import needs, needs_words
-from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, blade_out, here_problem
+from explorer.text.line import listed
+from explorer.text.readout import change_sizes, limit_words, needs, needs_words
+from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, here_problem, in_actuate
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
-from rotor.actuator import OtherStroke, Verdict
+from rotor.actuator import OtherStroke, Verdict, actuators
+from rotor.actuator.verdict import flight_text
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
+from rotor.support.markup import Markup, tag
+from rotor.trim.doubt import sureness
 
 SUPPOSED = "i"
 """Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
@@ -34,9 +40,56 @@ def _verdicts(one: ActuatedBlade) -> list[Verdict]:
 
 
 def view(now: PageState) -> dict[str, Any]:
-    """The stage, and whether the supposed actuator pays: its blade lights green."""
-    shown = None if now.problem else _stage(now)
-    return {} if now.problem else {"suppose": shown, "actuator.pays": shown is not None and shown.kind == "gain"}
+    """The stage, whether the supposed actuator pays (its blade lights green), and all kinds."""
+    if now.problem:
+        return {}
+    shown, one = _stage(now), actuated_blade(now)
+    kinds = Markup() if one is None else _kinds(one, now)
+    return {"suppose": shown, "actuator.pays": shown is not None and shown.kind == "gain", "actuator.kinds": kinds}
+
+
+def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
+    """Every kind on this blade, as it comes, beside the chosen one as set: by press, for they take a while."""
+    state, words = ("off", "Close the comparison") if now.hand.on_stage else ("on", "Compare all kinds")
+    press = tag("button.rx-link", words, data_do="suppose", data_value=state, type="button")
+    if not now.hand.on_stage:
+        return tag("div.rx", press, data_explorer="kinds")
+    heads = "kind", "range [°]", "mass [kg]", f"power [{now.units.power[0].symbol}]"
+    rows = [tag("tr.rx-dim", [tag("th", head) for head in heads])]
+    for id in sorted(one.outcomes, key=list(actuators()).index):
+        rows += _kind(one, id, now.units)
+    mission = " and ".join(map(flight_text, one.inputs.advance_ratios))
+    note = (
+        f"Power by schedule over the mission, mean of {mission}, against the {against_words(one, one.inputs.against)}."
+    )
+    return tag("div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds")
+
+
+def _kind(one: ActuatedBlade, id: str, units: Units) -> list[Markup]:
+    """Two rows: its numbers; what it exceeds, and how sure the power is."""
+    outcome, chosen, actuator = one.outcomes[id], id == one.question.actuator, actuators()[id]
+    verdict = outcome if isinstance(outcome, Verdict) else None
+    power, kind, words = "…", "", "computing" if outcome is None else str(outcome)
+    numbers: tuple[str, ...] = "", ""
+    if verdict is not None:
+        net, mass = verdict.net_saving, verdict.installed.masses.aircraft
+        numbers = number(math.degrees(verdict.installed.attainable), 1), number(mass, 0 if mass >= 10.0 else 1)
+        power = ("−" if net > 0.0 else "+") + "".join(change_sizes(net, verdict.net_band, units))
+        kind = PowerChange(-net, verdict.net_band, verdict.buildable).kind
+        kept = verdict.installed.actuator.range_limits
+        over = listed([limit_words(limit.name) for limit in verdict.broken if limit.name not in kept])
+        over = f"over its limits in {over}" if over else "within its limits"
+        band = verdict.net_band
+        sure = "" if band is None else sureness(net, band, sourced=verdict.sourced)
+        words = "; ".join(filter(None, (actuator.forbidden or over, sure)))
+    name = tag("button.rx-link", id.replace("_", " "), data_do="kind", data_value=id, type="button")
+    cells = tag("td", name), *(tag("td.rx-num", text) for text in numbers), tag("td.rx-num", power, data_kind=kind)
+    return [tag("tr", cells, data_chosen=chosen or None), tag("tr.rx-dim.rx-small", tag("td", words, colspan=4))]
+
+
+def take_kind(now: PageState, id: str) -> tuple[Effect, ...]:
+    """Take another actuator, as it comes."""
+    return (SetHand(actuator=as_it_comes(id)),) if id in actuators() else ()
 
 
 def _stage(now: PageState) -> SupposePart | None:
@@ -51,15 +104,15 @@ def _stage(now: PageState) -> SupposePart | None:
     degrees, mass = now.hand.place or own
     twist, band = math.radians(degrees), None
     saving = line.net(twist, mass)
-    if (degrees, mass) == own:
-        saving, band = -one.over_flight.power, one.over_flight.band
     kind: Sign = "gain" if saving > 0.0 else "loss"  # The side of the line.
-    kind = kind if band is None else PowerChange(-saving, band).kind
+    if (degrees, mass) == own:
+        saving, band, kind = -one.over_flight.power, one.over_flight.band, one.over_flight.kind
     most, least = line.mass_allowed(twist), line.twist_for(mass)
     notes = [f"With this range it pays below {_kilograms(most)}" if most else "With this range it never pays"]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
+    gives = needs_words(saving, band, units, one.sourced)
     return SupposePart(
-        words=f"{number(degrees, 1)}° for {_kilograms(mass)} {needs_words(saving, band, units)} over the flight",
+        words=f"{number(degrees, 1)}° for {_kilograms(mass)} {gives} over the mission",
         kind=kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
@@ -87,7 +140,7 @@ def move_supposed(now: PageState, value: str | SupposePress) -> tuple[Effect, ..
     return SetHand({"on_stage": on_stage, "place": place}), SetAddress(SUPPOSED, kept)
 
 
-PAY = Panel(view, blade_out, presses={"suppose": move_supposed})
+PAY = Panel(view, in_actuate, presses={"suppose": move_supposed, "kind": take_kind})
 
 
 def read_place(text: str) -> tuple[float, float]:

@@ -22,6 +22,8 @@ from rotor.trim.power import PowerBudget
 _HALF_LENGTH = 0.005
 """Change of a step, as a part of the power that is needed, at which the arrow has half the greatest length, so that
 none looks as long as a larger one."""
+_NOTHING = 1e-6
+"""[W]: a handle that acts changes more by a step, at an optimum too, where its slope is zero to the digits shown."""
 
 
 def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
@@ -98,11 +100,12 @@ def worth_row(
     ways: dict[int, Literal["up", "down", ""]] = {1: "up", -1: "down", 0: ""}
     digits = 1 + fineness(power, units)
     way = ways[one.saving_direction(units, digits)]
-    value = one.value_text(units, digits) if way else "no effect"
+    change = one.watts(units)
+    none = "flat here" if abs(change) > _NOTHING else "no effect"
+    value = one.value_text(units, digits) if way else none
     title = SLIDERS[one.name].label.partition(" [")[0]
     step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
-    change = one.watts(units)
     said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
     less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
     sentence = f"{title}: {step} more changes power by {said if way else less}."

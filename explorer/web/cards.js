@@ -65,8 +65,8 @@
           Vibration: mean and range over inflow models, blades bend.`)}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('by schedule, over the flight', `<b class="rxf-num">${text(one.flight || '…')}</b>`, text(one.flights),
-          'Whatever is set here. ± is one standard deviation.')}
+        ${column('by schedule, over the mission', `<b class="rxf-num">${text(one.flight || '…')}</b>`,
+          text(one.flights), 'Whatever is set here. ± is one standard deviation.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
   });

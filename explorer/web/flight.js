@@ -139,6 +139,8 @@
     card.querySelector('[data-explorer=tip-twist]').textContent = tip;
   }
 
+  let listed = false;  // The table of kinds was asked for, which stands among the controls.
+  addEventListener('click', event => { listed ||= Boolean(closest(event, '[data-explorer=kinds]')); }, true);
   // One waterfall: where the power goes. Or the line where an actuator pays for itself.
   RX.paint(['earns', 'suppose'], (balance, other) => {
     earns.hidden = !balance;
@@ -146,10 +148,11 @@
     earns.toggleAttribute('data-faded', balance.kind !== 'ready' && !other);
     const begins = other && !earns.hasAttribute('data-suppose');
     earns.toggleAttribute('data-suppose', Boolean(other));
-    if (begins && RX.small.matches) {  // Its drawing goes to the head of the sheet, whatever began it.
+    if (begins && RX.small.matches && !listed) {  // Its drawing goes to the head of the sheet, whatever began it.
       RX.showTab('charts', true);
       earns.closest('.rxf-sheet').scrollTop = 0;
     }
+    listed = false;
     if (other) drawBreakEven(other);
     else drawBalance(balance);
   });
@@ -161,7 +164,7 @@
     return {svg, width, height};
   }
   function drawBalance({bars, unit, here, where, fuel, fuel_kind, fuel_note}) {
-    const scopes = [['here', 'here', here], ['flight', 'over the flight', !here]].map(([name, words, chosen]) =>
+    const scopes = [['here', 'here', here], ['flight', 'over the mission', !here]].map(([name, words, chosen]) =>
       `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
     earns.innerHTML = `<div class="rxf-head"><b>Extra power</b><span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>

@@ -68,6 +68,7 @@ interface RxPresses {
   rotor: string;
   flown: string;
   default: string;
+  kind: string;
   story: number;
   guess: number;
   stop: number;
@@ -352,6 +353,7 @@ interface RxLecturePart {
 
 interface RxStepAnswer {
   right: number;
+  open: number[];
   answer: string;
   chart: RxDrawnChart;
   dots: [number, number, string][][];
@@ -410,6 +412,7 @@ interface RxPlanPart {
   before: RxStationValues | null;
   coloured: RxPackedTable | null;
   held: string | null;
+  wiped: RxPlanDisk | null;
 }
 
 interface RxPlanDisk {

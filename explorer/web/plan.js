@@ -12,12 +12,15 @@
   };
   const DASHES = {drag_divergence: '3 4'};
   /** @type {[string, string, number, string][]} */
-  const ROWS = [['alpha', 'α', 1, '°'], ['mach', 'M', 3, ''], ['cl', 'C_l', 3, ''], ['margin', 'To stall', 1, '°']];
+  const ROWS = [
+    ['alpha', 'α', 1, '°'], ['mach', 'Mach', 3, ''], ['cl', 'C_l', 3, ''], ['margin', 'Stall margin', 1, '°'],
+  ];
   const READ = ['Angle of attack', 'Mach number', 'Lift coefficient', 'Stall margin'];  // They have a row anyway.
   // `pointer` is a place on the disk, {r, psi}; `circle` the radius that is shown around.
   // In a tree of its own: the first canvas of the page is the scene.
   const shown = place.querySelector('[data-colours]');
-  shown.attachShadow({mode: 'open'}).innerHTML = '<canvas style="width: 100%; height: 100%"></canvas>';
+  shown.attachShadow({mode: 'open'}).innerHTML =
+    '<canvas style="width: 100%; height: 100%"></canvas><canvas></canvas>';
   /** @type {any} */
   let values = null;
   let layout = null, pointer = null, circle = 0.75, pressed = null;
@@ -67,9 +70,14 @@
       && width > 560 && width - CARDS > height - STACKED;
     const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
+<<<<<<< HEAD
     const low = Math.min(...['.rxf-field', '.rxf-views', '.rxf-fly', '.rxf-earns']
       .map(name => seen(name)?.top ?? height).filter(top => top > height / 2));
     const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
+=======
+    const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
+    const high = (held ? seen('.rxf-power')?.bottom ?? 0 : covered()) + ROOM;
+>>>>>>> main
     const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
       : wide ? [CARDS, both ? LABEL.width + 26 : 70, ROOM, ROOM]
@@ -124,8 +132,12 @@
   function placeLabels(regions) {
     if (!layout.wide) return [];
     const sizes = Object.fromEntries(regions.map(region => [region.name, LABEL.height + priceHeight(region.name)]));
+<<<<<<< HEAD
     const above = seen('.rxf-views:has(p)') ?? seen('.rxf-power'), from = (above?.bottom ?? 20) + 12;
     const x = layout.width - LABEL.width - 16;
+=======
+    const from = Math.max(covered(), 20) + 12, x = layout.width - LABEL.width - 16;
+>>>>>>> main
     const to = (seen('.rxf-field')?.top ?? layout.height) - 12;
     const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[][]} */ ([])};
     const right = {x, end: x, from: 62, to: layout.height - 16, taken: /** @type {number[][]} */ ([])};
@@ -182,6 +194,8 @@
       && taken.every(([other, own]) => top >= other + own + 7.5 || top + size <= other - 7.5));
     return possible.sort((a, b) => Math.abs(a - wanted) - Math.abs(b - wanted))[0] ?? null;
   }
+  // Down to where cards of the upper left stand: that of power, and below it the bar of a search or a game.
+  const covered = () => Math.max(0, ...['.rxf-power', '.rxf-notice'].map(name => seen(name)?.bottom ?? 0));
   // A card of the stage, in the stage's own coordinates.
   function seen(name) {
     const box = document.querySelector(name)?.getClientRects()[0], {left, top} = place.getBoundingClientRect();
@@ -207,8 +221,12 @@
     const {x, y, radius, width, height} = layout, svg = place.querySelector('svg'), edge = 2 * radius;
     const sharp = Math.min(devicePixelRatio, 2);
     shown.style.cssText = `left: ${x - radius}px; top: ${y - radius}px; width: ${edge}px; height: ${edge}px`;
-    window.rotorDisk.fill(shown.shadowRoot.firstElementChild, plan.disk, plan.root,
-      plan.values ? edge * sharp : Math.min(edge, MOVING));
+    const [drawn, wiped] = shown.shadowRoot.children, pixels = plan.values ? edge * sharp : Math.min(edge, MOVING);
+    window.rotorDisk.fill(drawn, plan.disk, plan.root, pixels);
+    wiped.hidden = !plan.wiped;
+    if (plan.wiped) window.rotorDisk.fill(wiped, plan.wiped, plan.root, pixels);
+    wiped.style.cssText = `position: absolute; inset: 0; width: 100%; height: 100%;
+      clip-path: inset(0 calc(${x + radius}px - 100cqw * var(--rx-wipe, .5)) 0 0)`;
     const regions = plan.regions.filter(({lines}) => lines.length);
     const stall = {name: 'stall', title: 'Stall', words: 'none'};
     const none = !plan.held && RX.state.prices && !regions.some(({name}) => name === 'stall');
@@ -249,7 +267,7 @@
     const value = read(spot, values.own), {field, unit} = RX.shown('plan'), colour = at(values.coloured, spot);
     const number = fixed(colour, Math.abs(colour) < 1 ? 3 : 1);
     const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
-    if (reversed(spot)) return `<dt>M</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
+    if (reversed(spot)) return `<dt>Mach</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.map(([name, title, decimals, of]) => {
       const bad = name === 'margin' && value.margin < 0 ? 'rxf-bad' : '';
       const words = title.replace('_l', '<sub>l</sub>');
@@ -354,6 +372,6 @@
     drawAround();
     RX.say(card(pointer).replace(/<dt>/g, ', ').replace(/<\/dt>/g, ' ').replace(/<[^>]+>/g, ''));
   });
-  for (const element of [place, ...document.querySelectorAll('.rxf-field, .rxf-power')])
+  for (const element of [place, ...document.querySelectorAll('.rxf-field, .rxf-power, .rxf-notice')])
     new ResizeObserver(() => RX.again('plan')).observe(element);
 })();

@@ -64,7 +64,8 @@ window.makeStory = (column, figures, report) => {
     for (const other of list.querySelectorAll('.rxs-answer')) other.hidden = other !== place || guess === null;
     if (guess !== null) {
       const right = answer && answer.right === guess;
-      const verdict = `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : 'No.'}</b>`;
+      const open = answer && answer.open.includes(guess) ? 'Unclear: the band holds this answer too.' : 'No.';
+      const verdict = `<b class="rxs-verdict" data-right="${right}">${right ? 'Right.' : open}</b>`;
       place.querySelector('p').innerHTML = answer ? `${verdict} ${marked(answer.answer)}`
         : text(now.problem || 'Computing …');
       drawChart(place.querySelector('figure'), answer, stop);

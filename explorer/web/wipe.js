@@ -37,7 +37,7 @@
   }
   function show() {
     place.hidden = !on;
-    place.style.setProperty('--rx-wipe', String(at));
+    stage.style.setProperty('--rx-wipe', String(at));  // The plan of the disk reads it, too.
     handle.ariaValueNow = String(Math.round(100 * at));
     look();
   }

@@ -20,6 +20,7 @@ from explorer.model.inputs import (
     Inputs,
     menu_titles,
     preset_inflow,
+    reference_mass_t,
     with_rotor,
 )
 from explorer.model.session_state import SessionState
@@ -72,6 +73,7 @@ class DesignControls:
         self._sliders(_LAW_INPUTS, LAWS[start.law].inputs)
         self._speed = gui.add_html(_flight_heading(0.0, SI))
         self._sliders(FLIGHT, _ALWAYS)
+        form.finer["mass_t"] = reference_mass_t(start.aircraft)
         self.stand = StandControls(gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state)
         self.stand.add_sliders(start)
         self._fold = gui.add_html("")
@@ -159,6 +161,7 @@ class DesignControls:
                 self.form.place(name, getattr(inputs, name))
             else:
                 self.form.fit(name, slider(name, self._units, inputs.aircraft), getattr(inputs, name))
+        self.form.finer["mass_t"] = reference_mass_t(inputs.aircraft)
 
     def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""

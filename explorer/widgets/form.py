@@ -56,6 +56,8 @@ class WidgetForm:
         """Where sliders began."""
         self._placed: dict[str, tuple[Any, Any]] = {}
         """By slider its place and the input put there, which it means until a hand moves it."""
+        self.finer: dict[str, float] = {}
+        """By slider an input with more digits than it shows, which a place means that shows the same."""
         self._below: dict[str, viser.GuiHtmlHandle] = {}
         self._units = SI
 
@@ -105,6 +107,10 @@ class WidgetForm:
             return next(key for key, title in self._titles[name].items() if title == place)
         if isinstance(place, tuple):
             return tuple(sorted(round(float(end), 4) for end in place))
+        if (finer := self.finer.get(name)) is not None:
+            at, digits = shown(self._rows[name], finer, self._units), self._handles[name].precision
+            if round(at, digits) == round(place, digits):
+                return finer
         return meant(self._rows[name], place, self._units) if name in self._rows else place
 
     def values(self) -> dict[str, Any]:
@@ -175,6 +181,13 @@ class WidgetForm:
                 self._handles[name].visible = visible
                 if name in self._below:
                     self._below[name].visible = visible
+
+    def bound(self, name: str, low: float) -> None:
+        """Another low end of a slider, which its value does not leave."""
+        handle = self._handles[name]
+        if handle.min != low:
+            self.place(name, max(handle.value, low))
+            handle.min = low
 
     def call(self, name: str, label: str) -> None:
         """Another label."""

@@ -172,17 +172,18 @@ class SceneViews:
         self._context.wake()
 
     def show_plan(self, solution: Solution, view: ViewState, at_rest: bool) -> None:
-        """The disk from above, drawn by the page itself; two rotors that are wiped stay in the scene."""
+        """The disk from above, drawn by the page itself."""
         answer = self._context.pinboard.answer
         pinned = answer if answer is not None and answer.converged else None
         if self._actuator.lifted and not self._actuator.fits:
             self._lift(False)
         self._show()  # Another rotor may carry an actuator, or not.
-        before, wiped = self.before, view.wipe and pinned is not None and not self._missing
-        self._context.bridge.set(wipe=wiped and before is None and not self._actuator.lifted)
+        before, other = self.before, self._actuator.lifted or self.before is not None
+        self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
+        view = replace(view, wipe=view.wipe and not other)
         if before is not None:
             view = replace(view, stall=True, reverse_flow=True, drag_divergence=False)
-        elif wiped or not (self.now == "disk" or self._missing):
+        elif not (self.now == "disk" or self._missing):
             self._hide_plan()
             return
         field = shown_field(view, pinned)

@@ -5,8 +5,9 @@ Tasks are values that can be pickled. Nothing here imports viser.
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any
 
 from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
@@ -121,6 +122,10 @@ _UNSEEN = 5e-5
 """Fall of power, as a part of it, that a map does not show: half a digit of its least."""
 
 
+Lowest = tuple[float | None, tuple[float, ...]]
+"""Least power [W], None where nothing trims, and all parameters there."""
+
+
 @dataclass(frozen=True)
 class MapTask:
     """Power over two parameters of a concept, least over its others: on a coarse grid, then on finer ones."""
@@ -137,7 +142,7 @@ class MapTask:
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
         """Reports the part done, 0…1, after each row, and a `MapLevel` for each grid; True when all were done."""
-        known: dict[tuple[int, int], tuple[float | None, tuple[float, ...]]] = {}
+        known: dict[tuple[int, int], Lowest] = {}
         history, finest = TrimHistory(), self.steps[-1]
         for steps in self.steps:
             every = range(0, finest + 1, finest // steps)
@@ -145,41 +150,51 @@ class MapTask:
                 cells = [(row, column) for column in every if (row, column) not in known]
                 if stop():
                     return False
-                # From the nearest point that is known: the least there is near the least here.
+                # From the nearest point that is known, whose least is near, and from across the range: there are
+                # valleys side by side.
                 near = [min(known, key=lambda at, c=cell: math.dist(at, c), default=None) for cell in cells]
                 places = [(column / finest, row / finest) for row, column in cells]
                 begun = [
                     self.place(*place, self.values if at is None else known[at][1])
                     for place, at in zip(places, near, strict=True)
                 ]
-                known.update(zip(cells, self._least(begun, history), strict=True))
+                found, several = self._least(begun, history, self.axes), len(self.values) > len(self.axes)
+                across = self._least(map(self._across, begun), history, self.axes) if several else found
+                known.update(zip(cells, map(_lower, found, across), strict=True))
                 tell(len(known) / (finest + 1) ** 2)
             grid = [[known[row, column] for column in every] for row in every]
             powers = tuple(tuple(power for power, _ in cells) for cells in grid)
-            tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid)))
+            power, values = reduce(_lower, known.values())
+            least = (power, values) if power is None else self._least([values], history, (), 0.02 * _UNSEEN)[0]
+            tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid), least))
         return True
 
     def _least(
-        self, begun: Sequence[tuple[float, ...]], history: TrimHistory
-    ) -> list[tuple[float | None, tuple[float, ...]]]:
-        """Least power [W] with the parameters that have it, those of the axes as given."""
-        if not begun:
+        self, starts: Iterable[tuple[float, ...]], history: TrimHistory, held: Sequence[int], unseen: float = _UNSEEN
+    ) -> list[Lowest]:
+        """Least power near each start, with these parameters as given, to a fall by `unseen`, a part of it."""
+        if not (begun := list(starts)):
             return []
-        free = [k for k in range(len(self.values)) if k not in self.axes]
+        free = [k for k in range(len(self.values)) if k not in held]
         searches: list[Evaluator] = []
         for values in begun:
-            held = {self.concept.parameters[axis].name: values[axis] for axis in self.axes}
-            concept = replace(self.concept, fixed=(*self.concept.fixed, *held.items()))
+            fixed = {self.concept.parameters[k].name: values[k] for k in held}
+            concept = replace(self.concept, fixed=(*self.concept.fixed, *fixed.items()))
             searches.append(Evaluator(self.design, concept, self.objective, Limits(), 0, None, None, history))
-        starts = [one.scaled([values[k] for k in free]) for one, values in zip(searches, begun, strict=True)]
-        ends = descend_together(searches, starts, _UNSEEN)
-        found: list[tuple[float | None, tuple[float, ...]]] = []
+        scaled = [one.scaled([values[k] for k in free]) for one, values in zip(searches, begun, strict=True)]
+        ends = descend_together(searches, scaled, unseen)
+        found: list[Lowest] = []
         for one, end, values in zip(searches, ends, begun, strict=True):
             all_values = list(values)
             for k, value in zip(free, one.values(end.x), strict=True):
                 all_values[k] = value
             found.append((end.power, tuple(all_values)))
         return found
+
+    def _across(self, values: Sequence[float]) -> tuple[float, ...]:
+        """Each parameter but those of the axes as far from the other end of its range."""
+        every = enumerate(zip(self.concept.parameters, values, strict=True))
+        return tuple(value if k in self.axes else one.low + one.high - value for k, (one, value) in every)
 
     def place(self, x: float, y: float, values: Sequence[float]) -> tuple[float, ...]:
         """The parameters at a point of the map, 0…1 along each axis, with the others of `values`."""
@@ -190,6 +205,10 @@ class MapTask:
         return tuple(placed)
 
 
+def _lower(one: Lowest, other: Lowest) -> Lowest:
+    return min(one, other, key=lambda found: math.inf if found[0] is None else found[0])
+
+
 @dataclass(frozen=True)
 class MapLevel:
     """A square grid, rows along y from low to high."""
@@ -198,6 +217,8 @@ class MapLevel:
     """[W]; None where a design does not trim."""
     values: tuple[tuple[tuple[float, ...], ...], ...]
     """All parameters of each point."""
+    least: Lowest
+    """Between the points too, from the lowest of them."""
 
 
 @dataclass(frozen=True)

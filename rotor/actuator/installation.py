@@ -140,7 +140,7 @@ def with_actuator(design: Design, actuator: str) -> Design:
         design: an elastic blade whose structure is known, without an actuator.
         actuator: NAME, or NAME,KEY=VALUE,… such as `MFC_P1,drive=77` with the drive in per cent of its side, by segment
             `77:50`. Other keys: plies, span=A:B [r/R], chord=A:B [x/c], gj (of a new blade, over that of the present
-            one), divisions=R:… [r/R], crossed=1 (fibres laid the other way).
+            one), divisions=R:… [r/R], crossed=1 (laid the other way).
 
     Returns:
         A design like any other, for `solve`, `sweep` and design files.
@@ -188,13 +188,15 @@ def read_actuator(text: str) -> ActuatorSpec:
         given[key] = numbers
     plain, gj, drives = default_placement(), given.get("gj"), given.get("drive", (0.0,))
     span, chord = given.get("span", plain.span), given.get("chord", plain.chord)
-    if len(span) != 2 or len(chord) != 2 or max(map(abs, drives)) > 100.0:
-        raise ValueError(f"actuator {text!r:.80}: give span and chord two ends, and drives from −100 to 100 %")
+    crossed, least = bool(given.get("crossed", (0.0,))[0]), -100.0 if find_actuator(id).drive_range[0] else 0.0
+    if not least and max(drives) <= 0.0:  # One that turns the tip one way is laid the other way.
+        drives, crossed = tuple(-drive for drive in drives), crossed != any(drives)
+    if len(span) != 2 or len(chord) != 2 or min(drives) < least or max(drives) > 100.0:
+        raise ValueError(f"actuator {text!r:.80}: give span and chord two ends, and drives from {least:.0f} to 100 %")
     plies = round(given.get("plies", (plain.plies,))[0])
     placement = Placement((span[0], span[1]), (chord[0], chord[1]), plies, divisions=given.get("divisions", ()))
-    find_actuator(id)
     host = HostBlade() if gj is None else HostBlade("new", gj[0])
-    return ActuatorSpec(id, placement, host, drives, bool(given.get("crossed", (0.0,))[0]))
+    return ActuatorSpec(id, placement, host, drives, crossed)
 
 
 def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: bool, name: str) -> Carried:
@@ -220,6 +222,7 @@ def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: boo
         inertia_kg_m=added.torsional_inertia,
         added_gj_nm2=added.stiffness,
         gj_factor=host.stiffness,
+        sourced=installed.actuator.provenance.sourced,
     )
 
 

@@ -47,6 +47,11 @@ class DataProvenance:
     tested: str
     """The test that it is placed by."""
 
+    @property
+    def sourced(self) -> bool:
+        """Whether no value is recalled or assumed, as `rotor.trim.doubt.sureness` asks."""
+        return not (self.recalled or self.assumed)
+
     def warnings(self, name: str) -> tuple[str, ...]:
         """Caveats of using the numbers, one sentence each."""
         graded = ("values from memory, to be verified", self.recalled), ("assumed values", self.assumed)
@@ -125,13 +130,15 @@ class Actuator(ABC):
     """One of it, and several."""
     settings: ClassVar[tuple[str, ...]] = ("plies", "span")
     """What of its placement can be chosen: without `span` it is the whole blade, with `chord` it lies on both skins.
-    `crossed`: its fibres can be laid the other way."""
+    `crossed`: it can be laid so that it turns the tip the other way."""
     drive_noun: ClassVar[str] = "drive"
     drive_unit: ClassVar[str] = "%"
     follows_azimuth: ClassVar[bool] = False
     """Whether it is fast enough for n/rev."""
     range_limits: ClassVar[tuple[str, ...]] = ()
     """Names of the limits that only say that more twist is asked for than there is."""
+    forbidden: ClassVar[str] = ""
+    """Why its principle cannot work on such a rotor, as `forbidden by …`; empty where it can."""
 
     @classmethod
     def read(cls, row: Mapping[str, Any]) -> Self:
@@ -172,8 +179,8 @@ class Actuator(ABC):
 
     @property
     def drive_range(self) -> tuple[float, float]:
-        """Least and largest drive, in its unit."""
-        return -100.0, 100.0
+        """Least and largest drive, in its unit; the least is zero where it turns the tip one way only."""
+        return 0.0, 100.0
 
     @property
     def drive_swing(self) -> float:
@@ -197,7 +204,8 @@ class Actuator(ABC):
     @property
     def retrofit_swings(self) -> tuple[float, float]:
         """Swings of one that does not change the blade's twist while it rests."""
-        return 0.0, 1.0
+        low, high = (drive / self.drive_swing for drive in self.drive_range)
+        return low, high
 
     def voltages(self, swings: tuple[Swings, ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
         """Voltage of each segment at both conditions [V]; empty where voltage does not drive it."""

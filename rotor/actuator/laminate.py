@@ -20,7 +20,8 @@ class ExtensionTwist(Actuator):
     """Share by which the rotor may be slowed in flight."""
 
     noun = "laminate", "laminates"
-    settings = ()
+    settings = ("crossed",)
+    forbidden = "forbidden by constant rotor speed"
 
     @property
     def mode(self) -> str:

@@ -122,11 +122,6 @@ class PiezoPly(Actuator):
     def drive_swing(self) -> float:
         return self.voltage_swing
 
-    @property
-    def retrofit_swings(self) -> tuple[float, float]:
-        low, high = (volts / self.voltage_swing for volts in self.voltage_range)
-        return low, high
-
     def field(self, voltage: ArrayLike) -> Array:
         """E = V/gap [V/m]."""
         return np.asarray(voltage, dtype=float) / self.electrode_gap

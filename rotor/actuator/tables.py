@@ -135,7 +135,9 @@ def _comparison(verdict: Verdict) -> Row:
         "mass kW": _banded(verdict, "mass", -verdict.mass_cost),
         "drive kW": kilowatts(-verdict.drive_cost),
         "net kW": _banded(verdict, "net", verdict.net_saving),
-        "sign": NONE if verdict.net_band is None else sureness(verdict.net_saving, verdict.net_band),
+        "sign": NONE
+        if verdict.net_band is None
+        else sureness(verdict.net_saving, verdict.net_band, sourced=verdict.sourced),
         "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
     }
 

@@ -41,6 +41,7 @@ class TorqueTube(Actuator):
     """[m]"""
 
     noun = "tube", "tubes"
+    settings = "plies", "span", "crossed"
     range_limits = ("torque",)
 
     @classmethod

@@ -193,6 +193,11 @@ class Verdict:
         return self.net_saving > 0.0 and self.buildable
 
     @property
+    def sourced(self) -> bool:
+        """Whether all values of the actuator have a source: else its savings are never `sure` (`sureness`)."""
+        return self.installed.actuator.provenance.sourced
+
+    @property
     def voltages(self) -> tuple[tuple[float, float], ...]:
         """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
         return self.installed.actuator.voltages(self.optimum.swings, self.installed.host)
@@ -304,19 +309,23 @@ def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
     parts = verdict.gross_saving, *(part for name, part in verdict.savings if name not in ("blade", "gross"))
     gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
+    forbidden = verdict.installed.actuator.forbidden
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
+    text = f"{forbidden.capitalize()}; could it work, it s{text[1:]}" if forbidden else text
     sure = net_band_words(verdict) and f" ({net_band_words(verdict)})"
     if verdict.net_saving < MIN_SHOWN_W:
         return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."
-    but = "" if verdict.pays else f", but it cannot be built ({_broken(verdict)})"
+    but = "" if verdict.pays or forbidden else f", but it cannot be built ({_broken(verdict)})"
     return f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
 
 
 def net_band_words(verdict: Verdict) -> str:
     """The band of the net saving, and whether its sign is known."""
     band = verdict.net_band
-    sure = None if band is None else f"± {kilowatt_text(band, _digits(verdict))}: {sureness(verdict.net_saving, band)}"
-    return sure or ""
+    if band is None:
+        return ""
+    word = sureness(verdict.net_saving, band, sourced=verdict.sourced)
+    return f"± {kilowatt_text(band, _digits(verdict))}: {word}"
 
 
 def _digits(verdict: Verdict) -> int:
@@ -375,7 +384,7 @@ def part_words(verdict: Verdict, name: str, saving: float) -> str:
     verb, size, band = "costs" if saving <= -MIN_SHOWN_W else "saves", abs(saving), verdict.band_of(name)
     if not band or size < MIN_SHOWN_W:
         return f"{verb} {kilowatt_text(size)}"
-    return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1)}"
+    return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1, sourced=verdict.sourced)}"
 
 
 def flight_text(advance_ratio: float) -> str:

@@ -114,6 +114,8 @@ class Carried:
     added_gj_nm2: float
     gj_factor: float
     """GJ of the blade before it is added, over that of the blade as built."""
+    sourced: bool = False
+    """Whether all its values have a source."""
 
 
 @dataclass(frozen=True)

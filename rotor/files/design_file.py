@@ -60,6 +60,7 @@ class _Carried(FileTable, frozen=True, kw_only=True):
     inertia_kg_m: Annotated[float, msgspec.Meta(ge=0.0, le=10.0)]
     added_gj_nm2: Annotated[float, msgspec.Meta(ge=-1e7, le=1e7)]
     gj_factor: float
+    sourced: bool = False
 
 
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:

@@ -134,7 +134,8 @@ class LocalModel:
         """Columns are steps of x that raise the objective by BAND from a minimum, (parameters, parameters)."""
         by = self.evaluate.pitch_slopes(x)
         size, axes = np.linalg.eigh(by @ self.objective.second @ by.T)
-        size = np.maximum(size, _LEAST_CURVATURE * size[-1])
+        flat = 1e-9 * BAND * self.objective.value  # Where no parameter acts, as a break point between equal rates.
+        size = np.maximum(size, max(_LEAST_CURVATURE * size[-1], flat))
         return axes * np.sqrt(2.0 * BAND * self.objective.value / size)
 
     def margins(self, x: Array) -> tuple[Array, Array]:

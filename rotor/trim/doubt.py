@@ -77,6 +77,8 @@ class Doubt:
     """Beside the band, not in it."""
     of_total: bool = True
     """Whether `power` is total power; else the drag of a free rotor times speed."""
+    sourced: bool = True
+    """Whether all that makes the change has a source, as in `sureness`."""
 
     def __repr__(self) -> str:
         return f"Doubt({self.sentence})"
@@ -115,7 +117,7 @@ class Doubt:
         change, band = self.change, self.change_band
         if change is None or band is None or max(abs(change), band) < self._least:
             return None
-        return sureness(change, band)
+        return sureness(change, band, sourced=self.sourced)
 
     @property
     def sentence(self) -> str:
@@ -138,7 +140,8 @@ class Doubt:
             return ""
         if self.sureness is None:
             return "neither saves nor costs"
-        return f"{'saves' if change <= 0.0 else 'costs'} {banded(abs(100.0 * change / self.against), within, '%')}"
+        size = abs(100.0 * change / self.against)
+        return f"{'saves' if change <= 0.0 else 'costs'} {banded(size, within, '%', sourced=self.sourced)}"
 
     def _repr_html_(self) -> str:
         return tag("p", self.sentence) + doubt_table(self).html()
@@ -176,16 +179,17 @@ def doubt_table(doubt: Doubt) -> Table:
     return table(columns, rows)
 
 
-def sureness(change: float, band: float) -> str:
-    """Whether the sign of a change is known within its band."""
+def sureness(change: float, band: float, *, sourced: bool = True) -> str:
+    """Whether the sign of a change is known within its band: at most `likely` where a value of the actuator that makes
+    the change is recalled or assumed (not `sourced`), for the band does not hold what that may be off by."""
     ratio = math.inf if band == 0.0 else abs(change) / band
-    return "sure" if ratio >= SURE else "likely" if ratio >= LIKELY else "unclear"
+    return "sure" if ratio >= SURE and sourced else "likely" if ratio >= LIKELY else "unclear"
 
 
-def banded(change: float, band: float, unit: str, least: int = 0) -> str:
+def banded(change: float, band: float, unit: str, least: int = 0, *, sourced: bool = True) -> str:
     """A change with its band and whether its sign is known, as `1.8 ± 0.7 %: sure`; decimals as `change_decimals`."""
     digits = change_decimals(change, band, least)
-    return f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band)}"
+    return f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band, sourced=sourced)}"
 
 
 def change_decimals(change: float, band: float, least: int = 0) -> int:
@@ -259,7 +263,14 @@ def mean_doubt(shares: Sequence[float], here: Sequence[Analysis], there: Sequenc
         None if there is None else _mean_power(shares, there),
         None if there is None else there[0].solution.design.twist.spec(),
         of_total=not _is_free(first),
+        sourced=there is None or _sourced(first, there[0].solution.design),
     )
+
+
+def _sourced(*designs: Design) -> bool:
+    """Whether the actuators that differ have sources."""
+    carried = {design.rotor.blade.carried for design in designs}
+    return len(carried) < 2 or all(one is None or one.sourced for one in carried)
 
 
 def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str, float]:

@@ -81,6 +81,17 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched.until(lambda: page.get_by_role("button", name="Show B − A").get_attribute("aria-pressed") == "true")
     watched.until(lambda: "B − A" in page.locator('[data-part="unit"]').inner_text())
 
+    press(watched, "Disk")
+    press(watched, "Wipe A | B")
+    page.wait_for_function("() => RX.state.plan?.wiped && RX.state.plan.wiped.values !== RX.state.plan.disk.values")
+    edge = "() => getComputedStyle(document.querySelector('[data-colours]').shadowRoot.lastElementChild).clipPath"
+    before = page.evaluate(edge)
+    page.locator(".rxs-wipe [role=slider]").press("ArrowLeft")
+    watched.until_changed(lambda: page.evaluate(edge), before)
+    press(watched, "Wipe A | B")
+    page.wait_for_function("() => RX.state.plan && !RX.state.plan.wiped")
+    press(watched, "Aircraft")
+
     menu(watched)
     press(watched, "Swap A and B")
     watched.answered()

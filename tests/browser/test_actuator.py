@@ -165,7 +165,7 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     page.mouse.move(chart["x"] + 0.6 * chart["width"], chart["y"] + 0.66 * chart["height"], steps=8)
     page.mouse.up()
     expect(dot).to_have_attribute("data-kind", "gain", timeout=VERDICT)
-    watched.reads("supposed", r"saves \d.* over the flight")
+    watched.reads("supposed", r"saves \d.* over the mission")
     page.wait_for_function("() => /[&?]i=[0-9.]+,[0-9.]+/.test(location.search)", timeout=VERDICT)
     watched.answered(wholly=True)  # Each answer may draw the chart anew, on other axes.
     twist = float(dot.get_attribute("aria-valuenow") or "nan")

@@ -1,5 +1,6 @@
 """The Export folder in a real browser: every button saves a file, and the report opens by itself."""
 
+import io
 import re
 import zipfile
 from collections.abc import Iterator
@@ -107,6 +108,22 @@ def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched
     assert asked.count(path.as_uri()) == 1
     assert report.complaints == []
     report.page.close()
+
+
+def test_a_report_fills_three_pages_of_a4(browser: Browser, tmp_path: Path):
+    """The blade as built, and one compared with it: overview, disks, tables; no page holds but the end of another."""
+    drawn = io.BytesIO()
+    Image.new("RGB", (1200, 675)).save(drawn, "WEBP")
+    page = window(browser).new_page()
+    for inputs in (Inputs(law="builtin"), Inputs(law="builtin", built_inner=-1.0)):
+        now, before = solve(inputs.design()), solve(baseline_of(inputs.design()))
+        report = DesignReport(ReportEntry("As built", before), [ReportEntry("Now", now)], ViewState())
+        path = tmp_path / "report.html"
+        path.write_text(report_html(report, None, rotor=drawn.getvalue()), encoding="utf-8")
+        page.goto(path.as_uri())
+        printed = page.pdf(format="A4", prefer_css_page_size=True)
+        assert len(re.findall(rb"/Type\s*/Page\b", printed)) == 3
+    page.close()
 
 
 @pytest.mark.parametrize("width", [900, 1500])

@@ -40,7 +40,7 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     assert float(shown["α"].rstrip("°").replace("−", "-")) == pytest.approx(
         math.degrees(disk.alpha[row, column]), abs=0.2
     )
-    assert float(shown["M"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
+    assert float(shown["Mach"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
     assert float(shown["Cl"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
     watched.reads("around", f"{r:.2f} R")
     # A click opens its section; the pointer was a fraction of a pixel beside it.
@@ -57,8 +57,8 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     clicked = opened_at()
     there = probe(solution, clicked[0], math.radians(clicked[1]))  # As the section says it, to the last digit.
     said = number(math.degrees(there.alpha), 1), number(there.mach, 3), number(there.cl, 3)
-    assert (shown["α"].rstrip("°"), shown["M"], shown["Cl"]) == said
-    assert shown["To stall"].rstrip("°") == number(math.degrees(there.stall_margin or 0.0), 1)
+    assert (shown["α"].rstrip("°"), shown["Mach"], shown["Cl"]) == said
+    assert shown["Stall margin"].rstrip("°") == number(math.degrees(there.stall_margin or 0.0), 1)
     # By key, and spoken.
     page.locator(".rxf-plan").focus()
     page.keyboard.press("ArrowRight")

@@ -124,6 +124,21 @@ def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit, size: tuple[int, 
     assert page.evaluate(TOTAL) == power
 
 
+@pytest.mark.slow
+def test_a_ride_on_a_telephone_shows_blade_and_card(visit: Visit):
+    watched = visit(size=(390, 844))
+    page = watched.page
+    page.evaluate("() => RX.send('ride', [0.85, 20])")
+    card = page.locator("[data-explorer=ride]")
+    card.locator("b").wait_for()
+    top = watched.box(card)["y"]
+    watched.until(lambda: 120 < page.evaluate(ON_SCREEN, 0.85 * 8.18)[1] < top - 40)
+    assert top > 0.6 * 844
+    page.keyboard.press("Escape")
+    page.wait_for_function("() => !RX.state.ride")
+    watched.until(lambda: watched.box(page.locator(".rxf-grip"))["y"] < 700)
+
+
 def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
     watched = visit(size=(390, 844))
     page, grip, tab = watched.page, watched.page.locator(".rxf-grip"), watched.page.locator("[data-page=controls]")

@@ -88,13 +88,15 @@ def test_a_design_file_and_a_link_give_back_sliders_and_actuator(inputs: Inputs,
         inputs_from_spec("MFC_P1,divisions=0.33")
 
 
-def test_crossed_fibres_turn_the_other_way():
+def test_laid_the_other_way_it_turns_the_other_way():
     installed = ActuatorInputs().installed(DESIGN.rotor)
     there = ActuatorInputs(drives=FULL).change(installed, 1.0)
     assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(installed, 1.0), -there)
     tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
-    installed = tube.installed(DESIGN.rotor)  # Has no fibres to cross.
-    assert_allclose(replace(tube, crossed=True).change(installed, 1.0), tube.change(installed, 1.0))
+    installed = tube.installed(DESIGN.rotor)  # Laid the other way, and driven from zero only.
+    assert_allclose(replace(tube, crossed=True).change(installed, 1.0), -tube.change(installed, 1.0))
+    assert replace(tube, crossed=True).reach(installed) == (-tube.reach(installed)[1], 0.0)
+    assert (tube.least_drive, ActuatorInputs().least_drive) == (0.0, -100.0)
 
 
 @pytest.mark.parametrize("id", ALL)
@@ -350,7 +352,7 @@ def test_where_there_is_no_such_design_the_sentence_stands_alone():
     ("actuator", "label", "hidden"),
     [
         (ActuatorInputs(concept="three-segment", blade="new"), "Voltage 2 [%]", {"drive 3"}),
-        (ActuatorInputs(actuator="SMA_tube"), "Drive [%]", {"chord", "crossed", "stiffness"}),
+        (ActuatorInputs(actuator="SMA_tube"), "Drive [%]", {"chord", "stiffness"}),
         (ActuatorInputs(actuator="extension_twist"), "Drive [%]", {"plies", "span", "chord", "stiffness"}),
     ],
 )

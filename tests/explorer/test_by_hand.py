@@ -169,6 +169,18 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
     visited(app, swap)
 
 
+def test_a_typed_mass_that_reads_as_the_opening_is_that_design(app: App):
+    """It was 8,320 kg, and the page had opened with 8,322.4, shown as 8.32 t too."""
+
+    async def typed(visitor: Visitor, page: Page) -> None:
+        for mass, same in ((9.0, False), (8.32, True), (8.33, False), (8.32, True)):
+            await visitor.move("Mass [t]", mass)
+            await visitor.idle(wholly=False)
+            assert (page.context.controls.inputs() == OPENING) == same
+
+    visited(app, typed)
+
+
 def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
     async def load(visitor: Visitor, page: Page) -> None:
         await visitor.press("pin")

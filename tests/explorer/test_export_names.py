@@ -16,7 +16,7 @@ from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
-from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, font_path, view_png
+from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, font_path, headline, view_png
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import SI
@@ -113,3 +113,12 @@ def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatc
     with pytest.raises(ValueError, match="install DejaVu Sans, or pip install"):
         font_path.__wrapped__()
     assert asked[0] == "DejaVuSans.ttf"
+
+
+def test_no_line_of_a_picture_is_but_a_unit():
+    line = "The UH-60A of 8.32 t at µ 0.200 with its twist as built needs 903 ± 76 kW."
+    (first, second), _ = headline(line, SHAPES["4:3"] - 80)
+    assert f"{first} {second}" == line
+    assert len(second) > 0.7 * len(first)
+    assert headline(line, SHAPES["16:9"] - 80)[0] == [line]
+    assert headline("", 100.0)[0] == [""]

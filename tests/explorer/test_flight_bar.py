@@ -149,7 +149,7 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
         1e-3 * verdict.bands[[name for name, _ in verdict.savings].index("mass")], abs=1e-3
     )
     assert all(bands.values())
-    assert total.title == f"total {needs_words(verdict.net_saving, verdict.net_band, SI)}"
+    assert total.title == f"total {needs_words(verdict.net_saving, verdict.net_band, SI, sourced=False)}"
     assert verdict.fuel_saving is not None
     burnt = -3600.0 * verdict.fuel_saving
     assert state.fuel.replace("−", "-") == f"{burnt:+.1f} kg/h of fuel"

@@ -26,7 +26,7 @@ from explorer.views.notice import comparison
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import MapLevel, MapTask, ScheduleTask, SearchTask, StartPower
 from rotor import doubt, make_design, solve
-from rotor.optimisation import CONCEPTS, Progress, SchedulePlan, WeightedCondition, at_condition
+from rotor.optimisation import CONCEPTS, Progress, SchedulePlan, Search, WeightedCondition, at_condition, run_search
 from rotor.optimisation.results import ParameterBand
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.support.processes import JobEnded, JobFailed
@@ -189,7 +189,9 @@ def levels() -> tuple[MapTask, list[MapLevel]]:
 @pytest.fixture(scope="module")
 def drawn(levels: tuple[MapTask, list[MapLevel]]) -> PowerMap:
     task, told = levels
-    return PowerMap(task, np.array(told[-1].powers, dtype=float), told[-1].values)
+    power, values = told[-1].least
+    assert power is not None
+    return PowerMap(task, np.array(told[-1].powers, dtype=float), told[-1].values, (power, values))
 
 
 class TestMap:
@@ -211,19 +213,38 @@ class TestMap:
         least = min(one.power.total for one in along if one.converged)
         assert power < least * (1.0 + 1e-4)
 
+    def test_no_valley_beside_is_missed(self):
+        """Two break points are each the least of those beside them."""
+        design, concept = quick(), CONCEPTS["two-segment-free"]
+        task = MapTask(design, concept, at_condition(design), (0, 1), (-0.2, -0.15, 0.5), (4, 8))
+        told: list[Any] = []
+        assert task.run(told.append, no_stop)
+        level = told[-1]
+        for row, column in ((1, 5), (2, 5), (7, 1)):
+            inboard, outboard, _ = level.values[row][column]
+            along = [solve(concept.apply(design, (inboard, outboard, at))) for at in np.linspace(0.25, 0.92, 24)]
+            least = min(one.power.total for one in along if one.converged)
+            assert level.powers[row][column] < least * (1.0 + 1e-4)
+
+    def test_its_least_is_that_of_a_search(self, drawn: PowerMap):
+        found = run_search(Search(drawn.task.design, drawn.task.concept, band=False))
+        beyond = drawn.least[-1] / solve(found.design).power.total - 1.0
+        assert -2e-4 < beyond < 1e-5  # Within the last digit of a search, which ends earlier.
+        assert drawn.least[-1] < np.nanmin(drawn.powers) - 100.0  # It lies between the points.
+
     def test_the_least_is_said_with_all_its_parameters(self, drawn: PowerMap):
         x, y, power = drawn.least
-        assert solve(drawn.at(x, y)).power.total == pytest.approx(power, rel=1e-7)
-        inboard, outboard, place = drawn.best
+        inboard, outboard, place = drawn.lowest[1]
+        concept = drawn.task.concept
+        assert solve(concept.apply(drawn.task.design, drawn.lowest[1])).power.total == pytest.approx(power, rel=1e-7)
         rates = f"Inboard {math.degrees(inboard):.1f} °/R, Outboard {math.degrees(outboard):.1f} °/R".replace("-", "−")
         said = least_words(drawn, SI)
         assert said.startswith(f"Least {SI.watts(power)} at {rates}, Break point {place:.2f} R.")
-        assert ("lies at the bound" in said) == (x in (0.0, 1.0) or y in (0.0, 1.0))
-        middle = np.full_like(drawn.powers, 2e6)
-        middle[0, 2] = 1e6
-        assert "lies at the bound of Outboard" in least_words(replace(drawn, powers=middle), SI)
-        middle[2, 2] = 0.9e6
-        assert "bound" not in least_words(replace(drawn, powers=middle), SI)
+        assert ("lies at the bound" in said) == (min(x, 1.0 - x, y, 1.0 - y) < 1e-6)
+        steepest = concept.parameters[1].low
+        for outboard, outside in ((steepest, True), (0.5 * steepest, False)):
+            words = least_words(replace(drawn, lowest=(1e6, (inboard, outboard, 0.6))), SI)
+            assert ("lies at the bound of Outboard" in words) == outside
 
     def test_it_is_drawn_with_its_least_and_a_design_of_its_concept(self, drawn: PowerMap):
         picture = ET.fromstring(drawing(drawn, drawn.at(0.5, 0.25).twist))

@@ -66,6 +66,14 @@ def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Sol
     assert "stall" not in {one.name for one in moving.regions}
 
 
+def test_the_field_of_a_is_on_the_plan_while_it_is_wiped(solution: Solution):
+    other, drawn = solve(make_design(mu=0.3)), (ALPHA, (-4.0, 10.0), False)
+    wiped = plan(solution, ViewState(wipe=True), *drawn, other).wiped
+    assert wiped == plan(other, ViewState(), *drawn).disk
+    assert wiped != plan(solution, ViewState(), *drawn).disk
+    assert plan(solution, ViewState(), *drawn, other).wiped is None
+
+
 def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     other = solve(make_design(mu=0.3))
     shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), True, other)

@@ -21,7 +21,7 @@ from explorer.export.blade import blade_mesh
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.provenance import versions
 from explorer.export.report import report_html
-from explorer.export.tables import blade, doubts, vibration
+from explorer.export.tables import blade, change_words, doubts, vibration
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import UNITS
 from explorer.picture import disk_image
@@ -129,6 +129,15 @@ class TestReport:
             assert math.hypot(*causes) == pytest.approx(first, rel=0.1)
             assert causes[0] > 0.3 * first
 
+    def test_a_change_has_a_colour_where_its_sign_is_known(self):
+        near = replace(BASELINE.design, twist=Inputs(law="builtin", built_inner=-1.0).design().twist)
+        for design, sureness in ((near, "unclear"), (NOW.design, "likely")):
+            entry = ReportEntry("Now", solve(design))
+            report = DesignReport(ReportEntry("As built", BASELINE), [entry], VIEW)
+            assert doubt(entry.solution, BASELINE).sureness == sureness
+            words = str(change_words(report, entry))
+            assert ("less" in words or "more" in words) == (sureness == "likely")
+
     def test_a_blade_as_built_is_compared_with_nothing(self):
         alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", solve(BASELINE.design))], VIEW)
         page = report_html(alone, None, Swept())
@@ -142,7 +151,8 @@ class TestReport:
     def test_the_first_page_of_a_print_has_the_line_the_rotor_and_the_disk(self):
         alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", NOW)], VIEW)
         page = report_html(alone, None, Swept(), rotor=b"drawn")
-        assert f"<h1>{sentence(NOW, alone.units, BASELINE, doubt(NOW, BASELINE))}</h1>" in page
+        line = sentence(NOW, alone.units, BASELINE, doubt(NOW, BASELINE))
+        assert f"<h1>{line}</h1>".replace("\u00a0", " ") in page.replace("\u00a0", " ")
         front = page[page.index('class="front"') : page.index('class="glance"')]
         assert "image/webp;base64,ZHJhd24=" in front
         assert front.count('aria-label="Angle of attack over the disk"') == 1

@@ -43,7 +43,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
     sentence = re.findall(r'data-report="verdict">([^<]*)<', page)
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert one.net_band is not None
-    assert sentence == [f"Compared with {reference(one)}, it {needs(one, SI)} over the flight."]
+    assert sentence == [f"Compared with {reference(one)}, it {needs(one, SI)} over the mission."]
     assert f"± {kilowatt_text(one.net_band)}" in printed.splitlines()[0]
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
@@ -74,7 +74,7 @@ def test_what_cannot_be_judged_is_a_sentence():
 
 def test_units_are_those_of_the_page():
     page = actuator_section(verdict(), AVIATION)
-    assert "hp, mean of µ 0 and µ 0.3" in page
+    assert "hp, mean of hover and µ 0.30" in page
     assert float(numbers(page)[-1].replace("−", "-")) == pytest.approx(-verdict().net_saving / 745.7, abs=0.51)
 
 

@@ -116,6 +116,8 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     assert "100 ft/min more changes power by +" in climb.sentence
     nothing = worth_row(SliderSensitivity("built_division", 0.0), solution.power, SI)
     assert (nothing.value, nothing.way) == ("no effect", "")
+    optimum = worth_row(SliderSensitivity("built_outer", 3.0), solution.power, SI)
+    assert (optimum.value, optimum.way) == ("flat here", "")
     sizes = [worth_row(SliderSensitivity("mass_t", slope), solution.power, SI).size for slope in (3e4, 9e4, 9e5)]
     assert sizes == sorted(set(sizes))  # A larger change has a longer arrow.
     assert sizes[-1] < 1.0

@@ -7,17 +7,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.model.actuator_inputs import lean_verdict
+from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, VerdictInputs, lean_verdict
 from explorer.model.inputs import Inputs, with_rotor
+from explorer.model.units import SI
 from explorer.parts.presses import SupposePress
+from explorer.text.readout import change_sizes
 from explorer.views.actuated import actuated_blade
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
+from explorer.views.flight import earns_state
+from explorer.views.line import LINE, line_text
 from explorer.views.page_state import OpenPanels, PageState, SetAddress
-from explorer.views.pay import PAY, move_supposed, read_place
-from rotor.actuator import OtherStroke, Verdict
+from explorer.views.pay import PAY, move_supposed, read_place, take_kind
+from explorer.workers.call import Call
+from rotor import doubt, make_design, solve
+from rotor.actuator import OtherStroke, Verdict, verdict_sentence, with_actuator
 from rotor.support.chart import DrawnPoints
-from tests.actuate import actuate, done, told
+from rotor.trim.doubt import sureness
+from tests.actuate import actuate, done, told, worked
 
 INPUTS = Inputs(inflow="drees")
 
@@ -60,7 +67,9 @@ def test_a_place_that_is_none_is_refused_with_the_remedy(text: str):
 
 def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageState, lined: PageState):
     """Read off the line of the one value; gone with a press."""
-    assert PAY.view(lined) == {"suppose": None, "actuator.pays": False}
+    shown = PAY.view(lined)
+    assert (shown["suppose"], shown["actuator.pays"]) == (None, False)
+    assert "Compare all kinds" in shown["actuator.kinds"]
     assert "Computing" in PAY.view(done(judged, move_supposed(judged, "on")))["suppose"].words
     now = done(lined, move_supposed(lined, "on"))
     assert PAY.view(now) == PAY.view(replace(now))
@@ -69,13 +78,75 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
     now = done(now, pressed)
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
-    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 kW over the flight", (2.0, 4.3))
+    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 kW over the mission", (2.0, 4.3))
     assert shown.note == "With this range it pays below 11 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
     heavy = done(now, move_supposed(now, SupposePress(2.0, 50.0)))
     assert (PAY.view(heavy)["suppose"].kind, PAY.view(heavy)["actuator.pays"]) == ("loss", False)
     assert move_supposed(now, "off")[-1] == SetAddress("i", None)
     assert PAY.view(done(now, move_supposed(now, "off")))["suppose"] is None
+
+
+def asked_of(task: Call) -> VerdictInputs:
+    (question,) = task.arguments
+    assert isinstance(question, VerdictInputs)
+    return question
+
+
+def test_the_table_of_kinds_has_the_verdict_of_each_as_it_comes(judged: PageState):
+    """Same blade and mission; the words of sureness and the limits beside the number; a press takes one."""
+    tried = replace(judged.hand.actuator, plies=4, chord=(0.2, 0.8))
+    now = done(replace(judged, hand=replace(judged.hand, actuator=tried)), move_supposed(judged, "on"))
+    tasks = actuated_blade(now).tasks
+    assert next(iter(tasks)) == "MFC_P1"
+    assert [asked_of(task).placement.plies for task in tasks.values()] == [4, *[2] * (len(tasks) - 1)]
+    passive = tasks["extension_twist"].run()
+    now = replace(now, answers={tasks["extension_twist"]: passive})
+    rows = re.findall(r"<tr[^>]*>(.*?)</tr>", PAY.view(now)["actuator.kinds"])
+    words = [re.sub(r"<[^>]*>", " ", row) for row in rows]
+    assert len(rows) == 1 + 2 * len(tasks)
+    size, band = change_sizes(passive.net_saving, passive.net_band, SI)
+    assert passive.net_saving > passive.net_band  # Less power, and never green.
+    assert (f"−{size}{band}" in words[-2], "gain" in rows[-2]) == (True, False)
+    assert words[-1].strip() == "forbidden by constant rotor speed; likely"
+    taken = done(now, take_kind(now, "AFC")).hand.actuator
+    assert (taken.actuator, taken.plies, taken.chord) == ("AFC", 2, ActuatorInputs().chord)
+    assert take_kind(now, "nothing") == ()
+
+
+def test_a_kind_that_constant_speed_forbids_says_so_first_and_is_never_green():
+    """In the line, the card, the sentence of the command and the balance."""
+    drives = (100.0,) * MOST_SEGMENTS
+    now = actuate(INPUTS, actuator=ActuatorInputs("extension_twist", drives=drives))
+    verdict = lean_verdict(actuated_blade(now).question)
+    now = worked(LINE, told(ACTUATOR, now, lean_verdict=verdict))
+    pieces = LINE.view(now)["line"].pieces
+    assert "with extension twist (forbidden by constant rotor speed) at 100" in line_text(now)
+    assert "good" not in {piece.kind for piece in pieces}
+    assert verdict_sentence(verdict).startswith("Forbidden by constant rotor speed; could it work, it saves")
+    still = worked(LINE, actuate(INPUTS, actuator=ActuatorInputs("extension_twist")))
+    assert line_text(still).endswith("kW: no change from the blade without it.")
+    card = ACTUATOR_CARD.view(now)["assessed"]
+    assert card.flight == "forbidden by constant rotor speed"
+    assert card.flights.startswith("could it work: saves")
+    assert "gain" not in {bar.kind for bar in earns_state(verdict, True, SI).bars if bar.total}
+    assert earns_state(verdict, True, SI).fuel_kind == ""
+    assert actuated_blade(now).over_flight.kind == ""
+
+
+def test_what_rests_on_values_without_a_source_is_never_sure():
+    """One rule, for the page, the verdict and a design that carries the actuator."""
+    assert (sureness(9.0, 1.0), sureness(9.0, 1.0, sourced=False), sureness(1.0, 2.0, sourced=False)) == (
+        "sure", "likely", "unclear"
+    )  # fmt: skip
+    bare = make_design(mu=0.2, inflow="drees")
+    flown, other = (solve(design).require() for design in (with_actuator(bare, "AFC"), bare))
+    assert doubt(flown, other).sureness == "likely"
+    assert flown.design.rotor.blade.carried is not None
+    carried = replace(flown.design.rotor.blade.carried, sourced=True)
+    rotor = replace(flown.design.rotor, blade=replace(flown.design.rotor.blade, carried=carried))
+    known = solve(replace(flown.design, rotor=rotor)).require()
+    assert doubt(known, other).sureness == "sure"
 
 
 def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):

@@ -16,16 +16,9 @@ def test_constants_by_definition():
 
 @pytest.mark.parametrize(
     ("degrees", "text"),
-    [
-        (0.0, "0"),
-        (-0.0, "0"),
-        (8.0, "8"),
-        (-12.5, "-12.5"),
-        (0.1, "0.1"),
-        (57.123456789, "57.123456789"),
-        (360.0, "360"),
-    ],
-)
+    [(0.0, "0"), (-0.0, "0"), (8.0, "8"), (-12.5, "-12.5"), (0.1, "0.1"), (57.123456789, "57.123456789"),
+     (360.0, "360")],
+)  # fmt: skip
 def test_degrees_are_the_shortest_that_are_the_angle_again(degrees: float, text: str):
     assert degrees_text(math.radians(degrees)) == text
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import viser
 
-from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs
+from explorer.model.actuator_inputs import BLADES, CONCEPTS, ActuatorInputs, as_it_comes
 from explorer.views.actuator import DRIVES, FormLook, actuator_titles
 from explorer.views.dial import validation_words
 from explorer.widgets.form import WidgetForm
@@ -35,6 +35,7 @@ class ActuatorControls:
         form = self.form = WidgetForm(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
+        text("kinds")
         form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)
         form.span("span", "Span [R]", (0.14, 1.0), start.span, 0.05)
         for name in DRIVES:
@@ -72,6 +73,10 @@ class ActuatorControls:
     def place(self, changes: Mapping[str, Any]) -> None:
         """Move widgets: these fields of `ActuatorInputs`."""
         with self._placing:
+            if {"actuator", "drives"} & changes.keys():
+                least = ActuatorInputs(changes.get("actuator", self.form["actuator"])).least_drive
+                for each in DRIVES:
+                    self.form.bound(each, least)
             for name, value in changes.items():
                 if name == "drives":
                     for each, drive in zip(DRIVES, value, strict=True):
@@ -91,8 +96,7 @@ class ActuatorControls:
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in DRIVES:
             self._driven()
-        if by_hand and name == "actuator":  # Each kind is seen as it comes, whatever was tried before.
-            start = ActuatorInputs()
-            self.place({"plies": start.plies, "chord": start.chord})
+        if by_hand and name == "actuator":
+            self.place(as_it_comes(self.form["actuator"]))
             return
         self._moved()

@@ -123,9 +123,10 @@ class MapPanel:
         if levels:
             grid = np.array(levels[-1].powers, dtype=float)
             conditions = record.task.objective.conditions
-            if np.isfinite(grid).any():
+            power, values = levels[-1].least
+            if power is not None:
                 if self.map is None or self.map.task is not record.task or len(self.map.powers) != len(grid):
-                    self.map = PowerMap(record.task, grid, levels[-1].values)
+                    self.map = PowerMap(record.task, grid, levels[-1].values, (power, values))
                 mu = conditions[0].flight.advance_ratio
                 where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"
                 line = f"{len(grid)} × {len(grid)} points, {where}"

@@ -14,7 +14,6 @@ from rotor.airfoil.sections import load_installed
 from rotor.columns.flight import disk_sums as sums_at
 from rotor.support.arrays import Array
 from rotor.support.compiled import compiled
-from rotor.trim.power import hub_moment
 from tests.rotor.at_state import disk_sums, elements_at, point_at
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
@@ -121,18 +120,6 @@ def test_the_residuals_are_sums_over_the_elements():
     rows = point.system.structure.equations
     for name, value in expected.items():
         assert_allclose(point.residual[rows[name]], value, rtol=1e-12, atol=1e-12 * p.weight, err_msg=name)
-
-
-def test_sums_by_quadrature_of_a_known_field():
-    """A hovering untwisted rotor of constant C_l would give C_T = ½σ Cl/3 (1 − r0³): the sums integrate to that."""
-    p = problem(mu=0.0)
-    e = elements_at(p, TrimState(collective=0.1, lambda0=1e-6))
-    e = replace(e, fz=0.5 * 0.08 * 0.6 * e.u_t**2, fx=np.zeros(p.disk.shape))
-    start = p.design.rotor.blade.root_cutout
-    thrust = disk_sums(p.disk, e).thrust
-    assert_allclose(thrust, 0.5 * 0.08 * 0.6 * (1.0 - start**3) / 3.0, rtol=2e-4)  # midpoint rule, 40 elements
-    moment = hub_moment(p, e)
-    assert_allclose((moment.roll, moment.pitch), 0.0, atol=1e-15 * p.design.thrust_unit * p.design.rotor.radius)
 
 
 # The compiled loops at their borders

@@ -117,35 +117,24 @@ BAD = [
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
     ("radius_m = 5.0", "radius_m = 0.5", "line 13: flap_hinge_m is 0.2, outside 0…0.15 m with radius_m = 0.5: check"),
-    (
-        "drag_area_m2 = 1.0",
-        "drag_area_m2 = 0.1\ndrag_area_low_m2 = 0.8\ndrag_area_high_m2 = 1.2",
-        "line 17: drag_area_m2 is 0.1, outside 0.8…1.2 with drag_area_low_m2 = 0.8 and drag_area_high_m2 = 1.2: check",
-    ),
+    ("drag_area_m2 = 1.0", "drag_area_m2 = 0.1\ndrag_area_low_m2 = 0.8\ndrag_area_high_m2 = 1.2",
+     "line 17: drag_area_m2 is 0.1, outside 0.8…1.2 with drag_area_low_m2 = 0.8 and drag_area_high_m2 = 1.2: check"),
     ("radius_m = 5.0", "radius = 5.0", "my.toml, line 5: unknown key 'radius'; did you mean 'radius_m'?"),
     ("blades = 3", "blades = 3.5", "my.toml, line 4: blades is 3.5, not a whole number"),
     ("blades = 3", 'blades = 3\nhub = "teetering"', "my.toml, line 5: hub is 'teetering' with 3 blades"),
-    (
-        "blades = 3",
-        'blades = 3\nhub = "teetring"',
-        "line 5: hub is 'teetring'; did you mean 'teetering'? use articulated or",
-    ),
+    ("blades = 3", 'blades = 3\nhub = "teetring"',
+     "line 5: hub is 'teetring'; did you mean 'teetering'? use articulated or"),
     ("speed_rpm = 400.0", "speed_rpm = 400.0\ntip_speed_m_s = 200.0", "my.toml, line 7: speed_rpm and"),
     ("chord_m = [0.30, 0.20]", "chord_m = [0.3, 0.2, 0.2]", "my.toml, line 9: chord_r has 2 and chord_m 3 values"),
     ("chord_r = [0.2, 1.0]", "chord_r = [1.0, 1.0]", "chord_r has 1 twice: for a step write 0.999 and 1"),
-    (
-        '"naca0012"',
-        '"data\\mine"',
-        "line 10: this is not TOML (Unescaped '\\' in a string): write key = value, texts in",
-    ),
+    ('"naca0012"', '"data\\mine"',
+     "line 10: this is not TOML (Unescaped '\\' in a string): write key = value, texts in"),
     ('section = "naca0012"', 'section = "naca9999x"', "my.toml, line 10: section 'naca9999x' is not known"),
     ("mass_kg = 1500.0", "mass_kg = 1500.0\ncolour = 3", "my.toml, line 19: unknown key 'colour': the keys are"),
-    (
-        "mass_kg = 1500.0",
-        "mass_kg = 1500.0\n[controls]\nlateral_deg = [9, 1]\ncollective_deg = [0, 1]\nlongitudinal_deg = [0, 1]",
-        "line 20: lateral_deg is [9.0, 1.0]: write both",
-    ),
-]
+    ("mass_kg = 1500.0",
+     "mass_kg = 1500.0\n[controls]\nlateral_deg = [9, 1]\ncollective_deg = [0, 1]\nlongitudinal_deg = [0, 1]",
+     "line 20: lateral_deg is [9.0, 1.0]: write both"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("good", "bad", "says"), BAD)

@@ -128,7 +128,8 @@ def test_no_island_of_trims_lies_behind_a_refusal(name: str):
     values = {"rotor_speed_percent": (84, 80, 77, 76, 74, 73), "mass_kg": (12_500, 13_000, 13_500, 14_000, 15_000)}[
         name
     ]
-    trimmed = [solve(make_design(mu=0.3, **cast(Any, {name: float(value)}))).converged for value in values]
+    designs = [make_design(mu=0.3, **cast(Any, {name: float(value)})) for value in values]
+    trimmed = [solve(design, options=SolverOptions(remedy=False)).converged for design in designs]
     assert trimmed == sorted(trimmed, reverse=True)
     assert trimmed[0]
     assert not trimmed[-1]

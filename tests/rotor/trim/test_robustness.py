@@ -162,7 +162,8 @@ HOPELESS = make_design(mu=0.4, mass_kg=20_000, inflow="pitt-peters")
 @pytest.mark.parametrize("mass", [100.0, 120.0, 400.0, 900.0])
 def test_continuation_never_leaves_the_masses_that_exist(mass: float):
     """A light rotor at high altitude: the easier condition of C_T/σ 0.045 would weigh less than any aircraft."""
-    design = make_design(rotor="r22", mu=0.45, mass_kg=mass, altitude_m=8000)
+    coarse = {"inflow": "uniform", "elements": 12, "azimuths": 24}
+    design = make_design(rotor="r22", mu=0.45, mass_kg=mass, altitude_m=8000, **coarse)
     small = replace(design, rotor=replace(design.rotor, radius=1.2, angular_speed=150.0))
     for t in (0.0, 0.5, 1.0):
         assert CONDITION["mass_kg"].low <= easier_condition(small, t).mass <= mass

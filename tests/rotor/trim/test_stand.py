@@ -17,16 +17,14 @@ TRIMS = {
     "tunnel-backward": ("wind-tunnel", Stand(shaft_tilt=math.radians(-12.0), ct_over_sigma=0.075)),
     "tunnel-collective": ("wind-tunnel", Stand(shaft_tilt=math.radians(3.0), collective=0.12)),
     "tunnel-free-flapping": ("wind-tunnel", Stand(ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03)),
-    "tunnel-hub-moments": (
-        "wind-tunnel",
-        Stand(ct_over_sigma=0.06, flapping="hub-moments", hub_roll=2e4, hub_pitch=-1e4),
-    ),
+    "tunnel-hub-moments":
+        ("wind-tunnel", Stand(ct_over_sigma=0.06, flapping="hub-moments", hub_roll=2e4, hub_pitch=-1e4)),
     "tunnel-no-thrust": ("wind-tunnel", Stand(ct_over_sigma=0.0)),
     "free-collective": ("free-rotor", Stand(collective=math.radians(2.0), flapping="free")),
     "free-thrust": ("free-rotor", Stand(ct_over_sigma=0.06, flapping="free")),
     "free-trimmed": ("free-rotor", Stand(thrust=60e3)),
     "controls": ("controls", Stand(collective=0.12, flapping="free", cyclic_1c=0.01, cyclic_1s=-0.05)),
-}
+}  # fmt: skip
 
 
 def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: float | None = None) -> Design:
@@ -60,13 +58,8 @@ def test_the_wind_tunnel_finds_the_trim_of_flight(inflow: str, same_course: Wake
 def test_given_controls_return_the_trim_they_came_from():
     tunnel = solve(bench("tunnel-thrust")).require()
     state = tunnel.controls
-    stand = Stand(
-        shaft_tilt=state.shaft_tilt,
-        collective=state.collective,
-        cyclic_1c=state.cyclic_1c,
-        cyclic_1s=state.cyclic_1s,
-        flapping="free",
-    )
+    given = {name: getattr(state, name) for name in ("shaft_tilt", "collective", "cyclic_1c", "cyclic_1s")}
+    stand = Stand(**given, flapping="free")
     models = replace(tunnel.design.models, trim="controls")
     back = solve(replace(tunnel.design, models=models, condition=replace(tunnel.design.condition, stand=stand)))
     assert_allclose(back.require().controls.array(), state.array(), atol=1e-9)
