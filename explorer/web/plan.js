@@ -70,14 +70,9 @@
       && width > 560 && width - CARDS > height - STACKED;
     const both = width - CARDS - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
-<<<<<<< HEAD
     const low = Math.min(...['.rxf-field', '.rxf-views', '.rxf-fly', '.rxf-earns']
       .map(name => seen(name)?.top ?? height).filter(top => top > height / 2));
-    const high = (seen('.rxf-power')?.bottom ?? 0) + ROOM;
-=======
-    const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
     const high = (held ? seen('.rxf-power')?.bottom ?? 0 : covered()) + ROOM;
->>>>>>> main
     const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
       : wide ? [CARDS, both ? LABEL.width + 26 : 70, ROOM, ROOM]
@@ -132,12 +127,8 @@
   function placeLabels(regions) {
     if (!layout.wide) return [];
     const sizes = Object.fromEntries(regions.map(region => [region.name, LABEL.height + priceHeight(region.name)]));
-<<<<<<< HEAD
-    const above = seen('.rxf-views:has(p)') ?? seen('.rxf-power'), from = (above?.bottom ?? 20) + 12;
+    const from = Math.max(seen('.rxf-views:has(p)')?.bottom ?? 0, covered(), 20) + 12;
     const x = layout.width - LABEL.width - 16;
-=======
-    const from = Math.max(covered(), 20) + 12, x = layout.width - LABEL.width - 16;
->>>>>>> main
     const to = (seen('.rxf-field')?.top ?? layout.height) - 12;
     const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[][]} */ ([])};
     const right = {x, end: x, from: 62, to: layout.height - 16, taken: /** @type {number[][]} */ ([])};

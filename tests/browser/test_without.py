@@ -29,7 +29,7 @@ def plan_is_drawn(page: Page) -> bool:
     return page.evaluate(
         """() => {
             const plan = document.querySelector('[data-part=plan]');
-            const [canvas] = plan.firstElementChild.shadowRoot.children;
+            const [canvas] = plan.querySelector('[data-colours]').shadowRoot.children;
             const {data} = canvas.getContext('2d').getImageData(canvas.width / 2, canvas.height / 4, 9, 1);
             return !plan.hidden && plan.querySelectorAll('svg path').length > 5 && data.some(value => value);
         }"""
