@@ -78,6 +78,11 @@ Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "r
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
 and kept at rest; what could wait."""
 _NOT_USED = "The design of this link is not shown"
+_NOT_STORED = (
+    "Nothing is stored",
+    "This browser stores nothing for the page: a reload keeps the design in the address, and loses history, bookmarks "
+    "and your own rotors.",
+)
 _NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
 
 
@@ -96,6 +101,8 @@ class Page:
         address = Address(facts.query, partial(set_query, client))
         if facts.query is None:
             address.problems.append(_NO_LINK)
+        if not facts.stores:
+            address.problems.append(_NOT_STORED)
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
         opening, start = start, address.read(share.DESIGN, inputs_from, start, _NOT_USED)
         view = address.read(VIEW, view_from, ViewState(), "Link: view not used")
@@ -152,6 +159,7 @@ class Page:
                     context, self.actuator.hand, self._carry, start, facts.kept.get(share.STEPS_KEPT)
                 )
         self._views = SceneViews(context, self.scene, probe, self.actuator)
+        self._views.follow_browser(facts.scene)
         with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)

@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, get_args, get_type_hints
 import msgspec
 from msgspec import Meta, Struct
 
-from explorer.parts.presses import PRESSES
+from explorer.parts.presses import PRESSES, Drawn
 from rotor.support.user_input import brief
 
 LONGEST_HEAD = 2**16
@@ -236,6 +236,9 @@ class PageFacts(Struct, frozen=True):
     """Texts that it was given to keep by name: see `browser.store_text`."""
     page: Annotated[str, Meta(max_length=40)] = ""
     """Another one each time that a tab is loaded; the same when a page connects again."""
+    scene: Drawn = "drawn"
+    stores: bool = True
+    """Whether the browser stores what the page keeps."""
 
 
 def read_facts(text: str) -> PageFacts:

@@ -36,6 +36,8 @@ class BarPart:
 class ViewsPart:
     all: Sequence[Button]
     now: str
+    missing: str
+    """Why there is no scene and what to do; empty where it is drawn."""
 
 
 @dataclass(frozen=True)

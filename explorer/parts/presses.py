@@ -13,6 +13,8 @@ _Share = Annotated[float, Meta(ge=-10.0, le=10.0)]
 _Pull = _Share | None
 _Hand = Literal["start", "end"]
 _Switch = Literal["on", "off"]
+Drawn = Literal["drawn", "none", "lost"]
+"""Whether the browser draws the scene, has no WebGL, or had it and has lost it."""
 
 
 class _Fields(Struct, array_like=True, forbid_unknown_fields=True):
@@ -103,6 +105,7 @@ PRESSES: dict[str, Any] = {
     "pull": _Pull,
     "wiped": Annotated[float, Meta(ge=-1.0, le=2.0)],
     "covered": CoveredPress,
+    "scene": Drawn,
     "view": Literal["actuator", "3d", "disk", "blade", "top", "side"],
     "colours": Literal["Rescale", "Default"],
     "lecture": Literal["back", "next", "end"],

@@ -184,6 +184,8 @@ class SceneController:
         self._air = AirLines(client.scene)
         self._page = PageScene(client)
         self.camera = camera
+        self.drawn = True
+        """Whether the browser draws what it is sent."""
         self._look: View = "3d"
         self._drawn: _Drawn | None = None
         self._compared = False

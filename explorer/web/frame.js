@@ -165,6 +165,7 @@
   const beside = () => innerHeight <= 480;  // Where the window is low: then it stays open.
   function toggle(name) {
     if (name === 'more' || name === 'scale') return;
+    if (name === 'load') return location.reload();
     const open = page.dataset.rail === 'open' && !state.bar?.drawer;
     if (state.bar?.drawer) RX.send('drawer', '');
     if (name === 'rail') showTab('controls', !open);
@@ -271,7 +272,9 @@
   RX.paint('views', views => {
     const button = ([name, title]) =>
       `<button data-do="view" data-value="${name}" aria-pressed="${name === views.now}">${text(title)}</button>`;
-    write(part('views'), views.all.map(button).join(''));
+    page.toggleAttribute('data-undrawn', Boolean(views.missing));
+    write(part('views'), views.missing
+      ? `<p>${text(views.missing)}</p><button data-page="load">Load again</button>` : views.all.map(button).join(''));
   });
   RX.paint('notice', notice => {
     const bar = part('notice');
@@ -400,10 +403,13 @@
     prompt.style.transform = `translate(${left}px, ${top}px)`;
   }
   requestAnimationFrame(look);
-  // viser's remark on drawing in software is said for a while, and then makes room.
+  // viser's notifications lie in the top layer: its own lies below our cards. Its remark on drawing in software is said
+  // for a while, and then makes room.
   new MutationObserver(() => {
     for (const note of document.querySelectorAll('.mantine-Notification-root:not([data-seen])')) {
       note.dataset.seen = '';
+      const all = closest({target: note}, '[class*=Notifications-root]');
+      if (all && !all.popover) { all.popover = 'manual'; all.showPopover?.(); }
       if (/Software WebGL/.test(note.textContent)) setTimeout(() => note.querySelector('button')?.click(), 5000);
     }
   }).observe(document.body, {childList: true, subtree: true});

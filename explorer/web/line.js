@@ -33,7 +33,8 @@
       const again = place.querySelector(`[data-slide="${focused.dataset.slide}"]`);
       (again ?? place.querySelector('[data-slide]'))?.focus({preventScroll: true});
     }
-    if (problem) RX.say(problem);
+    clearTimeout(told);
+    told = setTimeout(() => RX.say(place.textContent), problem ? 0 : LATER);  // Once no answer follows.
   });
 
   // A number that stands here need not stand in the rail too.
@@ -60,7 +61,6 @@
     place.written = '';
     sliding.send([name, value]);
     clearTimeout(told);
-    told = setTimeout(() => RX.say(place.textContent), LATER);
   }
   drag(place, '[data-slide]:not([aria-disabled])', (element, {clientX}) => {
     const {slide: name} = element.dataset, control = controls.get(name);

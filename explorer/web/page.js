@@ -42,7 +42,8 @@
         || new URLSearchParams(location.search).has('darkMode');
       const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;
       asked = true;
-      answer(key, JSON.stringify({dark, query: location.search, kept: kept(), page: loaded}));
+      const {drawn: scene} = rotorScene, stores = sessionStorage instanceof Storage;
+      answer(key, JSON.stringify({dark, query: location.search, kept: kept(), page: loaded, scene, stores}));
     },
     // A text too long for the browser's store (some megabytes) is not kept, nor what stood there before.
     keep(name, text) {

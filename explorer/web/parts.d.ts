@@ -90,6 +90,7 @@ interface RxPresses {
   pull: number | null;
   wiped: number;
   covered: RxCoveredPress;
+  scene: 'drawn' | 'none' | 'lost';
   view: 'actuator' | '3d' | 'disk' | 'blade' | 'top' | 'side';
   colours: 'Rescale' | 'Default';
   lecture: 'back' | 'next' | 'end';
@@ -583,6 +584,7 @@ interface RxVibrationPart {
 interface RxViewsPart {
   all: [string, string][];
   now: string;
+  missing: string;
 }
 
 interface RxSliderSaving {

@@ -67,10 +67,12 @@
   function arrange() {
     const {held} = RX.shown('plan'), {clientWidth: width, clientHeight: height} = place;
     const chart = around.firstElementChild;
-    const by = scale(), wide = !held && !RX.small.matches && width > 560 && width - CARDS * by > height - STACKED;
+    const by = scale(), wide = !held && !RX.small.matches && !page.hasAttribute('data-flight')
+      && width > 560 && width - CARDS * by > height - STACKED;
     const both = width - CARDS * by - LABEL.width > .9 * (height - 2 * ROOM);
     if (held) delete page.dataset.plan; else page.dataset.plan = wide ? 'beside' : 'stacked';
-    const low = Math.min(...['.rxf-field', '.rxf-views'].map(name => seen(name)?.top ?? height));
+    const low = Math.min(...['.rxf-field', '.rxf-views', '.rxf-fly', '.rxf-earns']
+      .map(name => seen(name)?.top ?? height).filter(top => top > height / 2));
     const high = (held ? seen('.rxf-power')?.bottom ?? 0 : covered()) + ROOM;
     const alone = held && RX.small.matches && page.dataset.twisting !== 'curve';  // No words.
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
@@ -128,7 +130,8 @@
   function placeLabels(regions) {
     if (!layout.wide) return [];
     const sizes = Object.fromEntries(regions.map(region => [region.name, LABEL.height + priceHeight(region.name)]));
-    const from = Math.max(covered(), 20) + 12, x = layout.width - LABEL.width - 16;
+    const from = Math.max(seen('.rxf-views:has(p)')?.bottom ?? 0, covered(), 20) + 12;
+    const x = layout.width - LABEL.width - 16;
     const to = (seen('.rxf-field')?.top ?? layout.height) - 12;
     const left = {x: 16, end: 16 + LABEL.width, from, to, taken: /** @type {number[][]} */ ([])};
     const right = {x, end: x, from: 62, to: layout.height - 16, taken: /** @type {number[][]} */ ([])};

@@ -157,7 +157,21 @@
   const smooth = t => t * t * t * (t * (6 * t - 15) + 10);
   let flight = 0;
 
+  // Whether it is drawn: the browser may have no WebGL, or take it away for a time.
+  let lost = false;
+  for (const [event, gone] of /** @type {const} */ ([['webglcontextlost', true], ['webglcontextrestored', false]]))
+    addEventListener(event, ({target}) => {
+      if (target !== viewer()?.canvas) return;
+      lost = gone;
+      RX.send('scene', rotorScene.drawn);
+      if (!lost) viewer().requestRender?.();
+    }, true);
+
   window.rotorScene = {
+    get drawn() {
+      if (lost) return 'lost';
+      return document.createElement('canvas').getContext('webgl2')?.isContextLost() ? 'none' : 'drawn';
+    },
     // Camera and a lifted blade fly to where the server puts them: the camera from where it is, the blade from the
     // reference blade to where it is held, or back. `offset`: of the blade's origin from the flap hinge, along it.
     lift(name, out, duration, held, offset) {

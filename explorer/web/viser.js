@@ -2,6 +2,37 @@
 // What we change in viser 1.1.1's client, before it runs: each change has a test in tests/browser/test_viser_client.py
 // or test_reconnect.py, and a proposal to its authors in docs/developers/upstream.
 (() => {
+  // Where the browser has no WebGL the client would end, and the page with it: it gets a context that draws nothing.
+  const VERSION = 7938, SCISSOR_BOX = 3088, VIEWPORT = 2978, MANY = 4096;  // As WebGL numbers what is asked.
+  const ASKED = {[VERSION]: 'WebGL 2.0', [SCISSOR_BOX]: [0, 0, 1, 1], [VIEWPORT]: [0, 0, 1, 1]};
+  const ANSWERS = {
+    isContextLost: true, getContextAttributes: {}, getSupportedExtensions: [], getShaderInfoLog: '',
+    getProgramInfoLog: '', getShaderPrecisionFormat: {precision: 23, rangeMin: 127, rangeMax: 127},
+  };
+  const undrawn = canvas => new Proxy({
+    canvas, getParameter: what => ASKED[what] ?? MANY, getExtension: name => /color_buffer/.test(name) ? {} : null,
+  }, {
+    get: (own, /** @type {string} */ name) => own[name] ?? window.WebGL2RenderingContext?.[name]
+      ?? (() => name in ANSWERS ? ANSWERS[name] : name.startsWith('create') ? {} : 0),
+  });
+  const getContext = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = /** @type {any} */ (function (kind, ...rest) {
+    return getContext.call(this, kind, ...rest) ?? (kind === 'webgl2' ? undrawn(this) : null);
+  });
+  addEventListener('webglcontextcreationerror', event => event.stopImmediatePropagation(), true);
+
+  // Where the browser stores nothing for a page, as with cookies blocked, its stores last until it is loaded again.
+  for (const name of ['localStorage', 'sessionStorage']) try {
+    window[name].setItem('rx-asked', '');
+    window[name].removeItem('rx-asked');
+  } catch {
+    const kept = new Map();
+    Object.defineProperty(window, name, {value: {
+      getItem: key => kept.get(key) ?? null, setItem: (key, value) => { kept.set(key, String(value)); },
+      removeItem: key => { kept.delete(key); },
+    }});
+  }
+
   // In a narrow window the client would leave its docks for a sheet of its own; ours are drawers by style sheet.
   const media = window.matchMedia.bind(window);
   window.matchMedia = query => media(/max-width:\s*36em/.test(query) ? 'not all' : query);

@@ -20,10 +20,10 @@ from explorer.widgets.context import TabContext
 from rotor import Aircraft, Design
 from rotor.files.design_file import parse_design
 from rotor.files.rotor_file import LARGEST_FILE, read_aircraft, read_tables
-from rotor.support.markup import tag
-from rotor.support.user_input import refusing, shorten, text_of
+from rotor.support.markup import Markup, tag
+from rotor.support.user_input import brief, refusing, shorten, text_of
 
-_ROTOR_FILE = ".toml"
+_ROTOR_FILE, _DESIGN_FILE = ".toml", ".json"
 _MOST_FILES = 40
 
 
@@ -61,8 +61,10 @@ class UploadedFiles:
             named = read_tables(self.rotor, self.texts[self.rotor]).named
             if name in map(_base_name, named):
                 return self._rotor(self.rotor, {**self.texts, name: text})
+        if name.lower().endswith(_DESIGN_FILE):
+            raise ValueError(f"{name} is not a rotor file ({_ROTOR_FILE}): use Load design for a design.")
         self.texts[name] = text
-        return UploadResult(f"{name} is loaded. A rotor file ({_ROTOR_FILE}) that names it under [sections] uses it.")
+        return UploadResult(f"{name} waits for a rotor file ({_ROTOR_FILE}) that names it under [sections]: load that.")
 
     def _rotor(self, name: str, texts: dict[str, str]) -> UploadResult:
         """A rotor file, when all that it names is here; it is kept while one of these cannot be used."""
@@ -84,12 +86,27 @@ def _base_name(file: str) -> str:
     return re.split(r"[\\/]", file)[-1]
 
 
+def _result_line(context: TabContext) -> Callable[..., None]:
+    """A line in the drawer below its button, and the function that reports there, and over the scene, what became of a
+    file; success is reported over the scene alone."""
+    line = context.gui.add_html("")
+
+    def report(title: str, sentence: str, kind: str = "done") -> None:
+        stays = tag("div.rx.rx-small.rx-export", brief(sentence), data_explorer="upload", data_kind=kind)
+        line.content = Markup() if kind == "done" else stays
+        context.notify(title, sentence)
+
+    return report
+
+
 def add_rotor_upload(context: TabContext) -> None:
     """The button for the files of a rotor of one's own, and what they lead to."""
     files = UploadedFiles()
     button = context.gui.add_upload_button(
         "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type="*/*", hint=hint("rotor_file")
     )
+
+    report = _result_line(context)
 
     def uploaded(event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
@@ -99,9 +116,9 @@ def add_rotor_upload(context: TabContext) -> None:
                 if result.aircraft is not None:
                     context.set_inputs(with_rotor(context.inputs(), OWN, result.aircraft))
         except ValueError as error:
-            context.notify("Not loaded", str(error))
+            report("Not loaded", str(error), "problem")
             return
-        context.notify("Rotor" if result.aircraft else "Kept", result.sentence)
+        report(*(("Rotor", result.sentence) if result.aircraft else ("Kept", result.sentence, "waits")))
 
     button.on_upload(uploaded)
 
@@ -138,8 +155,9 @@ class FilePanel:
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
         with folder:
             self._load = gui.add_upload_button(
-                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
+                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=_DESIGN_FILE, hint=hint("load")
             )
+            self._report = _result_line(context)
         context.leaving.append(address.stop)
         context.keyboard.bind("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())
@@ -207,9 +225,9 @@ class FilePanel:
                 inputs, carried = share.within(inputs_of(design)), design.rotor.blade.carried
                 actuator = None if carried is None else inputs_from_spec(carried.spec)
         except ValueError as error:
-            self._context.notify("Not loaded", str(error))
+            self._report("Not loaded", str(error), "problem")
             return
         self._context.set_inputs(inputs)
         if actuator is not None:
             self._carry(actuator)
-        self._context.notify("Loaded", f"{name} is on the sliders.")
+        self._report("Loaded", f"{name} is on the sliders.")

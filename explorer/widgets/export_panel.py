@@ -133,6 +133,8 @@ class ExportPanel:
 
     def _seen(self, camera: Camera, view: float, width: int, height: int) -> NDArray[np.uint8]:
         """The scene as this camera sees it at a vertical field of view [rad], (height, width, 4)."""
+        if not self._scene.drawn:
+            raise ValueError("This browser draws no 3D: export the report, or use a browser with WebGL.")
         turn = SO3.from_matrix(np.stack(camera_axes(camera), axis=1)).wxyz
         seen = {"wxyz": turn, "position": camera.position, "fov": view}
         try:

@@ -286,6 +286,9 @@ class ProbePanel:
         if at == "off" or state is None:
             self._ride.end()
             return
+        if not self._scene.drawn:
+            self._context.notify("No ride", "This browser draws no 3D: use one with WebGL.")
+            return
         at = at or SectionPress(self._r.value, self._psi.value)
         self._pause()
         self._ride.begin(state.solution, min(max(at.r, self._r.min), 1.0), at.psi)

@@ -10,6 +10,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import Look, ScreenState, SessionState
 from explorer.model.units import UNITS
 from explorer.parts.frame import ViewsPart
+from explorer.parts.presses import Drawn
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.lifted_blade import fit_lifted
@@ -88,6 +89,11 @@ def _after(titles: tuple[str, ...], title: str, step: int = 1) -> str:
 
 VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
 """Views of the buttons, and their titles."""
+_MISSING: dict[Drawn, str] = {
+    "drawn": "",
+    "none": "No 3D: this browser has no WebGL. Switch on hardware acceleration, or use another browser.",
+    "lost": "The browser has lost the 3D view. It returns by itself, or when you load the page again.",
+}
 _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
 
 
@@ -95,6 +101,8 @@ class SceneViews:
     def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
         self._context, self._scene, self.probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
+        self._missing = ""
+        """Why the browser draws no scene."""
         self._mode = context.layout.mode
         self._on_blade: Callable[[float], Camera] | None = None
         """The camera's subject while the blade is lifted out."""
@@ -104,6 +112,7 @@ class SceneViews:
         """The answer when the blade was taken into the hand, while it is seen from the tip with the plan beside it."""
         context.bridge.on("view", self.look)
         context.bridge.on("colours", self._colour)
+        context.bridge.on("scene", self.follow_browser)
         context.layout.watchers.append(self._mode_changed)
         for name, view in _COMMANDS.items():
             context.keyboard.bind(name, partial(self.look, view))
@@ -113,7 +122,15 @@ class SceneViews:
 
     @property
     def now(self) -> Look:
-        return "actuator" if self._actuator.lifted else self._view
+        return "actuator" if self._actuator.lifted else "disk" if self._missing else self._view
+
+    def follow_browser(self, scene: Drawn) -> None:
+        """Where the browser draws no scene, the plan of the disk stands in its place, in every mode."""
+        self._missing = _MISSING[scene]
+        self._scene.drawn = not self._missing
+        self._lift(self._mode == "actuate")
+        self._show()
+        self._context.wake()
 
     def on_screen(self) -> ScreenState:
         """What is on screen, searches apart: the design is the user's own."""
@@ -140,7 +157,9 @@ class SceneViews:
                 self.look(wanted.look)
 
     def look(self, view: Look) -> None:
-        """Show the rotor from there, or the blade with its actuator."""
+        """Show the rotor from there, or the blade with its actuator, where there is a scene."""
+        if self._missing:
+            return
         if view == "actuator":
             self._lift(True)
             return
@@ -161,9 +180,10 @@ class SceneViews:
         self._show()  # Another rotor may carry an actuator, or not.
         before, other = self.before, self._actuator.lifted or self.before is not None
         self._context.bridge.set(wipe=view.wipe and pinned is not None and not other)
+        view = replace(view, wipe=view.wipe and not other)
         if before is not None:
-            view = replace(view, stall=True, reverse_flow=True, drag_divergence=False, wipe=False)
-        elif self._view != "disk" or other:
+            view = replace(view, stall=True, reverse_flow=True, drag_divergence=False)
+        elif not (self.now == "disk" or self._missing):
             self._hide_plan()
             return
         field = shown_field(view, pinned)
@@ -216,4 +236,4 @@ class SceneViews:
     def _show(self) -> None:
         on_stage = self._context.layout.mode == "actuate" and self._actuator.fits
         views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
-        self._context.bridge.set(views=ViewsPart(views, self.now))
+        self._context.bridge.set(views=ViewsPart(views, self.now, self._missing))

@@ -101,6 +101,13 @@ def test_focus_stays_where_a_key_was_pressed(watched: Watched):
     page.locator("[data-do=view]", has_text="Aircraft").click()
 
 
+def test_power_is_spoken_once_a_slider_rests(watched: Watched):
+    watched.press("Adv. ratio", "ArrowRight", 3)
+    watched.answered()
+    power = watched.text("total-power")
+    watched.until(lambda: power in (watched.page.locator(".rxf-said").text_content() or ""))
+
+
 def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched: Watched):
     page = watched.page
     page.get_by_role("button", name="Share").focus()

@@ -39,7 +39,12 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     file = tmp_path / "mine.toml"
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=radius_m is -3.8, outside")
+    assert "radius_m is -3.8, outside" in watched.reads("upload", "outside")  # It stays in the drawer.
+    note = watched.page.locator(".mantine-Notification-root", has_text="radius_m is -3.8, outside")
+    assert note.evaluate("""one => {
+        const {left, top, width, height} = one.getBoundingClientRect();
+        return one.contains(document.elementFromPoint(left + width / 2, top + height / 2));
+    }""")
     watched.drawer("trust")
     watched.page.wait_for_selector('[data-explorer="provenance"]')
     watched.reads("provenance", "SC1095")  # Nothing is lost.

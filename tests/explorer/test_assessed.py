@@ -355,7 +355,7 @@ def size(text: str) -> float:
     return float(text.replace("\u2009", "").replace("−", "-"))
 
 
-def check_bands(shown: Mapping[str, Any]) -> tuple[int, int]:
+def check_bands(shown: Mapping[str, Any], *, sourced: bool) -> tuple[int, int]:
     """Every value lies inside its band, has the word that its band gives, and no colour without sure or likely; how
     many values have a band to either side, and how many have two ends."""
     texts, ranges = set[tuple[str, str, str]](), set[tuple[str, str, str]]()
@@ -372,7 +372,7 @@ def check_bands(shown: Mapping[str, Any]) -> tuple[int, int]:
             between = [(size(low), size(high)) for _, low, high in _BETWEEN.findall(words)]
             assert re.search(r"sure|likely|^drive", words) or any(low * high > 0.0 for low, high in between), words
     for value, band, word in texts:
-        assert sureness(size(value), size(band), sourced=False) == word
+        assert sureness(size(value), size(band), sourced=sourced) == word
     for value, low, high in ranges:
         assert size(low) <= size(value) <= size(high), (value, low, high)
     line = shown.get("line")
@@ -382,7 +382,7 @@ def check_bands(shown: Mapping[str, Any]) -> tuple[int, int]:
     if "moved" in pieces:
         assert (pieces["moved"].kind != "") == (word in ("sure", "likely"))
     if word:
-        assert sureness(size(pieces["moved"].text), size(pieces["sure-band"].text[3:])) == word
+        assert sureness(size(pieces["moved"].text), size(pieces["sure-band"].text[3:]), sourced=sourced) == word
     return len(texts), len(ranges)
 
 
@@ -391,8 +391,8 @@ def test_every_value_of_actuate_lies_inside_its_band_and_has_its_word_and_colour
     waves = read_harmonics("3:0.5:60", "test") if id == "AFC" else ()
     now = answered("same-blade", DRIVEN, state, id, replace(INPUTS, twist_per_rev=waves))
     now = replace(now, hand=replace(now.hand, on_stage=True))
-    found = [check_bands({name: part for panel in PANELS for name, part in panel.view(now).items()})]
-    found.append(check_bands(PAY.view(done(now, PAY.presses["suppose"](now, SupposePress(3.0, 20.0))))))
+    found = [check_bands({name: part for panel in PANELS for name, part in panel.view(now).items()}, sourced=False)]
+    found.append(check_bands(PAY.view(done(now, PAY.presses["suppose"](now, SupposePress(3.0, 20.0)))), sourced=False))
     assert found[0][0] >= 5
     assert found[1][0] >= 1
 
@@ -406,7 +406,7 @@ def test_every_value_of_explore_lies_inside_its_band_and_has_its_word_and_colour
     for panel in (LINE, WORTH, VIBRATION) if bends else (LINE, WORTH):
         now = worked(panel, now)
     shown = {name: part for panel in PANELS for name, part in panel.view(now).items()}
-    assert check_bands(shown)[0] >= 5
+    assert check_bands(shown, sourced=True)[0] >= 5
     parts = [part for part in shown["power"].parts if part.name in ("Induced", "Profile", "Tail")]
     assert len([part for part in parts if _WITHIN.search(part.title)]) == 3
     assert " ± " in shown["power"].why

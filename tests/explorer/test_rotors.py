@@ -125,7 +125,9 @@ def test_designs_of_other_rotors_in_addresses_and_files():
 class TestShelf:
     def test_files_come_in_any_order(self):
         first = UploadedFiles()
-        assert first.add("mine.c81", DECK).aircraft is None
+        assert "waits for a rotor file" in first.add("mine.c81", DECK).sentence
+        with pytest.raises(ValueError, match=r"cut\.json is not a rotor file"):
+            first.add("cut.json", b'{"rotor": {"rad')
         craft = first.add("my.toml", NAMES_DECK).aircraft
         later = UploadedFiles()
         arrival = later.add("my.toml", NAMES_DECK)
