@@ -138,7 +138,7 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
 def coverage_words() -> str:
     """How often a measured power lies in the band, of rotors that had no part in its size."""
     part, of = (_COUNTED[k] for k in Fraction(coverage()).limit_denominator(len(_COUNTED) - 1).as_integer_ratio())
-    return f"{part.capitalize()} of {of} measured powers lie within ±"
+    return f"{part.capitalize()} of {of} measured powers lie in such a band"
 
 
 def change_pieces(

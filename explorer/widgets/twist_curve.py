@@ -191,7 +191,8 @@ class TwistCurveEditor:
         if flown is not None:
             mean, low, high = flown
             parts = [Band("", r, low, high, FLOWN), parts[0], role_line("flown", r, mean, label="flown"), parts[1]]
-        chart = Chart("Twist", Axis("r/R", (0.1, 1.03)), Axis(range=axis, unit="°"), tuple(parts))
+        along = Axis("r/R", (0.1, 1.03), (0.1, 1.0), ("root", "tip"))
+        chart = Chart("Twist", along, Axis(range=axis, unit="°"), tuple(parts))
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
         handles = [Knot(str(k.index), k.title, k.r, round(float(twist(np.array([k.r]))[0]), 2)) for k in movable]

@@ -278,7 +278,7 @@ def drawn_chart(chart: Chart) -> DrawnChart:
     series = [
         _drawn_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
     ]
-    x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4)
+    x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4 if chart.y.whole is None else 2)
     return DrawnChart(chart.title, x, y, series, chart.value, chart.note, chart.rules)
 
 

@@ -10,7 +10,7 @@ from watched import LARGE, ON_SCREEN, Visit, Watched
 MEASURE = (Path(__file__).parent / "overlaps.js").read_text(encoding="utf-8")
 CLEAN: dict[str, list[str]] = {"hit": [], "outside": [], "hidden": [], "nameless": [], "cut": []}
 SMALL = [(390, 844), (844, 390), (812, 734), (768, 1024)]
-MOST_NUMBERS, MOST_CONTROLS = 31, 36
+MOST_NUMBERS, MOST_CONTROLS = 28, 36
 """In the first view of a desk with a pointer, marks of axes and fields too. Other numbers wait for the pointer."""
 # Where the rim of the disk is, or the ends of the lifted blade: [left, right, top, bottom].
 SUBJECT = """name => {

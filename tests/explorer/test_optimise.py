@@ -328,7 +328,7 @@ class TestSchedule:
         points = savings.series[0]
         assert isinstance(points, Points)
         order = (1, 2, 0)  # By speed.
-        bands = [sure.change_band_percent for leg in order if (sure := progress.doubts(leg)[0]) is not None]
+        bands = [sure.change_band_percent for leg in order if (sure := progress.doubts(leg)[1]) is not None]
         assert_allclose(points.scatter, np.array(bands, dtype=float))
         empty = ScheduleProgress(progress.plan)
         assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None

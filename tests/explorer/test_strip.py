@@ -90,9 +90,9 @@ class TestPowerChange:
         drawn = drawn_chart(total_power_chart(curve, 0.2, 904e3)).y
         assert near.range == (800.0, 1100.0)
         assert near.whole == (0.0, 4000.0)
-        assert [at for at, _ in drawn.ticks] == [800.0, 900.0, 1000.0, 1100.0]
+        assert [at for at, _ in drawn.ticks] == [800.0, 1000.0]
         assert drawn.whole is not None
-        assert [at for at, _ in drawn.whole.ticks] == [0.0, 1000.0, 2000.0, 3000.0, 4000.0]
+        assert [at for at, _ in drawn.whole.ticks] == [0.0, 2000.0, 4000.0]
         # What is flown is always within the axis, and measured powers are.
         assert total_power_chart(curve, 0.0, 1550e3).y.range == (800.0, 1600.0)
         flown = Points("", (0.1, 0.3), (700.0, 2000.0))
