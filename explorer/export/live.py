@@ -32,7 +32,7 @@ from rotor import Solution
 from rotor.design import TwistLaw
 from rotor.support.arrays import Array
 from rotor.support.markup import Markup, group, tag
-from rotor.trim.doubt import LEAST_REPORTED, LIKELY, SURE
+from rotor.trim.doubt import LEAST_REPORTED, LIKELY, SURE, decimals
 
 _FIELDS = "Angle of attack", "Induced inflow λi", "Thrust dT/dr"
 _GRID = 36, 120
@@ -177,7 +177,8 @@ def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
         f" of a trim: at {len(made.tested)} other twists within the sliders, their corners included, it was off by "
         f"{worst} {unit.symbol} at most and {mean} {unit.symbol} on average, the angle of attack by "
         f"{number(angle.error(made), 2)}° (root mean square). The sliders end before this exceeds "
-        f"{100.0 * TOLERANCE:g} % of power. ± is the uncertainty of the model itself.",
+        f"{100.0 * TOLERANCE:g} % of power. ± is the uncertainty of the model; that of a change holds the mean square "
+        "of this error, too.",
         " What the drive takes is not in it." if made.solution.design.rotor.blade.carried is not None else "",
     )
 
@@ -188,6 +189,7 @@ def _model(made: Fitted, drawn: list[_Drawn], units: Units) -> dict[str, Any]:
     inputs, family = inputs_of(solution.design), made.family
     grid, least = _grid(solution), unit.of(0.01 * LEAST_REPORTED * abs(solution.power.total))
     power, change = (unit.of(1.0) * rows.T for rows in made.doubts)
+    error = unit.of(math.sqrt(float(np.mean(made.errors**2))))
     best, _ = made.best
     flow = DrawnSolution(solution).flow(grid).u_t.astype(np.float64)
     return {
@@ -203,7 +205,7 @@ def _model(made: Fitted, drawn: list[_Drawn], units: Units) -> dict[str, Any]:
         "longest": unit.of(max(1.0, *map(float, _most(made)))),
         "power": {name: _short(unit.of(1.0) * rows) for name, rows in made.power.items()},
         "doubt": {"power": list(map(_short, power)), "change": list(map(_short, change)), "least": least,
-                  "digits": int(unit.of(made.error) < 0.1),
+                  "error": error, "digits": min(2, decimals(max(error, least))),
                   "words": [[SURE, "sure"], [LIKELY, "likely"], [0.0, "unclear"]]},
         "inset": _inset(made),
         "disk": {

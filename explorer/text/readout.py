@@ -155,8 +155,8 @@ def _row(
         "tr",
         tag("td", patch(PARTS[name]), title),
         tag("td.rx-num", units.watts(value, fineness(power, units))),
-        tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:14%"),
-        tag("td.rx-num.rx-dim", apart, style="width:24%"),
+        tag("td.rx-num.rx-dim", f"{number(share)} %", style="width:12%"),
+        tag("td.rx-num.rx-dim", apart, style="width:28%"),
         tag("td.rx-dim", word, style="width:17%;padding-left:5px"),
         title=tip(_MEANT.get(title, name)),
     )

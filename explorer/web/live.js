@@ -76,8 +76,7 @@
       const values = sliders.map(slider => Number(slider.value)), of = terms(values);
       const total = sum(power.total, of), change = total - sum(power.total, shared);
       const band = spread(doubt.power, of), least = band < 10 ? 1 : 0;
-      let within = spread(doubt.change, of);
-      within = Math.max(within, doubt.least);
+      const within = Math.max(Math.hypot(spread(doubt.change, of), doubt.error), doubt.least);
       const [, word] = doubt.words.find(([ratio]) => Math.abs(change) >= ratio * within);
       const size = fixed(Math.abs(change), doubt.digits), none = !Number(size);
       const against = none ? 'as much as the shared design'

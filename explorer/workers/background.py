@@ -228,8 +228,8 @@ class PoolAnswers:
                 pass
             case _:
                 return
+        self._answered()  # First: whoever sees that nothing is under way then knows that the answer was told.
         with self._lock:
             self._job = None
             if self._timer is None:
                 self._next_one()
-        self._answered()

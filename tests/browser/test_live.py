@@ -1,9 +1,11 @@
 """The page that travels, opened from disk: what its sliders show is what a trim gives."""
 
 import math
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page
 from test_accessible import AXE, CHECK
@@ -15,6 +17,7 @@ from explorer.export.live import live_html
 from explorer.model.inputs import ViewState
 from explorer.picture.picture import flown_twist
 from rotor import make_design, solve
+from rotor.trim.doubt import sureness
 
 DESIGN = make_design(mu=0.3, twist="segments:-12,-6@0.5", inflow="drees", elements=16, azimuths=36)
 
@@ -68,7 +71,9 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     assert f"{tip:+.1f}°".replace("-", "−") in page.locator(".inset svg text").all_text_contents()
     line = page.inner_text("h1")
     assert f"needs {power(page):.0f}\u00a0±\u00a0" in line
-    assert "than as shared, " in line
+    change, within, word = re.findall(r": ([\d.]+)\u00a0±\u00a0([\d.]+)\u00a0kW \w+ than as shared, (\w+)", line)[0]
+    assert float(within) >= float(np.sqrt(np.mean(made.errors**2))) / 1e3 - 0.05  # That of the polynomials is in it.
+    assert word == sureness(float(change), float(within))
 
 
 def test_the_best_twist_and_the_way_back(page: Page, made: Fitted):

@@ -76,7 +76,7 @@ def test_save_and_load(visit: Visit, tmp_path: Path):
     bad = tmp_path / "bad.json"
     bad.write_text('{"twist": "linear:-6", "wings": 2}', encoding="utf-8")
     file.set_input_files(bad)
-    page.get_by_text("unknown key 'wings'").wait_for()
+    page.get_by_text("unknown key 'wings'").first.wait_for()
     assert shown_kw(watched) == loaded
     file.set_input_files(saved)
     design_in_address(watched, "spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1")
