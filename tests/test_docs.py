@@ -253,4 +253,5 @@ def test_the_three_tasks(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_examples_of_the_guides_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     for code in examples(text(path).partition("\n## Three tasks\n")[0]):
-        exec(code, {})
+        if "HOST" not in code:  # A cluster of one's own.
+            exec(code, {})

@@ -192,7 +192,8 @@ def read_actuator(text: str) -> ActuatorSpec:
     if not least and max(drives) <= 0.0:  # One that turns the tip one way is laid the other way.
         drives, crossed = tuple(-drive for drive in drives), crossed != any(drives)
     if len(span) != 2 or len(chord) != 2 or min(drives) < least or max(drives) > 100.0:
-        raise ValueError(f"actuator {text!r:.80}: give span and chord two ends, and drives from {least:.0f} to 100 %")
+        low = "−100" if least else "0"
+        raise ValueError(f"actuator {text!r:.80}: give span and chord two ends, and drives from {low} to 100 %")
     plies = round(given.get("plies", (plain.plies,))[0])
     placement = Placement((span[0], span[1]), (chord[0], chord[1]), plies, divisions=given.get("divisions", ()))
     host = HostBlade() if gj is None else HostBlade("new", gj[0])

@@ -84,6 +84,11 @@ def read_section(
     elif key == "deck":
         deck = contents[0]
         given = parse_c81(deck, table.data[0])
+        if not given.cl.values.any():
+            raise ValueError(
+                f"{table.data[0]}: the lift does not rise through zero: it is zero at every angle; for a body without "
+                "lift write `drag_coefficient` in place of `deck`"
+            )
         says = _deck_says(given)
     else:
         sets = [parse_polars(text, file) for file, text in zip(table.data, contents, strict=True)]

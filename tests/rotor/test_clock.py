@@ -11,7 +11,7 @@ from rotor.support.progress import ProgressBar
 
 ROOT = Path(__file__).parent.parent.parent
 WALL = re.compile(r"\btime\.time(?:_ns)?\(|\bdatetime\.(?:now|utcnow|today)\(|\bDate\.now\(|new Date\(")
-STAMPS = {"rotor/study/chunks.py": 1, "explorer/export/contents.py": 1}
+STAMPS = {"rotor/study/chunks.py": 1, "explorer/export/contents.py": 1, "explorer/export/live.py": 1}
 """Files that write down a date."""
 
 
