@@ -345,9 +345,9 @@ def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
     sentences, saved, band = [_reach(verdict), _savings(verdict)], verdict.fuel_saving, verdict.fuel_band
     if saved is not None:
-        size = (
-            f"{abs(3600.0 * saved):.1f} kg/h" if band is None else banded(abs(3600.0 * saved), 3600.0 * band, "kg/h", 1)
-        )
+        size, sourced = f"{abs(3600.0 * saved):.1f} kg/h", verdict.sourced
+        if band is not None:
+            size = banded(abs(3600.0 * saved), 3600.0 * band, "kg/h", 1, sourced=sourced)
         sentences.append(f"Net fuel: {'saves' if saved >= 0.0 else 'costs'} {size}.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")

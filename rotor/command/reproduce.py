@@ -56,8 +56,8 @@ def run(args: argparse.Namespace) -> int:
                 report = entry.make()
                 write_report(report, folder)
             reports.append((entry, report))
-            ProgressBar.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.finding)}")
-            ProgressBar.write(f"{'':<14}{'the document:':<14}{typographic(report.statement)}")
+            ProgressBar.write(f"{report.title:<14}{report.verdict.value:<18}{typographic(report.finding)}")
+            ProgressBar.write(f"{'':<14}{'the document:':<18}{typographic(report.statement)}")
 
     fast = [entry for entry in entries if not entry.slow]
     groups = searches_of(entries)

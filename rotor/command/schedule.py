@@ -199,7 +199,7 @@ def _line(cell: ScheduleOptimum, width: int) -> str:
     met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
     status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
     power, twist = _power(optimum.best.power), common.short_spec(optimum.best.twist)
-    return f"  {cell.concept:<{width}}{power:>11}  {optimum.saving_words:<26}{twist}{status}{met}"
+    return f"  {cell.concept:<{width}}{power:>11}  {optimum.saving_words:<26}  {twist}{status}{met}"
 
 
 def optima_table(schedule: Schedule) -> Table:

@@ -7,6 +7,7 @@ physical effect, switched on one after another. `airfoil`: the data of a section
 
 import argparse
 import json
+import re
 from collections.abc import Sequence
 from typing import Any, cast
 
@@ -62,7 +63,8 @@ def run_sweep(args: argparse.Namespace) -> int:
 
 
 def sweep_report(solutions: SweepTable, over: str) -> str:
-    """The table without columns that are the same in all rows; below it each caveat, of the first row that has it."""
+    """The table without columns that are the same in all rows; below it each caveat, in the words of the first row
+    that has it: those of another row may have other numbers."""
     level = all(solution.design.vertical_speed == 0.0 for solution in solutions)
     left_out = {"status", "caveats", "message", *SHARED_COLUMNS, *(("climb_m_s", "power_climb_w") if level else ())}
     kept = [k for k, name in enumerate(solutions.columns) if name == over or name not in left_out]
@@ -75,7 +77,8 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
     ]
     sentences: dict[str, str] = {}
     for caveat in (caveat for solution in solutions for caveat in solution.caveats):
-        sentences.setdefault(caveat.name, wrapped(f"caveat: {caveat.sentence}", "  "))
+        words = re.sub(r"[\d.]+", "", caveat.sentence)
+        sentences.setdefault(words, wrapped(f"caveat: {caveat.sentence}", "  "))
     return "\n".join((table((*columns, Column("", LEFT)), rows).text(), *sentences.values()))
 
 

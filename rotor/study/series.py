@@ -380,7 +380,7 @@ def _mean_rate(design: Design) -> float:
     """Twist of the tip less that of the blade's root over the radius between them [°/R]: the rate of a linear twist."""
     root = design.rotor.blade.root_cutout
     ends = design.twist([root, 1.0])
-    return math.degrees(ends[1] - ends[0]) / (1.0 - root)
+    return round(math.degrees(ends[1] - ends[0]) / (1.0 - root), 9)
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:

@@ -220,3 +220,15 @@ def test_bash_completes_commands_and_flags(printed: Printed):
         program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
         done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
         assert done.stdout.split() == [expected]
+
+
+def test_a_sweep_prints_each_caveat_once_and_none_is_lost(printed: Printed):
+    """Two remarks on sections have one name; what differs in numbers alone is one caveat."""
+    lines = printed("sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--twist", "linear:-30", *QUICK)
+    words = re.sub(r"\s+", " ", lines)
+    coarse: Any = {"inflow": "uniform", "elements": 12, "azimuths": 24}
+    designs = (make_design(rotor="s61", mu=mu, twist="linear:-30", **coarse) for mu in (0.1, 0.2))
+    solutions = list(map(solve, designs))
+    first = {re.sub(r"[\d.]+", "", one.sentence): one.sentence for each in reversed(solutions) for one in each.caveats}
+    assert len(first) > 2
+    assert words.count("caveat: ") == len(first)
