@@ -36,9 +36,10 @@ _REACH = {"": 0.15, "°/R": 8.0, "°": 8.0, "°/R²": 16.0}
 """How far a slider goes to either side at first, by its unit; the first is of r/R."""
 _SHARES = 1.0, 0.75, 0.55, 0.4, 0.3, 0.2, 0.1
 """Of that reach, until the error is small enough; with many sliders the first are too large."""
-_TRIMS_PER_TERM = 2.2
-_DOUBTS_PER_TERM = 1.5
+_TRIMS_PER_TERM, _DOUBTS_PER_TERM = 2.2, 1.5
+"""Trims, and of these those with a band, over the terms of second order. Our choice: more lower the error little."""
 _NEAR_CORNERS = 0.9
+"""Where trims near the corners lie, over the distance of the corners, at which the error is measured. Our choice."""
 _HELD = 30.0
 """Weight of the design that is shared."""
 _MARGIN = 1.5
@@ -180,7 +181,7 @@ def fitted(solution: Solution) -> Fitted:
         raise ValueError(f"The design is not trimmed, so no page can be made of it: {solution.message}")
     design = solution.design
     if design.models.trim == "free-rotor":
-        raise ValueError("A free rotor takes no power, so there is nothing to twist for: choose another trim.")
+        raise ValueError("A free rotor takes no power, so no twist lowers it: choose another trim.")
     of = _of_law if design.rotor.blade.carried is None else _of_drive
     count, error = len(of(design, 1.0).handles), math.inf
     if not 0 < count <= MOST_HANDLES:
@@ -195,8 +196,8 @@ def fitted(solution: Solution) -> Fitted:
         error = made.error
         if error <= TOLERANCE * abs(solution.power.total):
             return made
-    off = f"power would be {error / 1e3:.1f} kW off even beside its twist"
-    why = "twists beside its own do not trim" if math.isinf(error) else off
+    off = f"near its twist the power would be {error / 1e3:.1f} kW off"
+    why = "with twists near its own it does not trim" if math.isinf(error) else off
     raise ValueError(f"No page can be made of this design: {why}. Choose a design farther from its limits.")
 
 

@@ -87,7 +87,7 @@ class TestPolynomials:
         assert narrow.error < 0.3 * made.error
         assert narrow.family.handles[0].half < made.family.handles[0].half
         monkeypatch.setattr(module, "TOLERANCE", 1e-9)
-        with pytest.raises(ValueError, match="off even beside its twist"):
+        with pytest.raises(ValueError, match="near its twist the power would be"):
             fitted(made.solution)
 
 
