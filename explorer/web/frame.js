@@ -302,6 +302,7 @@
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
     const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
+    placeBelow();  // New words of the power may have made its card higher since the last frame.
     const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxf-notice', '.rxs-figures'] : COVERING;
     // A narrow card leaves the subject in sight; the notice counts always, or the scene would move with its words.
     const least = name => name === '.rxf-notice' ? 0 : 0.28 * stage.width;
@@ -322,8 +323,11 @@
   for (const name of COVERING) new ResizeObserver(tellCover).observe(root.querySelector(name));
   // The card of power grows with its words: what stands below it follows.
   const power = root.querySelector('.rxf-power');
-  new ResizeObserver(() => {
+  function placeBelow() {
     if (power.offsetHeight) root.style.setProperty('--rx-power', `${power.offsetTop + power.offsetHeight}px`);
+  }
+  new ResizeObserver(() => {
+    placeBelow();
     if (small.matches) tellCover();  // There it is as high as its mode wants, whatever it says.
   }).observe(power);
   // Drawn for their size; the plan hides them.
