@@ -57,7 +57,7 @@ class TabContext:
         self.following: list[Callable[[SessionState | None], None]] = []
         """Called once the panels have followed an update; None: the inputs have no solution."""
         self.resting: list[Callable[[bool], None]] = []
-        """Called with whether the page is hidden: then nothing is computed for it but what is under way, and searches."""
+        """Called with whether the page is hidden: then only what is under way is computed for it, and searches."""
         self.leaving: list[Callable[[], None]] = []
         """Called once the browser has left: end threads and jobs."""
         self.held = False
