@@ -224,6 +224,21 @@ def test_in_the_hand_power_has_the_unit_of_the_page():
     assert held_power(replace(now, station=None)) == {"hand": None}
 
 
+def test_in_the_hand_a_change_has_its_band_once_it_rests():
+    before, now = solved(OPENING), now_at(CHANGED)
+    assert now.state is not None
+    change = now.state.solution.power.total - before.power.total
+    now = replace(now, station=HeldStation("tip", None, before), change=change)
+    sure = doubt(now.state.solution, before)
+    assert sure.change_band is not None
+    assert "±" not in held_power(now)["hand"].change
+    size, within, word = re.findall(r"(.+) ± (.+) kW, (.+)", held_power(soon(now))["hand"].change)[0]
+    assert [float(text.replace("−", "-")) for text in (size, within)] == pytest.approx(
+        [1e-3 * change, 1e-3 * sure.change_band], abs=0.51
+    )
+    assert word == sure.sureness
+
+
 # The power card where power is near zero or negative: descent and autorotation
 
 
