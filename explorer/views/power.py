@@ -12,7 +12,7 @@ from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel, PanelWork
 from explorer.views.work import doubt_work, has_power, shown_doubt
-from rotor.trim.doubt import Doubt
+from rotor.trim.doubt import Doubt, decimals
 
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
@@ -89,17 +89,18 @@ def held_doubt(now: PageState) -> tuple[PanelWork, ...]:
 
 
 def held_power(now: PageState) -> dict[str, Any]:
-    """Power and its least beside the blade, while a station of it is held; the band of the change while it rests."""
+    """Power and its least beside the blade, while a station of it is held; with bands while it rests."""
     if now.state is None or now.station is None:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
     digits, band = fineness(power, now.units), next((now.answers.get(work.key) for work in held_doubt(now)), None)
-    within = None if band is None or band.change is None else band.change_band
+    within = None if band is None else band.change_band
+    around = "" if band is None else f" ± {number(unit.of(band.band), max(digits, decimals(unit.of(band.band))))}"
     words = unit.text(change, digits, sign=True)
     if within and round(unit.of(change), 1):
         words = banded(change, within, now.units, least=digits, sign=True).replace(":", ",")
     shown = HandPart(
-        power=now.units.watts(power.total, digits),
+        power=f"{number(unit.of(power.total), digits)}{around} {unit.symbol}",
         change=words,
         now=round(unit.of(power.total), 2),
         before=round(unit.of(power.total - change), 2),
