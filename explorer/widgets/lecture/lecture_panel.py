@@ -265,7 +265,7 @@ class LecturePanel:
             own = {**facts.words(units), **words_of(facts.stops[place.stop].numbers, units)}
             values = {**{name: Figure(words) for name, words in own.items()}, **self._compared(state, units)}
         none = Figure("–" if guessed else "?")
-        figures = [(caption, *values.get(name, none)) for name, caption in step.figures]
+        shown = [(caption, values.get(name, none)) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],
             lecture=LecturePart(
@@ -273,7 +273,7 @@ class LecturePanel:
                 guess=place.guess,
                 answer=answer_record(step, facts, units) if guessed and facts is not None else None,
                 stop=place.stop,
-                figures=figures,
+                figures=[(caption, one.value, one.within) for caption, one in shown],
                 busy=state is None,
                 problem=answer if isinstance(answer, str) else "",
                 held=self._context.held,
