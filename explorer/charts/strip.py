@@ -189,14 +189,15 @@ def total_power_chart(
 
 
 def with_band(chart: Chart, bands: Bands, units: Units) -> Chart:
-    """Power over µ, or its change, with the band of its curve."""
+    """Power over µ, or its change, with the band of its curve in place of the area down to zero."""
     line = next(line for line in chart.series if isinstance(line, Line) and line.colour == SAVING)
     x, y = np.array(line.x), np.array(line.y)
     half = band_along(bands, x) / units.power[0].size
     known = np.isfinite(y + half)
     x, y, half = x[known], y[known], half[known]
     note = f"{chart.note} Shaded: how uncertain it is.".strip()
-    return replace(chart, series=(Band("", x, y - half, y + half, SAVING), *chart.series), note=note)
+    series = (replace(one, filled=False) if one is line else one for one in chart.series)
+    return replace(chart, series=(Band("", x, y - half, y + half, SAVING), *series), note=note)
 
 
 def _mostly_seen(limits: list[Line], y_range: Range) -> list[Line]:
