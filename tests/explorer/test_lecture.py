@@ -205,6 +205,11 @@ class TestAnswers:
         assert weak < strong
 
     @pytest.mark.slow
+    def test_what_an_answer_calls_saved_or_lost_has_its_band(self, facts: dict[str, StepFacts]):
+        said = {**facts["hover_twist"].words(SI), **facts["reverse_flow"].words(SI)}
+        assert [("±" in said[name]) for name in ("induced_saving", "cost", "slow_cost")] == [True] * 3
+
+    @pytest.mark.slow
     def test_numbers_are_those_of_solve(self, facts: dict[str, StepFacts]):
         """Of designs made without the page; parts that change add up to the total, and circles to their area."""
         for step in STEPS:
