@@ -19,7 +19,7 @@ from rotor.support.bytes_cache import CACHE_BYTES
 _COLLECT_AFTER_S = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
 _TRIM_AFTER_S = 60.0
-"""[s] after an update of a page: glibc keeps what updates have freed, in half an hour of one page 280 MB."""
+"""[s] after an update of a page: glibc keeps what updates have freed, and one page went on growing."""
 _M_ARENA_MAX = -8
 """Option of `mallopt`, from glibc's malloc.h."""
 _lock = threading.Lock()

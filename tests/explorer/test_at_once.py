@@ -178,7 +178,7 @@ def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: A
 
 
 def test_what_updates_free_is_returned_while_the_page_stays(app: App, monkeypatch: pytest.MonkeyPatch):
-    """glibc kept it: one page grew by 5 MB a minute."""
+    """glibc kept it, and one page went on growing."""
     asked = threading.Event()
     monkeypatch.setattr("explorer.session.trim_memory_soon", asked.set)
 
