@@ -14,9 +14,10 @@ import numpy as np
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
 from rotor.aero.display import STALLED, pitch_of_alpha
-from rotor.aero.elements import TrimState, Unsteady
+from rotor.aero.elements import BladeElements, TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
+from rotor.aero.problem import Problem
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
@@ -196,8 +197,8 @@ class Solution:
     """[s]"""
     find_shown: Callable[["Solution"], Shown]
     """What `shown` is worked out by."""
-    elements: Any = None
-    """`BladeElements` on the azimuths of the trim; None: they are evaluated once more for `shown`."""
+    evaluated: tuple[Problem, BladeElements] | None = None
+    """On the azimuths of the trim; None: they are made once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None
@@ -210,12 +211,12 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "elements": None}
+        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "evaluated": None}
 
     def light(self) -> "Solution":
         """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
         when it is read; trims that start from it take more steps."""
-        return replace(self, start=replace(self.start, box=None), elements=None)
+        return replace(self, start=replace(self.start, box=None), evaluated=None)
 
     @cached_property
     def shown(self) -> Shown:
