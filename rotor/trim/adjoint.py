@@ -96,9 +96,9 @@ class ElementSlopes:
 
 _FEW = 12
 """Equations up to which what forces remember is formed for a gradient: products take longer. Our choice."""
-_MANY_PASSES = 10
+_MANY_PASSES = 9
 """Passes of a trim beyond which its factors are too far: made at the trim they spare more later than they take. Our
-choice: over sliders' steps trims and gradients take as long with 9 to 12; with 8 gradients take a fifth longer."""
+choice: over sliders' steps trims take as long with 8 and gradients longer, with 10 trims take longer."""
 
 
 class _Linear:

@@ -21,7 +21,7 @@ from rotor.support.units import power_text
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import axial_ring, vortex_ring
-from rotor.trim.newton import LinearisedTrim, TrimResult
+from rotor.trim.newton import TrimResult
 from rotor.trim.power import PowerBudget, control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import Deflections, DiskFields, ElasticTwist, Shown, Solution, Status
 from rotor.trim.validity import CaveatInputs, caveats, failure_sentence, implausible
@@ -72,14 +72,17 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     return Analysis(solution, result.linear)
 
 
-def _evaluated(linear: LinearisedTrim) -> tuple[Problem, BladeElements]:
+def _evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
+    if solution.evaluated is not None:
+        return solution.evaluated
+    linear = Analysis(solution).linear
     return linear.problem, linear.elements
 
 
 @one_blas_thread()
 def shown_of(solution: Solution) -> Shown:
     """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
-    problem, elements = solution.evaluated or _evaluated(Analysis(solution).linear)
+    problem, elements = _evaluated(solution)
     asked = as_asked(problem, elements)
     fields = _fields(*asked)
     seen = areas(asked[0].disk, asked[1], fields.stall_margin)

@@ -14,10 +14,9 @@ import numpy as np
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
 from rotor.aero.display import STALLED, pitch_of_alpha
-from rotor.aero.elements import BladeElements, TrimState, Unsteady
+from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
-from rotor.aero.problem import Problem
 from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
@@ -197,8 +196,8 @@ class Solution:
     """[s]"""
     find_shown: Callable[["Solution"], Shown]
     """What `shown` is worked out by."""
-    evaluated: tuple[Problem, BladeElements] | None = None
-    """On the azimuths of the trim; None: they are made once more for `shown`."""
+    evaluated: Any = None
+    """`Problem` and `BladeElements` on the azimuths of the trim; None: they are made once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None

@@ -197,7 +197,8 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
 def test_a_band_takes_few_evaluations_and_no_factors(bending: bool, monkeypatch: pytest.MonkeyPatch):
     """One for each input, and fewer than a warm trim for the path of the wake, with the factors of the gradient.
 
-    The multipliers that tell parts of power apart take half the products of those of the gradient, 6 to 9.
+    The multipliers that tell parts of power apart take fewer products than those of the gradient, 3 to 5 where
+    these take 5 to 9.
     """
     evaluations, evaluated = list[Point](), evaluate
     products, multiplied = list[Any](), transposed
