@@ -41,7 +41,7 @@ _MOST_FORGETFUL = 2
 all the rest, and they spare steps near deep stall only. Our choice."""
 _MOST_PRODUCTS = 40
 """Products with a Jacobian after which factors nearby do not serve for its transposed."""
-_KRYLOV_TOLERANCE = 1e-10
+KRYLOV_TOLERANCE = 1e-10
 """Residual over the right side at which such a solution ends. Our choice."""
 _SINGLE_PRECISION_FROM = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
@@ -113,7 +113,7 @@ class Solved:
     """Factors of the last step, where they left little of the residual."""
 
 
-def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
+def solve_transposed(point: Point, right: Array, near: Factors, tolerance: float = KRYLOV_TOLERANCE) -> Array | None:
     """J⁻ᵀ b at a point with slopes, from the factors of a Jacobian nearby; None where these are too far.
 
     By flexible generalised minimal residuals (Saad, SIAM J. Sci. Comput. 14, 1993): with factors in single precision
@@ -137,7 +137,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
         column[k + 1] = length = max(float(np.linalg.norm(new)), 1e-300)
         basis[k + 1] = new / length
         g[k + 1] = -(g[: k + 1] @ column[: k + 1]) / length
-        if float(np.linalg.norm(g[: k + 2])) * _KRYLOV_TOLERANCE >= 1.0:
+        if float(np.linalg.norm(g[: k + 2])) * tolerance >= 1.0:
             q, r = np.linalg.qr(hessenberg[: k + 2, : k + 1])
             return np.asarray(np.linalg.solve(r, size * q[0]), dtype=np.float64) @ steps[: k + 1]
     return None

@@ -20,7 +20,7 @@ from rotor.columns.flight import SWIRL, SWIRL_SLOPE
 from rotor.columns.hover import turning_of
 from rotor.design.twist import SpecTwist, TwistLaw
 from rotor.engine.linearise import MeasureSlopes, jacobian, transposed
-from rotor.engine.newton import Factors, solve_transposed
+from rotor.engine.newton import KRYLOV_TOLERANCE, Factors, solve_transposed
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array, ShortRepr
 from rotor.support.blas_threads import one_blas_thread
@@ -99,9 +99,9 @@ class ElementSlopes:
 
 _FEW = 12
 """Equations up to which what forces remember is formed for a gradient: products take longer. Our choice."""
-_MANY_PASSES = 8
-"""Passes of a trim beyond which its factors are too far: made at the trim they spare more passes later than they take.
-Our choice: with those of the blade as built a trim takes 10 passes, with its neighbour's own 6."""
+_MANY_PASSES = 9
+"""Passes of a trim beyond which its factors are too far: made at the trim they spare more later than they take. Our
+choice: over sliders' steps trims take as long with 8 and gradients longer, with 10 trims take longer."""
 
 
 class _Linear:
@@ -129,14 +129,14 @@ class _Linear:
         matrix, power = jacobian(self.point, self.power_terms)
         return Factors.of_matrix(matrix), power[0]
 
-    def multipliers(self, measure: MeasureSlopes) -> Array:
-        """a of Jᵀ a = ∂(measure)/∂x, (equations,)."""
+    def multipliers(self, measure: MeasureSlopes, tolerance: float = KRYLOV_TOLERANCE) -> Array:
+        """a of Jᵀ a = ∂(measure)/∂x, (equations,); tolerance: of what an iteration leaves, over the right side."""
         point = self.point
         none = np.zeros(len(point.system.free))
         if not len(none):
             return none
         if point.system.nodes is not None or (point.memory is not None and len(none) > _FEW):
-            return self._by_iteration(transposed(point, none, measure)[0])
+            return self._by_iteration(transposed(point, none, measure)[0], tolerance)
         factors, power = self._linearised
         slopes = power if measure.terms is self.power_terms else transposed(point, none, measure)[0]
         return factors.solve(slopes, transposed=True)
@@ -170,16 +170,16 @@ class _Linear:
         return by_pitch - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
     @one_blas_thread()
-    def _by_iteration(self, slopes: Array) -> Array:
+    def _by_iteration(self, slopes: Array, tolerance: float = KRYLOV_TOLERANCE) -> Array:
         """J⁻ᵀ times slopes, from factors nearby; from those made here where these are too far; else directly."""
         kept = self._box
         if kept.factors is not None and kept.factors.usable and (kept.at_trim or not self._far):
-            found = solve_transposed(self.point, slopes, kept.factors)
+            found = solve_transposed(self.point, slopes, kept.factors, tolerance)
             if found is not None:
                 return found
         if not kept.at_trim:
             kept.factors, kept.at_trim = Factors.of(self.point.forgetful), True
-            return self._by_iteration(slopes)
+            return self._by_iteration(slopes, tolerance)
         return np.asarray(np.linalg.solve(jacobian(self.point)[0].T, slopes), dtype=np.float64)
 
     def measure(self, weights: ElementSlopes) -> MeasureSlopes:

@@ -18,7 +18,7 @@ from rotor.design.design import Design
 from rotor.engine.waves import wave_grid
 from rotor.support.blas_threads import one_blas_thread
 from rotor.support.units import power_text
-from rotor.trim.analysis import Analysis, problem_of
+from rotor.trim.analysis import Analysis
 from rotor.trim.forward import course_of
 from rotor.trim.low_speed import axial_ring, vortex_ring
 from rotor.trim.newton import TrimResult
@@ -62,7 +62,7 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
         find_shown=shown_of,
-        elements=elements,
+        evaluated=(problem, elements),
         start=result.guess,
         wake_course=course_of(problem),
         freedoms=problem.freedoms,
@@ -72,11 +72,17 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     return Analysis(solution, result.linear)
 
 
+def _evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
+    if solution.evaluated is not None:
+        return solution.evaluated
+    linear = Analysis(solution).linear
+    return linear.problem, linear.elements
+
+
 @one_blas_thread()
 def shown_of(solution: Solution) -> Shown:
     """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
-    problem = problem_of(solution)
-    elements: BladeElements = solution.elements or Analysis(solution).linear.elements
+    problem, elements = _evaluated(solution)
     asked = as_asked(problem, elements)
     fields = _fields(*asked)
     seen = areas(asked[0].disk, asked[1], fields.stall_margin)

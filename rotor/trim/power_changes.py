@@ -35,7 +35,8 @@ from rotor.trim.solution import Solution
 WAKE_PATH, WAKE_SLOPE = "wake_path_percent", "wake_path_slope_percent"
 _STEP_SHARE = 0.1
 """Part of its size by which an input is changed: small, so that what is found is the slope for both signs."""
-
+_OF_PARTS = 1e-5
+"""What the multipliers that attribute a change to parts of power may leave, over the right side."""
 
 PARTS = ("induced", "profile", "parasite", "tail")
 """Parts of power to which a change is attributed; what dampers and gusts take counts as profile power."""
@@ -81,7 +82,7 @@ class _PowerNearby:
     def __init__(self, adjoint: Adjoint) -> None:
         self.problem, self._point, self._terms = adjoint.problem, adjoint.point, adjoint.total_terms
         self._multipliers = adjoint.of_total
-        self._of_induced = adjoint.multipliers(adjoint.measure(adjoint.induced_weights))
+        self._of_induced = adjoint.multipliers(adjoint.measure(adjoint.induced_weights), _OF_PARTS)
         self._gain, self._guess = tail_gain(adjoint.solution), adjoint.solution.start
         self._start = self._powers(adjoint.trim)
 

@@ -200,8 +200,8 @@ class Solution:
     """[s]"""
     find_shown: Callable[["Solution"], Shown]
     """What `shown` is worked out by."""
-    elements: Any = None
-    """`BladeElements` on the azimuths of the trim; None: they are evaluated once more for `shown`."""
+    evaluated: Any = None
+    """`Problem` and `BladeElements` on the azimuths of the trim; None: they are made once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     wake_course: WakeCourse | None = None
@@ -214,12 +214,12 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "elements": None}
+        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "evaluated": None}
 
     def light(self) -> "Solution":
         """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
         when it is read; trims that start from it take more steps."""
-        return replace(self, start=replace(self.start, box=None), elements=None)
+        return replace(self, start=replace(self.start, box=None), evaluated=None)
 
     @cached_property
     def shown(self) -> Shown:

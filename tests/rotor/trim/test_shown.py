@@ -47,6 +47,15 @@ def test_threads_that_read_at_once_read_the_same() -> None:
     assert all(one == read[0] for one in read)
 
 
+def test_what_is_shown_of_a_trim_takes_no_second_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+    solution = solve(make_design(mu=0.3, mass_kg=11_000.0))
+    monkeypatch.setattr("rotor.trim.analysis.problem_of", None)
+    assert solution.stalled_area > 0.0
+    assert solution.caveats
+    with pytest.raises(TypeError):
+        _ = solution.light().shown
+
+
 def test_searches_and_many_trims_make_no_fields(monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[Solution] = []
     make = assembling.shown_of
