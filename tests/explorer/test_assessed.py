@@ -154,7 +154,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("fuel", "([\\d.]+) ±", flight["earns"].fuel)
     read("fuel", "Net fuel: \\w+ # ±", report)
     for share in POWER.view(now)["power"].parts:
-        found[share.name] = [share.value]
+        found[share.part] = [share.value]
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
     read("tip", f"turn the tip by ({NUMBER}°)", part.sentence)
@@ -185,7 +185,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["power"] += [f"{kilowatts:.0f}" for kilowatts in exported.values()]
     entries = ReportEntry("Blade", now.state.baseline), [ReportEntry("Now", now.state.solution)]
     page = report_html(DesignReport(*entries, ViewState(), driven=value, line=said), None)
-    assert said in page
+    assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
     read("power", 'data-report="total-power">#\\s?kW', page.partition("</article>")[0])
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
