@@ -253,7 +253,7 @@ class TestAnswers:
         heavy = rotor.make_design(mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value)
         carried = rotor.solve(heavy).power.total - rotor.solve(make_design(mu=0.3)).power.total
         assert carried > numbers["gross"].value
-        assert all(" ± " in numbers[name].words(SI) for name in ("gross", "cost", "here", "net_cost"))
+        assert all("±" in numbers[name].words(SI) for name in ("gross", "cost", "here", "net_cost"))
         for k, stop in enumerate(found.stops):  # Chart and large numbers are those of the design that is flown.
             assert stop.actuator is not None
             drive = stop.actuator.drives[0]
