@@ -164,7 +164,7 @@ class Page:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)
         with layout.drawers["lecture"]:
-            lecture = LecturePanel(context, self.scene.camera, self._views)
+            self.lecture = lecture = LecturePanel(context, self.scene.camera, self._views, self.now)
         with layout.drawers["settings"]:
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
@@ -329,6 +329,7 @@ class Page:
                 self.scene.draw_at_rest()
                 self._views.show_plan(state.solution, state.view, at_rest=True)
                 self.follower.work(stop, soon=True)
+                self.lecture.refresh()
                 if self._curve.held is not None:
                     self._learn()
                     follow((HAND,).__contains__)
@@ -339,6 +340,7 @@ class Page:
             case "deferred":
                 self.history.solve_waiting(stop)
                 self.follower.work(stop, soon=False)
+                self.lecture.refresh()
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""

@@ -18,6 +18,7 @@ import viser
 from explorer.charts.measured import set_shown
 from explorer.charts.plots import PowerCurves
 from explorer.hosting.messages import PageFacts
+from explorer.hosting.server_limits import trim_memory_soon
 from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import SessionState
@@ -81,6 +82,7 @@ class Session:
             return self._step()
         finally:
             self._framed = time.monotonic()
+            trim_memory_soon()
 
     def _step(self) -> Iterator[float] | None:
         everything, self._all_changed = self._all_changed, False

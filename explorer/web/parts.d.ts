@@ -351,7 +351,7 @@ interface RxLecturePart {
   guess: number | null;
   answer: RxStepAnswer | null;
   stop: number;
-  figures: [string, string][];
+  figures: [string, string, string][];
   busy: boolean;
   problem: string;
   held: boolean;

@@ -94,9 +94,10 @@ window.makeStory = (column, figures, report) => {
     foot.querySelector('[data-value=back]').disabled = at === 0;
     foot.querySelector('[data-value=next]').textContent = step.last ? 'Fly it' : 'Next';
     figures.hidden = false;
-    write(figures, now.figures.map(([title, value]) => `<div>
+    const banded = now.figures.some(([, , within]) => within);
+    write(figures, now.figures.map(([title, value, within]) => `<div>
       <b class="rxf-num" ${value === '?' ? 'data-unknown' : ''}>${text(value)}</b>
-      <span>${text(title)}</span></div>`).join(''));
+      <span>${text(title)}</span>${banded ? `<i class="rxf-num">${text(within)}</i>` : ''}</div>`).join(''));
     keep();
   };
 
