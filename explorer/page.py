@@ -185,6 +185,7 @@ class Page:
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
+        context.resting.append(self.follower.rest)
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
         context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))

@@ -66,6 +66,7 @@ class Session:
 
     def start(self) -> None:
         self.page.context.bridge.on("idle", self._answer_when_idle)
+        self.page.context.bridge.on("seen", self._see, at_once=True)
         self.page.start()
         self._wake()
         self._worker.release()
@@ -214,6 +215,12 @@ class Session:
         wait_for_callbacks(self._client)
         self._worker.until_answered(asked.wholly)
         self.page.context.bridge.set(idle=asked.serial)
+
+    def _see(self, seen: bool) -> None:
+        """The tab came to the front, or was hidden."""
+        for rest in self.page.context.resting:
+            rest(not seen)
+        (self._worker.release if seen else self._worker.hold)()
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

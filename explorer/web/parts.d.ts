@@ -59,6 +59,7 @@ interface RxPresses {
   unstall: null;
   along: boolean;
   hold: boolean;
+  seen: boolean;
   field: string;
   region: string;
   mode: string;

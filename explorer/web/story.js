@@ -166,7 +166,7 @@ window.makeStory = (column, figures, report) => {
     const last = steps[now.at].control.words.length - 1, from = now.stop;
     let k = from >= last ? 0 : from;
     sweep = setInterval(() => {
-      if (now.busy) return;
+      if (now.busy || document.hidden) return;
       k += 1;
       if (k > last) { halt(); move(from); show(); } else move(k);
     }, 420);
