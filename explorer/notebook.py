@@ -4,11 +4,13 @@ import atexit
 import os
 import sys
 import webbrowser
+from urllib.parse import urlsplit
 
 from explorer.app import App
 from explorer.hosting.request_filter import host_name
 from explorer.hosting.server_limits import ServerLimits
 from explorer.model.inputs import inputs_of
+from explorer.sharing.share import CARRIED, with_parameter
 from rotor import Design
 from rotor.design.design import require_design
 from rotor.support.markup import tag
@@ -24,10 +26,11 @@ _PREFIX = "JUPYTERHUB_SERVICE_PREFIX"
 class RunningPage:
     """A page in the background: its address, and a way to stop it. Jupyter shows it inline."""
 
-    def __init__(self, app: App, hub: bool = False) -> None:
+    def __init__(self, app: App, hub: bool = False, query: str = "") -> None:
+        """`query`: what the address says of the design beside the sliders."""
         self._app: App | None = app
         self._hub = hub
-        self.address = app.address
+        self.address = f"{app.address}/{query}" if query else app.address
         atexit.register(self.stop)
 
     def stop(self) -> None:
@@ -51,7 +54,8 @@ class RunningPage:
 
 def proxied_path(address: str) -> str:
     """Where jupyter-server-proxy passes on a page of the notebook's machine: a path on the hub's own name."""
-    return f"{os.environ.get(_PREFIX, '/')}proxy/{_port(address)}/"
+    _, ask, query = address.partition("?")
+    return f"{os.environ.get(_PREFIX, '/')}proxy/{_port(address)}/{ask}{query}"
 
 
 def why_out_of_reach(address: str) -> str:
@@ -67,7 +71,7 @@ def why_out_of_reach(address: str) -> str:
 
 
 def _port(address: str) -> str:
-    return address.rstrip("/").rpartition(":")[2]
+    return str(urlsplit(address).port)
 
 
 def start_page(design: Design, port: int, browser: bool | None, hub: str | None) -> RunningPage:
@@ -75,7 +79,9 @@ def start_page(design: Design, port: int, browser: bool | None, hub: str | None)
     names = () if hub is None else (host_name(hub.removeprefix("https://").removeprefix("http://").partition("/")[0]),)
     start = inputs_of(require_design(design))
     limits = ServerLimits(allow_hosts=names, frame_ancestors=_LOCAL)
-    page = RunningPage(App("127.0.0.1", port, start, limits), hub is not None)
+    carried = design.rotor.blade.carried
+    query = "" if carried is None else with_parameter("", CARRIED, carried.spec)
+    page = RunningPage(App("127.0.0.1", port, start, limits), hub is not None, query)
     if browser or (browser is None and hub is None and "ipykernel" not in sys.modules):
         webbrowser.open(page.address)
     if hub is None and (sentence := why_out_of_reach(page.address)):

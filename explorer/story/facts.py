@@ -54,7 +54,7 @@ class Number:
     text: str = ""
     """Text of a fact of kind "words"."""
     band: float | None = None
-    """Either side of a change; None: not known."""
+    """Either side of a difference of powers; None: not known."""
 
     def words(self, units: Units) -> str:
         """The fact as it is written, on one line."""
@@ -62,6 +62,7 @@ class Number:
         match self.kind:
             case "power" | "change" | "percent" if self.band:
                 unit, least = (Unit("%", 0.01), 1) if self.kind == "percent" else (units, 0)
+                least = digits_of(value, units) if self.kind == "power" else least
                 text = banded(value, self.band, unit, least=least, sign=self.kind == "change").partition(":")[0]
             case "power" | "change":
                 text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
@@ -363,25 +364,30 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     installed = verdict.installed
     flown = fly(verdict, [FlightLeg(speed_words(mu), mu) for mu in SPEEDS])
     set_to = [ActuatorInputs(ACTUATOR, **schedule_at(flown, installed, k)) for k in range(len(SPEEDS))]
-    net, twist, flights = list[float](), list[float](), list[Solution]()
+    twisted, loaded = list[Solution](), list[Solution]()
     for bare, actuator in zip(flight.b, set_to, strict=True):
-        flights.append(solve(actuator.apply(bare.design), bare).require())
-        twisted = solve(replace(bare.design, twist=flights[-1].design.twist), bare).require()
-        for changes, trim in ((net, flights[-1]), (twist, twisted)):
-            changes.append(trim.power.total - bare.power.total)
+        loaded.append(solve(actuator.apply(bare.design), bare).require())
+        twisted.append(solve(replace(bare.design, twist=loaded[-1].design.twist), bare).require())
+    pairs = [list(zip(*pair, strict=True)) for pair in ((loaded, flight.b), (twisted, flight.b), (loaded, twisted))]
+    net, twist, cost = ([after.power.total - before.power.total for after, before in pair] for pair in pairs)
     start, reach = step.control.start, [math.degrees(end) for end in set_to[0].reach(installed)]
+    within = [doubt(*pair).change_band or 0.0 for pair in pairs[0]]
+    here, gross, costs = (doubt(*pair[start]) for pair in pairs)
     over = [limit_words(limit.name) for limit in verdict.broken if limit.name not in installed.actuator.range_limits]
     numbers = (
-        _said(sure_here=doubt(flights[start], flight.b[start]).sureness or "", limits=listed(over))
-        | _said(actuator=installed.actuator.name, sure=net_band_words(verdict).rpartition(": ")[2])
+        _said(sure_here=here.sureness or "", limits=listed(over), actuator=installed.actuator.name)
+        | _said(sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
         | _said(reach_low=f"{number(reach[0], 1, sign=True)}°", reach_high=f"{number(reach[1], 1, sign=True)}°")
-        | _of("power", gross=-twist[start], cost=net[start] - twist[start], here=net[start])
-        | _of("power", net_cost=-verdict.net_saving)
+        | {"gross": Number("power", -twist[start], band=gross.change_band)}
+        | {"cost": Number("power", cost[start], band=costs.change_band)}
+        | {"here": Number("power", net[start], band=here.change_band)}
+        | {"net_cost": Number("power", -verdict.net_saving, band=verdict.net_band)}
         | _of("mass", mass=installed.masses.aircraft)
     )
     lines = ChartLine("twist alone", "a", tuple(twist)), ChartLine("with its mass", "b", tuple(net))
-    chart = StepChart("advance ratio", "extra power", "power", SPEEDS, "mu", lines)
+    ends = tuple(tuple(power + sign * band for power, band in zip(net, within, strict=True)) for sign in (-1.0, 1.0))
+    chart = StepChart("advance ratio", "extra power", "power", SPEEDS, "mu", lines, (ends[0], ends[1]))
     facts = flight.facts(numbers, verdict.net_saving, chart, twist, net)
     stops = [
         replace(stop, actuator=one, numbers=_said(tip=f"{number(math.degrees(one.tip(installed)), 2, sign=True)}°"))

@@ -39,8 +39,9 @@ _MIN_AMPLITUDE_DEG = 0.02
 _BEST, _SPREAD = "var(--rx-accent)", "color-mix(in srgb, var(--rx-accent) 22%, transparent)"
 _FAINT = "var(--rx-faint)"
 _VIBRATIONS = (-100.0, -50.0, 0.0, 50.0, 100.0, 200.0, 400.0)
-_URGENCY, _LATER, _DELAY_S = 4, 5, 0.4
-"""How long the design must stand before it is worked on [s]."""
+_URGENCY, _LATER, _DELAY_S = 4, 7, 0.4
+"""What is trimmed comes behind the verdict, the dial behind what would pay: it is folded at first. Last, how long the
+design must stand before it is worked on [s]."""
 
 
 def _asked(now: PageState) -> tuple[Call, ...]:

@@ -9,6 +9,7 @@ from explorer.model.units import number
 from explorer.parts.results import LinePart, LinePiece, Status
 from explorer.text.design_words import AS_BUILT
 from explorer.text.line import (
+    WIDE,
     change_pieces,
     control,
     flight_pieces,
@@ -79,7 +80,7 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     waves = [
         f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°" for each in one.now.inputs.twist_per_rev
     ]
-    return [*pieces, LinePiece("\u00a0%" + "".join(waves))]
+    return [*pieces, LinePiece("\u00a0%"), LinePiece(f" {noun.lower()}", WIDE), LinePiece("".join(waves))]
 
 
 def _change_here(one: ActuatedBlade) -> list[LinePiece]:

@@ -174,7 +174,7 @@ def _known(now: PageState) -> tuple[tuple[WaterfallStep, ...], bool]:
 
 
 WATERFALL = Panel(waterfall, lambda ui: ui.drawer == "details", works=steps_asked)
-COSTS = Panel(costs, works=steps_asked)
+COSTS = Panel(costs, lambda ui: bool(ui.drawer) or not ui.lifted, works=steps_asked)
 
 
 def cost_words(step: WaterfallStep, units: Units) -> str:

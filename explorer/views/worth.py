@@ -118,4 +118,4 @@ def worth_row(
     return SliderSaving(way, value, one.unit_text(units), part, sentence, stale)
 
 
-WORTH = Panel(worth, works=slopes_asked)
+WORTH = Panel(worth, works=lambda now: slopes_asked(now)[: 1 if now.ui.lifted else None])

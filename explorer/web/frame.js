@@ -162,7 +162,7 @@
   // On a telephone or a tablet one sheet holds what stands around the scene else, a tab for each: controls, the key of
   // the disk, charts. A drawer takes the place of all three.
   const small = RX.small = matchMedia('(max-width: 860px), (max-height: 480px)'), more = () => 'more' in page.dataset;
-  const beside = () => innerHeight <= 480;  // Where the window is low: then it stays open.
+  const beside = () => parseFloat(getComputedStyle(page).getPropertyValue('--rx-side')) > 0;  // Then it stays open.
   function toggle(name) {
     if (name === 'more' || name === 'scale') return;
     if (name === 'load') return location.reload();

@@ -69,6 +69,7 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     expect(section(page, 2).locator("[data-chosen]")).to_have_count(1)  # A guess is made once.
     page.evaluate("k => RX.send('story', k)", len(STEPS) - 1)
     page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
+    expect(page.locator(".rxf-stage :is(input[type=range], [data-fly]):visible")).to_have_count(0)  # The step has them.
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.

@@ -135,6 +135,9 @@ def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit, size: tuple[int, 
             if page.locator(f".rxf-grip [data-page={tab}]").get_attribute("aria-expanded") == "false":
                 page.locator(f".rxf-grip [data-page={tab}]").click()
             has_room(watched, "/lifted/skin" if mode == "actuate" else "/rotor/disk/field", height)
+        for card in (".rxf-fly", ".rxf-earns") if mode == "actuate" and min(size) > 480 else ():
+            box = watched.box(card)
+            assert box["y"] + box["height"] <= height  # On a tablet the whole of both.
     assert page.evaluate("() => document.querySelector('canvas').clientWidth") >= width / 2
     watched.mode("explore")
     # A finger takes the tip: the stage is the blade, the disk and the scale of power; a second one takes it back.

@@ -13,9 +13,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.export.contents import on_board
+from explorer.export.contents import DesignReport, ReportEntry, on_board
 from explorer.export.figures import actuator_section
 from explorer.export.provenance import provenance_lines
+from explorer.export.report import report_html
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
@@ -25,6 +26,7 @@ from explorer.parts.actuate import AssessedPart, PowerBar
 from explorer.parts.presses import SupposePress
 from explorer.parts.results import LinePiece
 from explorer.picture.lifted_picture import lifted_picture
+from explorer.sharing.share import code_of, design_from
 from explorer.text.readout import limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
@@ -34,6 +36,7 @@ from explorer.views.flight import FLIGHT
 from explorer.views.line import LINE, line_text, works
 from explorer.views.page_state import OpenPanels, PageState, SetHand
 from explorer.views.pay import PAY
+from explorer.views.power import POWER
 from explorer.views.vibration import VIBRATION
 from explorer.views.worth import WORTH
 from explorer.workers.call import Call
@@ -138,6 +141,20 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("mass", "# kg:", rail["actuator.numbers"])
     read("mass", "^# kg on board", part.sentence)
     read("mass", "# kg:", report)
+    staged = replace(now, hand=replace(now.hand, on_stage=True))
+    kinds = re.sub(r"<[^>]*>", " ", PAY.view(staged)["actuator.kinds"].replace("</tr>", "\n"))
+    row = rf"(?m)^ +{value.name} +"
+    read("range", f"{row}# ", kinds)
+    found["range in flight"] = [f"{part.range:.2f}"]
+    read("mass", f"{row}{NUMBER} +#", kinds)
+    read("power over the flight", rf"{row}{NUMBER} +{NUMBER} +[+−]([\d.]+) ±", kinds)
+    read("range in flight", "range of tip twist #° in flight", rail["actuator.numbers"])
+    read("torsion", "first torsion at # /rev", rail["actuator.numbers"])
+    read("mass that pays", "^# kg", part.pays[1] if len(part.pays) > 1 else "0 kg")
+    read("fuel", "([\\d.]+) ±", flight["earns"].fuel)
+    read("fuel", "Net fuel: \\w+ # ±", report)
+    for share in POWER.view(now)["power"].parts:
+        found[share.part] = [share.value]
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
     read("tip", f"turn the tip by ({NUMBER}°)", part.sentence)
@@ -148,6 +165,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     said = line_text(now)
     read("power", "needs # ±", said)
     read("power", ": # kW, disk", flight["flight"].words)
+    read("stalled", "disk # % stalled", flight["flight"].words)
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
@@ -161,10 +179,14 @@ def screen(now: PageState) -> dict[str, list[str]]:
     assert carried is not None
     exported = {
         "CSV": float(re.findall(r"total power ([\d.]+) kW", "\n".join(provenance_lines(now.state.solution)))[0]),
-        "link": 1e-3 * trimmed(with_actuator(now.inputs.design(), carried.spec)).power.total,
+        "link": 1e-3 * trimmed(with_actuator(design_from(code_of(now.inputs.design())), carried.spec)).power.total,
         "design file": 1e-3 * trimmed(design_from_record(json.loads(json.dumps(design.to_dict())))).power.total,
     }
     found["power"] += [f"{kilowatts:.0f}" for kilowatts in exported.values()]
+    entries = ReportEntry("Blade", now.state.baseline), [ReportEntry("Now", now.state.solution)]
+    page = report_html(DesignReport(*entries, ViewState(), driven=value, line=said), None)
+    assert said.replace("\u00a0", " ") in page.replace("\u00a0", " ")
+    read("power", 'data-report="total-power">#\\s?kW', page.partition("</article>")[0])
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.asked):
@@ -200,10 +222,20 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
     least = -1.0 if id in ("MFC_P1", "AFC") else 0.0  # A tube turns the tip one way.
     ends = [installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes)) for end in (least, 1.0)]
     tip = math.degrees(installed.tip([installed.actuator.swing_at(0.01 * drive)] * len(installed.shapes)))
+    fuel, within = verdict.fuel_saving, verdict.fuel_band
+    assert fuel is not None
+    assert within is not None
     found = {
         "mass": f"{installed.masses.aircraft:.0f}",
         "tip": f"{tip:+.2f}°" if drive else "0.00°",
         "reach": "…".join(f"{math.degrees(end):+.2f}" if end else "0.00" for end in sorted(ends)) + "°",
+        "range": f"{math.degrees(verdict.attainable):.1f}",
+        "range in flight": f"{math.degrees(verdict.attainable):.2f}",
+        "torsion": f"{installed.frequency:.2f}",
+        "mass that pays": f"{(allowed := verdict.mass_allowed or 0.0):.{0 if allowed >= 10.0 or not allowed else 1}f}",
+        "fuel": f"{3600.0 * abs(fuel):.{change_decimals(3600.0 * fuel, 3600.0 * within, 1)}f}",
+        "stalled": f"{100.0 * flown.stalled_area:.1f}",
+        **{name: f"{1e-3 * getattr(flown.power, name):.0f}" for name in ("induced", "profile", "parasite", "tail")},
         "power": f"{1e-3 * flown.power.total:.0f}",
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
@@ -244,6 +276,18 @@ def test_every_number_on_the_screen_is_that_of_rotor(id: str, against: Against, 
     than = "without it" if against == "same-blade" else "with the best fixed blade"
     states = {"set": "at", "schedule": "by schedule at", "stopped": "stopped at"}
     assert re.search(rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now))
+
+
+def test_while_the_blade_is_out_only_what_is_seen_is_computed():
+    """Costs of switches and of the sliders of a flight are not; the dial, which is folded, comes last."""
+    now = actuate(INPUTS)
+    works = {work.name for panel in PANELS if panel.seen(now.ui) for work in panel.works(now)}
+    assert works == {"doubt", "measured", "slopes", "still"}
+    now = replace(now, ui=replace(now.ui, lifted=False))
+    assert {"flight-slopes", "waterfall"} < {w.name for p in PANELS if p.seen(now.ui) for w in p.works(now)}
+    now = answered("same-blade", DRIVEN)
+    last = {one.urgency for one in DIAL.asks(now)[1:]}
+    assert min(last) > max(one.urgency for one in (*ACTUATOR.asks(now)[:2], *ACTUATOR_CARD.asks(now)))
 
 
 def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():

@@ -280,6 +280,7 @@ class TestAnswers:
         heavy = rotor.make_design(mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value)
         carried = rotor.solve(heavy).power.total - rotor.solve(make_design(mu=0.3)).power.total
         assert carried > numbers["gross"].value
+        assert all("±" in numbers[name].words(SI) for name in ("gross", "cost", "here", "net_cost"))
         for k, stop in enumerate(found.stops):  # Chart and large numbers are those of the design that is flown.
             assert stop.actuator is not None
             drive = stop.actuator.drives[0]
@@ -287,6 +288,11 @@ class TestAnswers:
             flown = solve(with_actuator(design, f"MFC_P1,drive={drive:g},crossed={stop.actuator.crossed:d}")).require()
             change = flown.power.total - solved(stop.inputs).power.total
             assert [y for _, y in stop.dots][1] == pytest.approx(change, abs=1.0) == found.chart.lines[1].y[k]
+            assert found.chart.band is not None
+            low, high = (edge[k] for edge in found.chart.band)
+            within = rotor.doubt(flown, solved(stop.inputs)).change_band
+            assert within is not None
+            assert (low, high) == pytest.approx((change - within, change + within), abs=2.0)
             ends = np.array([flown.design.rotor.blade.root_cutout, 1.0])
             turn = np.diff(flown.design.twist(ends) - flown.design.jig(ends))[0]
             assert float(words_of(stop.numbers, SI)["tip"].rstrip("°").replace("−", "-")) == pytest.approx(

@@ -3,12 +3,15 @@
 import sys
 import types
 import webbrowser
+from urllib.parse import urlsplit
 
 import pytest
 
 import explorer
 import rotor
 from explorer import notebook
+from explorer.model.actuator_inputs import inputs_from_spec
+from explorer.sharing.share import CARRIED, parameter
 
 
 class FakeApp:
@@ -45,6 +48,16 @@ def test_the_page_starts_on_the_design(opened: list[str], key: str):
     assert app.host == "127.0.0.1"
     assert opened == [page.address]
     page.stop()
+
+
+def test_the_page_starts_with_the_actuator_on_board(opened: list[str]):
+    design = rotor.with_actuator(rotor.make_design(mu=0.25), "MFC_P1,drive=77")
+    explorer.show(design).stop()
+    (app,), (address,) = FakeApp.made, opened
+    spec = parameter(urlsplit(address).query, CARRIED)
+    assert spec is not None
+    assert inputs_from_spec(spec).apply(app.start.design()) == design
+    assert notebook.proxied_path(address).endswith(f"proxy/8765/?{urlsplit(address).query}")
 
 
 def test_in_jupyter_the_page_is_inline(opened: list[str], monkeypatch: pytest.MonkeyPatch):
