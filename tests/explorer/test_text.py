@@ -4,6 +4,7 @@ import itertools
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -129,6 +130,16 @@ class TestPowerCurves:
         assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
         assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
         assert (np.diff(known.design[:6]) < 0.0).all()  # From hover, without a gap.
+
+    def test_it_gives_way_before_each_trim_while_others_wait(self, monkeypatch: pytest.MonkeyPatch):
+        trims, one = list[Design](), solve(LINEAR)
+        monkeypatch.setattr("explorer.charts.plots.solve", lambda design, start: trims.append(design) or one)
+        assert list(PowerCurves().sweep(LINEAR, LINEAR)) == []
+        alone = len(trims)
+        monkeypatch.setattr("explorer.charts.plots.UPDATES", SimpleNamespace(crowded=True, waiting=0))
+        for k, _ in enumerate(PowerCurves().sweep(LINEAR, LINEAR)):
+            assert len(trims) == alone + k
+        assert len(trims) == 2 * alone == 2 * len(plots.SWEEP)
 
     def test_linear_inflow_has_a_gap_beside_hover(self):
         design = Inputs(law="linear", linear=-8.0, inflow="drees").design()
