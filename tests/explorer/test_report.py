@@ -47,7 +47,9 @@ RANGE = ALPHA.low, ALPHA.high
 class Swept(PowerCurves):
     """Curves that cost nothing."""
 
-    def sweep(self, *asked: object) -> Generator[None, None, bool]:
+    def sweep(
+        self, design: Design, reference: Design, superseded: object = None, known: object = None
+    ) -> Generator[None, None, bool]:
         yield
         return True
 
