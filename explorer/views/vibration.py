@@ -51,10 +51,12 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
 
 def _loads_work(now: PageState, solution: Solution, band: bool) -> PanelWork:
     def run(tell: Tell) -> Generator[None, None, tuple[HubLoads | None]]:
-        trims = dict[Design, Analysis]()
-        for design in band_designs(solution.design) if band else ():
-            yield
-            trims[design] = analyse(design)
+        trims, given = dict[Design, Analysis](), solution.design
+        if why_no_hub_loads(given) is None:
+            bent = replace(given, models=replace(given.models, bending=True))
+            for design in {bent, *(band_designs(bent) if band else ())} - {given}:
+                yield
+                trims[design] = analyse(design)
         yield
         return (hub_loads(now.analyses.of(solution), solve=lambda design, _: trims[design], band=band),)
 
