@@ -100,6 +100,20 @@ def test_tutorials_name_sliders_and_buttons_that_exist(path: Path):
     assert len(named) >= (8 if path.stem == "drag" else 0)
 
 
+PLAIN_WORDS = {"mass", "altitude", "density", "thrust", "rotor speed", "middle", "at low speed", "flight or test"}
+RATES = {"rate", "inboard", "outboard", "curvature"}
+
+
+def test_the_glossary_has_the_terms_of_sliders_and_switches():
+    labels = {row.slider.label if row.slider else row.title for row in (BY_INPUT | ROWS).values()}
+    terms = {
+        re.sub(r" \[.*|^Δ | [θ\d].*", "", label).lower().replace("adv. ratio", "advance ratio") for label in labels
+    }
+    terms -= PLAIN_WORDS | RATES | {"inflow in hover", "tip and root loss"}
+    words = text(DOCS / "glossary.md").lower().replace("c_t/σ", "ct/σ")
+    assert not {term for term in terms if term not in words}
+
+
 SITE = {path for path in DOCS.rglob("*.md") if path.relative_to(DOCS).parts[0] not in ("_made", "developers")}
 DEVELOPERS = {*(DOCS / "developers").rglob("*.md")}
 TOP = tuple(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md"))

@@ -233,7 +233,7 @@ class Blade:
 
 @dataclass(frozen=True, repr=False)
 class Rotor:
-    """A main rotor: its blades, its hub and the speed at which it turns."""
+    """A main rotor: its blades, its hub and the speed at which it turns, in SI units and radians; no arrays."""
 
     name: str
     blade: Blade

@@ -63,7 +63,7 @@ BEYOND_DOCUMENT = (
 
 @dataclass(frozen=True)
 class Models:
-    """The choice of models. A preset is a value of this type."""
+    """The choice of models and the grid, as arguments of `make_design`. A preset is a value of this type."""
 
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""

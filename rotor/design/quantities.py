@@ -7,7 +7,7 @@ quantity of studies and sweeps, columns of tables, keys of JSON, and on the page
 by the name of the page's input. `ARGUMENTS`, `NUMBERS`, `SWITCHES` and `STAND` are the rows of a kind, in order.
 `row.of(design)` is the value that a design has, in the unit of its row, `row.put(design, value)` the
 design with another, `row.check(value)` refuses what lies outside its bounds, `row.in_words(value)` is it in words, and
-`row.slider` what the page shows. How to add one: docs/developers/quantity.md. One file, because it is one table.
+`row.slider` what the page shows. How to add one: CONTRIBUTING.md. One file, because it is one table.
 """
 
 from typing import Generic, Literal, TypedDict, TypeVar, get_args

@@ -77,7 +77,10 @@ class ParameterBand:
 
 @dataclass(frozen=True, repr=False)
 class Optimum:
-    """The result of a search."""
+    """The result of `rotor.optimise`: powers [W], parameters [rad], [rad/R] or r/R, shares in per cent.
+
+    Without a trim `best` is None, and `message` says why.
+    """
 
     status: SearchStatus
     message: str

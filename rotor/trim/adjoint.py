@@ -35,7 +35,10 @@ Objective = Literal["total", "induced"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PitchGradient(ShortRepr):
-    """Change of power with pitch along the blade; trim and inflow adjust."""
+    """Change of power with pitch along the blade, while trim and inflow adjust: exact, by the adjoint of the trim.
+
+    Equations: docs/theory.md, §13.
+    """
 
     r: Array
     """Element centres y/R, (elements,)."""

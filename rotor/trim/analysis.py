@@ -69,7 +69,7 @@ def analysed(given: Solution | Analysis) -> Analysis:
 
 
 def power_gradient(given: Solution | Analysis, objective: Objective = "total") -> PitchGradient:
-    """∂P/∂θ(r) of a converged solution, for total power or for induced power alone.
+    """∂P/∂θ [W/rad] by the pitch of each element of a converged solution, for `total` or `induced` power.
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """

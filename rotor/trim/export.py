@@ -43,7 +43,10 @@ _ANGLES = ("collective", "cyclic_1c", "cyclic_1s", "coning", "flap_1c", "flap_1s
 
 
 def solution_record(solution: Solution) -> dict[str, Any]:
-    """The record that `rotor solve --json` prints: numbers and texts only, null for what did not converge."""
+    """The record that `rotor solve --json` prints: numbers and texts only, None for what did not converge.
+
+    Keys end in their unit: docs/formats.md. Raises TypeError for anything but a solution.
+    """
     design, controls, power = require_solution(solution).design, solution.controls, solution.last_power
     stand, carried = design.condition.stand, design.rotor.blade.carried
     values: dict[str, Any] = {

@@ -29,7 +29,7 @@ from rotor.trim.power import HubMoment, PowerBudget
 
 
 class Status(Enum):
-    """How a solve ended."""
+    """How a solve ended; its value is the text in JSON and tables."""
 
     CONVERGED = "converged"
     NOT_CONVERGED = "not-converged"
@@ -37,7 +37,7 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Caveat:
-    """A limit of validity that a solution exceeds."""
+    """A limit of validity that a solution exceeds, as `Solution.caveats` lists them."""
 
     name: str
     """Short and stable, for scripts, for example low-speed-inflow."""
@@ -173,7 +173,11 @@ _NO_THRUST = 1e-12
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
-    """A trimmed rotor, or the last iterate of one that did not trim."""
+    """A trimmed rotor, or the last iterate of one that did not trim.
+
+    Numbers are in SI units and radians, fields over the disk (elements, azimuths): `disk`. What needs a trim, as
+    `power`, raises RuntimeError with `message` where `converged` is false.
+    """
 
     design: Design
     status: Status
