@@ -164,7 +164,7 @@ class Page:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
             ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)
         with layout.drawers["lecture"]:
-            lecture = LecturePanel(context, self.scene.camera, self._views)
+            self.lecture = lecture = LecturePanel(context, self.scene.camera, self._views, self.now)
         with layout.drawers["settings"]:
             settings = SettingsPanel(context)
         self.follower = PanelUpdater(
@@ -185,6 +185,7 @@ class Page:
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
+        context.resting.append(self.follower.rest)
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
         context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
@@ -336,6 +337,7 @@ class Page:
     def work(self) -> Iterator[None]:
         """Steps of what a page at rest has computed: slopes of power and how sure it is."""
         yield from self.follower.work(soon=True)
+        self.lecture.refresh()
         if self._curve.held is not None:
             self._learn()
             self.follower.follow((HAND,).__contains__)
@@ -344,6 +346,7 @@ class Page:
         """Steps of what may come after the sweep of power over µ."""
         yield from self.history.solve_waiting()
         yield from self.follower.work(soon=False)
+        self.lecture.refresh()
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""

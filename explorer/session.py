@@ -19,6 +19,7 @@ import viser
 from explorer.charts.measured import set_shown
 from explorer.charts.plots import PowerCurves
 from explorer.hosting.messages import PageFacts
+from explorer.hosting.server_limits import trim_memory_soon
 from explorer.hosting.viser_compat import wait_for_callbacks
 from explorer.model.inputs import Inputs, baseline_of, with_optimum
 from explorer.model.session_state import SessionState
@@ -67,6 +68,7 @@ class Session:
 
     def start(self) -> None:
         self.page.context.bridge.on("idle", self._answer_when_idle)
+        self.page.context.bridge.on("seen", self._see, at_once=True)
         self.page.start()
         self._wake()
         self._worker.release()
@@ -83,6 +85,7 @@ class Session:
             return self._step()
         finally:
             self._framed = time.monotonic()
+            trim_memory_soon()
 
     def _step(self) -> Iterator[float] | None:
         everything, self._all_changed = self._all_changed, False
@@ -217,6 +220,12 @@ class Session:
         wait_for_callbacks(self._client)
         self._worker.until_answered(asked.wholly)
         self.page.context.bridge.set(idle=asked.serial)
+
+    def _see(self, seen: bool) -> None:
+        """The tab came to the front, or was hidden."""
+        for rest in self.page.context.resting:
+            rest(not seen)
+        (self._worker.release if seen else self._worker.hold)()
 
     def _overtaken(self) -> bool:
         """Whether a newer update waits that changes more than the azimuth of the reference blade."""

@@ -24,7 +24,7 @@ class Bridge:
         self.state: dict[str, Any] = {}
         self.sent: list[dict[str, Any]] = []
 
-    def on(self, name: str, action: Any) -> None:
+    def on(self, name: str, action: Any, at_once: bool = False) -> None:
         self.actions[name] = action
 
     def press(self, name: str, value: Any) -> None:

@@ -32,7 +32,7 @@ def test_rotors_and_verdicts_are_those_of_the_trust_page():
     assert {what for what in shown if not what.startswith("Mean")} == {*readme.ROTORS}
     page = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8").partition("## Indicative")[0]
     met, missed = page.count("| met |"), page.count("| **missed** |")
-    said(f"{met} of {met + missed} measured sets with a target meet it.")
+    said(f"{met} of {met + missed} measured sets meet their target")
 
 
 def blocks(language: str = "") -> list[str]:

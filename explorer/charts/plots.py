@@ -123,9 +123,9 @@ class PowerCurves:
         last = self._last
         alike = last is not None and last.aircraft == design.aircraft
         before = self._curves.get(last, blank) if last is not None and alike else blank
-        family = _family(design)
+        family = any_speed(design)
         total, ideal, main_rotor = self._curves.get(family, before)
-        reference_total = self._curves.get(_family(reference), blank)[0]
+        reference_total = self._curves.get(any_speed(reference), blank)[0]
         return PowerCurve(total, reference_total, ideal, family in self._curves, main_rotor)
 
     def sweep(
@@ -141,7 +141,7 @@ class PowerCurves:
         before.
         """
         patient = self.recent
-        for family in dict.fromkeys((_family(design), _family(reference))):
+        for family in dict.fromkeys((any_speed(design), any_speed(reference))):
             swept = family not in self._curves or family in self._coarse
             if swept:
                 values, coarse = yield from self._swept(family, superseded, patient)
@@ -152,7 +152,7 @@ class PowerCurves:
                     del self._curves[next(iter(self._curves))]
                 self._curves[family] = values
                 self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
-            if family == _family(design):
+            if family == any_speed(design):
                 self._last = family
             if swept:
                 known()
@@ -162,7 +162,7 @@ class PowerCurves:
         self, family: Design, superseded: Callable[[], bool], patient: bool
     ) -> Generator[None, None, tuple[Array | None, bool]]:
         """Total, ideal and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
-        begun, slow = time.monotonic(), 0 if passes_over(family) else 1
+        begun, slow = time.monotonic(), int(slowest_swept(family) > 0.0)
         values = np.full((3, len(SWEEP)), math.nan)
         points: dict[int, Guess] = {}
         before = self._starts if self._last is not None and _alike(self._last, family) else {}
@@ -199,10 +199,15 @@ class PowerCurves:
         return values, False
 
 
-def _family(design: Design) -> Design:
+def any_speed(design: Design) -> Design:
     """One design for every advance ratio; a test may have no hover, so there it is another one."""
-    any_speed = 0.0 if design.condition.stand is None else 0.2
-    return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
+    mu = 0.0 if design.condition.stand is None else 0.2
+    return replace(design, condition=replace(design.condition, advance_ratio=mu))
+
+
+def slowest_swept(design: Design) -> float:
+    """Least advance ratio beside hover of which there is an answer."""
+    return 0.0 if passes_over(design) else LOW_SPEED
 
 
 def _alike(design: Design, other: Design) -> bool:

@@ -13,11 +13,12 @@ from typing import Literal
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from explorer.charts.curve_bands import Bands, band_along
 from explorer.charts.plots import SWEEP, PowerCurve, Range, alpha_along, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
 from rotor import Design, Solution
 from rotor.support.arrays import Array
-from rotor.support.chart import Axis, Chart, Line, Points, Rule, Values
+from rotor.support.chart import Axis, Band, Chart, Line, Points, Rule, Values
 
 Role = Literal["this", "reference", "pinned", "limit", "saving", "earlier", "flown"]
 """What a line stands for.
@@ -185,6 +186,18 @@ def total_power_chart(
         value=value,
         note=note.strip(),
     )
+
+
+def with_band(chart: Chart, bands: Bands, units: Units) -> Chart:
+    """Power over µ, or its change, with the band of its curve in place of the area down to zero."""
+    line = next(line for line in chart.series if isinstance(line, Line) and line.colour == SAVING)
+    x, y = np.array(line.x), np.array(line.y)
+    half = band_along(bands, x) / units.power[0].size
+    known = np.isfinite(y + half)
+    x, y, half = x[known], y[known], half[known]
+    note = f"{chart.note} Shaded: how uncertain it is.".strip()
+    series = (replace(one, filled=False) if one is line else one for one in chart.series)
+    return replace(chart, series=(Band("", x, y - half, y + half, SAVING), *series), note=note)
 
 
 def _mostly_seen(limits: list[Line], y_range: Range) -> list[Line]:

@@ -60,7 +60,7 @@ def comparison(report: DesignReport) -> Markup:
         _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
         _row(tag("b", "Total power"), compared("total"), "total"),
         *(_row(_named(name, title), compared(name)) for name, title in part_titles(*designs).items()),
-        _row("Main rotor", [report.units.watts(entry.solution.power.main_rotor, 1) for entry in report.all]),
+        _row("Main rotor", compared("main_rotor")),
         _row("Least induced, any circulation", [_least_induced(entry.solution, report.units) for entry in report.all]),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),

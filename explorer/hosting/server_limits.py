@@ -11,16 +11,19 @@ import logging
 import threading
 import time
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotor.support.bytes_cache import CACHE_BYTES
 
 _COLLECT_AFTER_S = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
+_TRIM_AFTER_S = 60.0
+"""[s] after an update of a page: glibc keeps what updates have freed, and one page went on growing."""
 _M_ARENA_MAX = -8
 """Option of `mallopt`, from glibc's malloc.h."""
 _lock = threading.Lock()
-_due: threading.Timer | None = None
+_due = set[Callable[[], None]]()
 
 
 def exclude_from_collection() -> None:
@@ -41,21 +44,38 @@ def limit_memory_pools() -> None:
 
 def release_memory_soon() -> None:
     """Call `release_memory` after a pause, once for all calls until then."""
-    global _due
+    _call_soon(release_memory, _COLLECT_AFTER_S)
+
+
+def trim_memory_soon() -> None:
+    """Call `trim_memory` after a pause, once for all calls until then."""
+    _call_soon(trim_memory, _TRIM_AFTER_S)
+
+
+def _call_soon(call: Callable[[], None], pause: float) -> None:
     with _lock:
-        if _due is None:
-            _due = threading.Timer(_COLLECT_AFTER_S, release_memory)
-            _due.name, _due.daemon = "give-back", True
-            _due.start()
+        if call in _due:
+            return
+        _due.add(call)
+
+    def begin() -> None:
+        with _lock:
+            _due.discard(call)
+        call()
+
+    timer = threading.Timer(pause, begin)
+    timer.name, timer.daemon = "give-back", True
+    timer.start()
 
 
 def release_memory() -> None:
     """Collect the reference cycles of pages that have gone, and return free memory to the system."""
-    global _due
-    with _lock:
-        _due = None
     gc.collect()
-    # glibc keeps freed memory in one pool per thread; other systems return it by themselves.
+    trim_memory()
+
+
+def trim_memory() -> None:
+    """Return free memory to the system: glibc keeps it in its pools, other systems return it by themselves."""
     with contextlib.suppress(OSError, AttributeError, TypeError):
         ctypes.CDLL(None).malloc_trim(0)
 

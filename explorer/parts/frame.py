@@ -91,14 +91,14 @@ class StepAnswer:
 class LecturePart:
     """Where the lecture stands: at which step, from 0, and at which position (`stop`) of its control.
 
-    `figures`: caption and value of each.
+    `figures`: caption of each, its value, and its band in words.
     """
 
     at: int
     guess: int | None
     answer: StepAnswer | None
     stop: int
-    figures: Sequence[tuple[str, str]]
+    figures: Sequence[tuple[str, str, str]]
     busy: bool
     problem: str
     held: bool

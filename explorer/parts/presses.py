@@ -84,7 +84,7 @@ _ALONE = (
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {
     **dict.fromkeys(_ALONE),
-    **dict.fromkeys(("along", "hold"), bool),
+    **dict.fromkeys(("along", "hold", "seen"), bool),
     **dict.fromkeys(
         ("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default", "kind"), _Label
     ),

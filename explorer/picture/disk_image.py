@@ -218,9 +218,11 @@ def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
 
 def sides(design: Design) -> Sides:
     """What lies at ψ = 0°, 90°, 180° and 270°: of the helicopter, or of the stream past a rotor tested alone."""
-    if design.condition.stand is None:
-        return "TAIL", "ADVANCING", "NOSE", "RETREATING"
-    return ("DOWNSTREAM", "ADVANCING", "UPSTREAM", "RETREATING") if design.condition.advance_ratio else ("", "", "", "")
+    flown = design.condition.stand is None
+    if not design.condition.advance_ratio:  # No side advances.
+        return ("TAIL", "", "NOSE", "") if flown else ("", "", "", "")
+    aft, ahead = ("TAIL", "NOSE") if flown else ("DOWNSTREAM", "UPSTREAM")
+    return aft, "ADVANCING", ahead, "RETREATING"
 
 
 @lru_cache(maxsize=3)

@@ -13,7 +13,7 @@ import numpy as np
 
 from explorer.model.actuator_inputs import ActuatorInputs, schedule_at
 from explorer.model.inputs import Inputs
-from explorer.model.units import Units, number
+from explorer.model.units import Unit, Units, number
 from explorer.story.steps import (
     FRONT,
     SPEEDS,
@@ -60,8 +60,9 @@ class Number:
         """The fact as it is written, on one line."""
         value = self.value
         match self.kind:
-            case "change" if self.band:
-                text = banded(value, self.band, units, sign=True).partition(":")[0]
+            case "power" | "change" | "percent" if self.band:
+                unit, least = (Unit("%", 0.01), 1) if self.kind == "percent" else (units, 0)
+                text = banded(value, self.band, unit, least=least, sign=self.kind == "change").partition(":")[0]
             case "power" | "change":
                 text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
             case "percent" | "fine" | "signed":
@@ -178,10 +179,11 @@ def _hover_twist(step: LectureStep) -> StepFacts:
     rigid = tuple(name for name in _BUILT if name != "elastic")
     elastic = b.disk.elastic_twist
     assert elastic is not None
-    saving = 1.0 - b.power.induced / a.power.induced
+    named, saving = _named(step, a, b), 1.0 - b.power.induced / a.power.induced
+    within = (named["induced_change"].band or 0.0) / a.power.induced
     numbers = (
-        _named(step, a, b)
-        | _of("percent", induced_saving=saving)
+        named
+        | {"induced_saving": Number("percent", saving, band=within)}
         | _of("angle", elastic=float(np.degrees(np.mean(elastic[0] - elastic[-1]))))
         | _of(
             "angle",
@@ -253,11 +255,13 @@ def _reverse_flow(step: LectureStep) -> StepFacts:
     a, b = flight.pair
     costs = tuple(solution.power.total - other.power.total for solution, other in zip(flight.b, flight.a, strict=True))
     slow = step.control.values.index(0.25)
-    share = b.power.total / a.power.total - 1.0
+    share, sure = b.power.total / a.power.total - 1.0, doubt(flight.b[slow], flight.a[slow])
+    named = _named(step, a, b)
     numbers = (
-        _named(step, a, b)
+        named
         | _of("percent", area=b.reverse_flow_area, cost_percent=share)
-        | _of("power", cost=b.power.total - a.power.total, slow_cost=costs[slow])
+        | {"cost": replace(named["total_change"], kind="power")}
+        | {"slow_cost": Number("power", costs[slow], band=sure.change_band)}
         | _of("mu", slow_mu=step.control.values[slow])
     )
     lines = (ChartLine("cost, B − A", "b", costs),)

@@ -8,14 +8,15 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from explorer.model.inputs import TWISTS, Inputs, ViewState
 from explorer.model.undo import differing
-from explorer.model.units import Units, degrees, number
+from explorer.model.units import Unit, Units, degrees, number
 from explorer.picture.camera_views import CameraShot
-from explorer.text.readout import PART_TITLES, digits_of
-from rotor import Solution, hub_loads
+from explorer.text.readout import PART_TITLES, banded, digits_of, fineness
+from rotor import PowerBudget, Solution, hub_loads
+from rotor.trim.doubt import Doubt, decimals
 
 MOVED = frozenset({"law", *TWISTS})
 """Inputs that mean the built-in twist."""
@@ -116,37 +117,73 @@ def compared_inputs(against: Inputs | None, stated: Inputs, inputs: Inputs) -> I
     return replace(inputs, **{name: getattr(against, name) for name in differing(against, stated) | MOVED})
 
 
-def compared_quantities(b: Solution, a: Solution, units: Units) -> dict[str, str]:
-    """Numbers with their units, each on one line: of A (the reference), of B (the design), and of B − A."""
-    before, after = a.power, b.power
+_BLANK = "\u00a0"
+"""Keeps the place of a band on its way."""
 
-    def power(watts: float, sign: bool = False) -> str:
-        return on_one_line(units.watts(watts, digits_of(watts, units) if sign else 0, sign=sign))
+
+class Figure(NamedTuple):
+    """A large number with its unit, and beside it its band, of a change with whether its sign is known."""
+
+    value: str
+    within: str = ""
+    """`± 4 kW, likely`; a blank where it is not known yet, empty where there is none."""
+
+
+def compared_quantities(
+    b: Solution,
+    a: Solution,
+    units: Units,
+    sure: tuple[Doubt, Doubt] | None = None,
+    index_band: tuple[float, float] | None = None,
+) -> dict[str, Figure]:
+    """Numbers with their units, each on one line: of A (the reference), of B (the design), and of B − A.
+
+    `sure`: of A's power, and of B's with its change; `index_band`: of the change of the vibration index [%]. None where
+    they are not known.
+    """
+    before, after, unit = a.power, b.power, units.power[0]
+    bands = {} if sure is None else {**sure[1].part_bands, "total": sure[1].change_band}
 
     def percent(share: float, digits: int = 0, sign: bool = False) -> str:
-        return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"
+        return f"{number(100.0 * share, digits, sign=sign)} %"
 
-    words = {
-        **{f"{name}_share": percent(getattr(after, name) / after.total) for name in PART_TITLES},
+    def power(part: PowerBudget, which: int) -> Figure:
+        band = None if sure is None else sure[which].band
+        digits = 0 if band is None else max(fineness(part, units), decimals(unit.of(band)))
+        return Figure(units.watts(part.total), _BLANK if band is None else f"± {unit.text(band, digits)}")
+
+    def change(name: str, unit: Unit, least: int) -> Figure:
+        moved, within = getattr(after, name) - getattr(before, name), bands.get(name)
+        if not within or max(abs(unit.of(moved)), unit.of(within)) < 0.5 * 10.0**-least:
+            return Figure(unit.text(moved, least, sign=True), "" if bands else _BLANK)
+        words = banded(moved, within, unit, least=least, sign=True, sourced=sure is None or sure[1].sourced)
+        size, _, rest = words.partition(" ± ")
+        return Figure(f"{size} {unit.symbol}", f"± {rest.replace(':', ',')}")
+
+    found = {
+        **{f"{name}_share": Figure(percent(getattr(after, name) / after.total)) for name in PART_TITLES},
         **{
-            f"{name}_{which}": power(getattr(part, name))
-            for name in ("total", "induced")
-            for which, part in (("a", before), ("b", after))
-        },
-        **{
-            f"{name}_change": power(getattr(after, name) - getattr(before, name), sign=True)
+            f"{name}_change": change(name, unit, digits_of(getattr(after, name) - getattr(before, name), units))
             for name in ("total", "induced", "profile")
         },
-        "induced_percent": percent(after.induced / before.induced - 1.0, 1, sign=True),
-        "total_percent": percent(after.total / before.total - 1.0, 2, sign=True),
-        "reverse_area": percent(b.reverse_flow_area, 1),
-        "tilt": degrees(b.controls.shaft_tilt, 1),
+        "total_a": power(before, 0),
+        "total_b": power(after, 1),
+        "induced_a": Figure(units.watts(before.induced)),
+        "induced_b": Figure(units.watts(after.induced)),
+        "induced_percent": change("induced", Unit("%", 0.01 * before.induced), 1),
+        "total_percent": change("total", Unit("%", 0.01 * before.total), 2),
+        "reverse_area": Figure(percent(b.reverse_flow_area, 1)),
+        "tilt": Figure(degrees(b.controls.shaft_tilt, 1)),
     }
     loads_a, loads_b = hub_loads(a, band=False), hub_loads(b, band=False)
     if loads_a is not None and loads_b is not None:
-        words["index_b"] = percent(0.01 * loads_b.index, 1)
-        words["index_change"] = percent(loads_b.index / loads_a.index - 1.0, 0, sign=True)
-    return words
+        found["index_b"] = Figure(percent(0.01 * loads_b.index, 1))
+        within = _BLANK
+        if index_band is not None:
+            low, high = (number(end, 0, sign=True) for end in index_band)
+            within = f"{low}…{high} %{', unclear' if index_band[0] * index_band[1] <= 0.0 else ''}"
+        found["index_change"] = Figure(percent(loads_b.index / loads_a.index - 1.0, 0, sign=True), within)
+    return {name: Figure(*map(on_one_line, figure)) for name, figure in found.items()}
 
 
 def on_one_line(text: str) -> str:

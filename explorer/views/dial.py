@@ -231,19 +231,29 @@ def _parts(waves: Sequence[Harmonic]) -> tuple[float, ...]:
 
 
 def _dot_words(dot: FrontDot) -> str:
-    low, high = (number(end, 0, sign=True) for end in dot.over_inflows)
-    words = f"power {number(dot.power, 1, sign=True)} %, vibration {number(dot.index, 0, sign=True)} %"
-    words += f" ({low} to {high} over inflow models{')' if dot.agreed else ', which disagree in sign)'}"
+    power = _spread("power", dot.power, dot.powers, 1)
     twist = harmonic_words(tuple(map(_on_sliders, dot.twist)), ())
-    return f"{words}: {twist}. Press to apply it, or drag along the curve."
+    over = f"{power}, {_spread('vibration', dot.index, dot.over_inflows, 0)} over inflow models"
+    return f"{over}: {twist}. Press to apply it, or drag along the curve."
+
+
+def _spread(name: str, value: float, ends: tuple[float, float], digits: int) -> str:
+    """A change with its ends over inflow models."""
+    change, low, high = (number(one, digits, sign=True) for one in (value, *ends))
+    return f"{name} {change} % ({low} to {high}{'' if ends[0] * ends[1] > 0.0 else ', unclear'})"
 
 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
     """The front beside what other programmes reached, where power and vibration belong to one input."""
     shown = [result for result in programmes() if result.together and result.power_change_percent is not None]
-    powers = [0.0, *(dot.power for dot in dots), *(result.power_change_percent or 0.0 for result in shown)]
+    powers = [
+        0.0,
+        *(end for dot in dots for end in dot.powers),
+        *(result.power_change_percent or 0.0 for result in shown),
+    ]
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
+    spreads += [Line("", dot.powers, (dot.index, dot.index), _SPREAD, width=4.0) for dot in dots]
     line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
     best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
     return Chart(

@@ -60,11 +60,12 @@ class FrontDot:
     """One compromise of the front, foreseen: changes of power and, as the mean over inflow models, of the vibration
     index [%].
 
-    `over_inflows`: least and largest change of the index over inflow models.
+    `powers`, `over_inflows`: least and largest change of power and of the index over inflow models.
     """
 
     twist: tuple[Harmonic, ...]
     power: float
+    powers: tuple[float, float]
     index: float
     over_inflows: tuple[float, float]
 
@@ -119,11 +120,11 @@ def front_dots(own: DialAnswer, others: Sequence[DialNumbers]) -> tuple[FrontDot
     dots = list[FrontDot]()
     for step in own.front:
         (power, index), *rest = (_foreseen(numbers, np.array(step)) for numbers in (own.numbers, *others))
-        over = index, *(other for _, other in rest)
+        over, powers = (index, *(other for _, other in rest)), (power, *(other for other, _ in rest))
         index = math.fsum(over) / len(over)
         pairs = zip(HARMONICS, np.reshape(step, (-1, 2)).tolist(), strict=True)
         twist = tuple(Harmonic(n, math.radians(math.hypot(a, b)), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
-        dots.append(FrontDot(twist, power, index, (min(over), max(over))))
+        dots.append(FrontDot(twist, power, (min(powers), max(powers)), index, (min(over), max(over))))
     return tuple(dots)
 
 

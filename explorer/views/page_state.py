@@ -14,7 +14,7 @@ from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
 from explorer.sharing.game import Standing
 from explorer.workers.call import Call
-from rotor import Design
+from rotor import Design, Solution
 
 T = TypeVar("T")
 
@@ -35,10 +35,14 @@ class OpenPanels:
 
 @dataclass(frozen=True)
 class HeldStation:
-    """The station of the blade that is in the hand, and its twist of least power with that power in W, once known."""
+    """The station of the blade that is in the hand, and its twist of least power with that power in W, once known.
+
+    `before`: the answer when it was taken.
+    """
 
     place: str
     best: LeastPower | None
+    before: Solution | None = None
 
 
 @dataclass(frozen=True, eq=False)

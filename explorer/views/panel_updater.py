@@ -136,6 +136,12 @@ class PanelUpdater:
             self._bridge.set(**changed)
         return effects
 
+    def rest(self, resting: bool) -> None:
+        """Whether worker processes begin nothing more for the panels."""
+        with self._following:
+            for queue in (queue for queues in self._queues for queue in queues.values()):
+                queue.rest(resting)
+
     def stop(self) -> None:
         """The browser has left."""
         for queues in self._queues:

@@ -7,12 +7,12 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.parts.results import HandPart, PowerPart, PowerShare, Status
 from explorer.text.line import coverage_words
-from explorer.text.readout import fineness, ideal_induced, part_change, part_titles
+from explorer.text.readout import banded, fineness, ideal_induced, part_change, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
-from explorer.views.page_state import PageState, Panel
-from explorer.views.work import has_power, shown_doubt
-from rotor.trim.doubt import Doubt
+from explorer.views.page_state import PageState, Panel, PanelWork
+from explorer.views.work import doubt_work, has_power, shown_doubt
+from rotor.trim.doubt import Doubt, decimals
 
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
@@ -80,15 +80,28 @@ def status(state: SessionState, units: Units) -> Status:
     return Status("care", words, title)
 
 
+def held_doubt(now: PageState) -> tuple[PanelWork, ...]:
+    """How sure the change since the blade was taken is."""
+    before, state = now.station and now.station.before, now.state
+    if before is None or state is None or before.design == state.solution.design:
+        return ()
+    return (doubt_work("held", state.solution, before, now.analyses),)
+
+
 def held_power(now: PageState) -> dict[str, Any]:
-    """Power and its least beside the blade, while a station of it is held."""
+    """Power and its least beside the blade, while a station of it is held; with bands while it rests."""
     if now.state is None or now.station is None:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
-    digits = fineness(power, now.units)
+    digits, band = fineness(power, now.units), next((now.answers.get(work.key) for work in held_doubt(now)), None)
+    within = None if band is None else band.change_band
+    around = "" if band is None else f" ± {number(unit.of(band.band), max(digits, decimals(unit.of(band.band))))}"
+    words = unit.text(change, digits, sign=True)
+    if within and round(unit.of(change), 1):
+        words = banded(change, within, now.units, least=digits, sign=True).replace(":", ",")
     shown = HandPart(
-        power=now.units.watts(power.total, digits),
-        change=unit.text(change, digits, sign=True),
+        power=f"{number(unit.of(power.total), digits)}{around} {unit.symbol}",
+        change=words,
         now=round(unit.of(power.total), 2),
         before=round(unit.of(power.total - change), 2),
         digits=digits,
@@ -100,4 +113,4 @@ def held_power(now: PageState) -> dict[str, Any]:
 
 
 POWER = Panel(power_card, works=shown_doubt)
-HAND = Panel(held_power)
+HAND = Panel(held_power, works=held_doubt)

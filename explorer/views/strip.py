@@ -8,20 +8,32 @@ from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from explorer.charts.curve_bands import curve_bands
 from explorer.charts.measured import source_of
-from explorer.charts.plots import PowerCurve
-from explorer.charts.strip import Role, alpha_chart, lift_chart, power_change_chart, total_power_chart, with_speeds
+from explorer.charts.plots import PowerCurve, any_speed
+from explorer.charts.strip import (
+    Role,
+    alpha_chart,
+    lift_chart,
+    power_change_chart,
+    total_power_chart,
+    with_band,
+    with_speeds,
+)
 from explorer.model.session_state import SessionState
 from explorer.parts.results import Kind, MarkedSpeeds, StripChart
 from explorer.text.design_words import against
 from explorer.text.readout import change_kind
-from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Tell
+from explorer.views.page_state import PageState, Panel, PanelMemory, PanelWork, Questions, Tell
 from explorer.views.work import shown_doubt
+from explorer.workers.call import Call
 from rotor import Solution
 from rotor.support.chart import Chart, drawn_chart
 
 _KINDS: Mapping[str, Kind] = {"": "", "less": "good", "more": "bad"}
 _WHOLE = "-whole"
+_URGENCY, _DELAY_S = 8, 1.5
+"""Of the band of the curve, behind all else; how long the design must stand before it is worked on [s]."""
 
 
 def strip(now: PageState) -> dict[str, Any]:
@@ -68,9 +80,25 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = power_change_chart(curve, mu, change, name, units, held, band and band.change_band)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
+    if isinstance(bands := now.answers.get(bands_asked(now)), tuple):
+        chart = with_band(chart, bands, units)
     chart, fastest = with_speeds(chart, curve, design)
     known = not failed and math.isfinite(fastest)
     return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if known else None
+
+
+def bands_asked(now: PageState) -> Call | None:
+    """Of the band of the curve, in flight."""
+    if now.state is None or now.problem or now.state.inputs.stand is not None:
+        return None
+    design, reference = now.state.solution.design, now.state.reference
+    other = None if design == reference.design or not reference.converged else reference.design
+    return Call(curve_bands, (any_speed(design), other and any_speed(other)))
+
+
+def asks(now: PageState) -> tuple[Questions, ...]:
+    call = bands_asked(now)
+    return (Questions(_URGENCY, () if call is None else (call,), _DELAY_S),)
 
 
 def remember_ranges(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
@@ -105,4 +133,6 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
     return (points, work("flights", now.flown.trim_flights)) if plain else (points,)
 
 
-STRIP = Panel(strip, works=lambda now: (*trims_asked(now), *shown_doubt(now)), turns=True, remember=remember_ranges)
+STRIP = Panel(
+    strip, asks=asks, works=lambda now: (*trims_asked(now), *shown_doubt(now)), turns=True, remember=remember_ranges
+)

@@ -125,6 +125,14 @@ def _change(state: SessionState, loads: HubLoads, reference: HubLoads | None) ->
     return f"{number(percent, 0, sign=True)} ({low}…{high}) % vs. {against}{'' if kind else ': unclear'}", kind
 
 
+def index_band(now: PageState) -> tuple[float, float] | None:
+    """Ends over inflow models of the change of the index from the reference [%]; None where they are not known."""
+    if (state := now.state) is None or not all(one.design.models.bending for one in (state.solution, state.reference)):
+        return None
+    loads, reference = (_loads(now, one, True) for one in (state.solution, state.reference))
+    return None if loads is None or reference is None else loads.change_band(reference)
+
+
 def _how_bent(solution: Solution) -> list[SceneLabel]:
     """The words in the scene: bending is drawn larger."""
     if solution.deflections is None:

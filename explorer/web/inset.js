@@ -31,7 +31,9 @@
       if (reach.every(([at, up]) => y0 + slope * at - up * chord > 17)) break;
       chord *= .93;
     }
-    const x0 = Math.max(.62 * chord + 8, 84), x1 = width - .62 * chord - 12;
+    // From the quarter chord of the root to its trailing edge, in chords: more on a tapered blade.
+    const aft = Math.max(...cuts[0].outline.map(corner => -turn(corner, cuts[0].theta, datum)[0]));
+    const x0 = Math.max(.62 * chord + 8, aft * chord + 2, 84), x1 = width - .62 * chord - 12;
     const at = r => [lerp(x0, x1, share(r)), y0 + slope * share(r)];
     // The leading edge is drawn on the right.
     const point = (r, angle, corner, from = datum) => {
@@ -65,7 +67,8 @@
     });
     // What the two rows of numbers are: a blade that is rigid in torsion flies in its jig shape.
     const of = inset.name === 'in flight' ? 'flight' : 'built';
-    drawn += `<text x="0" y="${height - 14}">${of}</text><text x="0" y="${height - 1}" data-between>r/R</text>`;
+    drawn += `<text x="0" y="${height - 14}" data-between>${of}</text>
+      <text x="0" y="${height - 1}" data-between>r/R</text>`;
     const spoken = cuts.map(cut => `${degrees(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     const key = (hint, mark, name) => `<span title="${text(hint)}"><i ${mark}></i>${text(name)}</span>`;
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b>

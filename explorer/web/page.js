@@ -76,5 +76,9 @@
       dialog.showModal();
     },
   });
+  // A hidden tab has nothing computed; each answer that still comes, as the first of a new session, is told so.
+  const tellSeen = () => RX.send('seen', !document.hidden);
+  document.addEventListener('visibilitychange', tellSeen);
+  addEventListener('rx-answered', () => { if (document.hidden) tellSeen(); });
   RX.paint('big', big => page.toggleAttribute('data-big', big));
 })();

@@ -59,6 +59,7 @@ interface RxPresses {
   unstall: null;
   along: boolean;
   hold: boolean;
+  seen: boolean;
   field: string;
   region: string;
   mode: string;
@@ -351,7 +352,7 @@ interface RxLecturePart {
   guess: number | null;
   answer: RxStepAnswer | null;
   stop: number;
-  figures: [string, string][];
+  figures: [string, string, string][];
   busy: boolean;
   problem: string;
   held: boolean;

@@ -94,9 +94,10 @@ window.makeStory = (column, figures, report) => {
     foot.querySelector('[data-value=back]').disabled = at === 0;
     foot.querySelector('[data-value=next]').textContent = step.last ? 'Fly it' : 'Next';
     figures.hidden = false;
-    write(figures, now.figures.map(([title, value]) => `<div>
+    const banded = now.figures.some(([, , within]) => within);
+    write(figures, now.figures.map(([title, value, within]) => `<div>
       <b class="rxf-num" ${value === '?' ? 'data-unknown' : ''}>${text(value)}</b>
-      <span>${text(title)}</span></div>`).join(''));
+      <span>${text(title)}</span>${banded ? `<i class="rxf-num">${text(within)}</i>` : ''}</div>`).join(''));
     keep();
   };
 
@@ -165,7 +166,7 @@ window.makeStory = (column, figures, report) => {
     const last = steps[now.at].control.words.length - 1, from = now.stop;
     let k = from >= last ? 0 : from;
     sweep = setInterval(() => {
-      if (now.busy) return;
+      if (now.busy || document.hidden) return;
       k += 1;
       if (k > last) { halt(); move(from); show(); } else move(k);
     }, 420);

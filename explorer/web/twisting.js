@@ -269,10 +269,11 @@
       stroke-width="${name === 'before' ? 2 : 4}" stroke-linecap="round"/>${
       label(at, y + 33, words, {css: `fill:var(${colour});font-weight:620`})}`);
     const x = X(now), colour = 'var(--rx-ink)', change = `<tspan dx="7">${text(hand.change)}</tspan>`;
+    const half = 4 * (hand.power.length + hand.change.length) + 8;
     return `<path d="M${from} ${y}H${to}" stroke="var(--rx-faint)" stroke-width="1.5"/>${ticks.join('')}
       ${named.join('')}
       <g opacity="${RX.state.line?.problem ? .35 : 1}"><path d="M${x} ${y}l-7 -15h14Z" fill="${colour}"/>
-        <text x="${clamp(x, from + 50, to - 60)}" y="${y - 21}" text-anchor="middle"
+        <text x="${clamp(x, from - 20 + half, to + 20 - half)}" y="${y - 21}" text-anchor="middle"
           class="rxf-halo rxf-needle"><tspan>${text(hand.power)}</tspan>${change}</text></g>`;
   }
 

@@ -33,6 +33,12 @@
     }});
   }
 
+  // WebKitGTK names the language C where LANG is C.UTF-8: Intl refuses that, and the client then shows no controls.
+  try { Intl.getCanonicalLocales(navigator.languages.concat(navigator.language)); }
+  catch {
+    Object.defineProperties(navigator, {language: {value: 'en'}, languages: {value: Object.freeze(['en'])}});
+  }
+
   // In a narrow window the client would leave its docks for a sheet of its own; ours are drawers by style sheet.
   const media = window.matchMedia.bind(window);
   window.matchMedia = query => media(/max-width:\s*36em/.test(query) ? 'not all' : query);

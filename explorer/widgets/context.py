@@ -56,6 +56,8 @@ class TabContext:
         """Called after every frame with the design on the sliders; None: they mean none."""
         self.following: list[Callable[[SessionState | None], None]] = []
         """Called once the panels have followed an update; None: the inputs have no solution."""
+        self.resting: list[Callable[[bool], None]] = []
+        """Called with whether the page is hidden: then only what is under way is computed for it, and searches."""
         self.leaving: list[Callable[[], None]] = []
         """Called once the browser has left: end threads and jobs."""
         self.held = False
@@ -103,6 +105,7 @@ class Player:
         self._lock = threading.Lock()
         self._pause: threading.Event | None = None
         """Set to pause the thread that plays now; None when none does."""
+        self._resting = False
 
     @property
     def playing(self) -> bool:
@@ -114,6 +117,10 @@ class Player:
             if self._pause is None:
                 pause = self._pause = threading.Event()
                 threading.Thread(target=self._run, args=(pause,), name=self._name, daemon=True).start()
+
+    def rest(self, resting: bool) -> None:
+        """Whether it stands still, and plays on later."""
+        self._resting = resting
 
     def pause(self) -> None:
         """No step begins after this."""
@@ -127,7 +134,8 @@ class Player:
         while not pause.wait(BEAT):
             now = time.monotonic()
             try:
-                self._step(now - before)
+                if not self._resting:
+                    self._step(now - before)
             except Exception:  # The browser may have gone.
                 _log.exception("play ended")
                 self.pause()

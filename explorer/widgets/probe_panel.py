@@ -180,6 +180,7 @@ class ProbePanel:
         self._html = Markup()
         self._cursor = ProbeCursor(client.scene, context.bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
+        context.resting.append(self._player.rest)
         context.leaving.append(self._player.pause)
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""

@@ -67,7 +67,8 @@ class TwistCurveEditor:
     @property
     def held(self) -> HeldStation | None:
         """The station in the hand; None while none is."""
-        return None if self._grab is None else HeldStation(self._place, self._least(self._grab))
+        before = None if self._before is None else self._before[1]
+        return None if self._grab is None else HeldStation(self._place, self._least(self._grab), before)
 
     @property
     def before(self) -> Solution | None:

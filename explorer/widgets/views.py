@@ -87,8 +87,8 @@ def _after(titles: tuple[str, ...], title: str, step: int = 1) -> str:
     return titles[(titles.index(title) + step) % len(titles)]
 
 
-VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
-"""Views of the buttons, and their titles."""
+VIEWS: tuple[tuple[View, str], ...] = (("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
+"""Views of the buttons after that of the whole, and their titles."""
 _MISSING: dict[Drawn, str] = {
     "drawn": "",
     "none": "No 3D: this browser has no WebGL. Switch on hardware acceleration, or use another browser.",
@@ -114,6 +114,7 @@ class SceneViews:
         context.bridge.on("colours", self._colour)
         context.bridge.on("scene", self.follow_browser)
         context.layout.watchers.append(self._mode_changed)
+        context.following.append(lambda _: self._show())
         for name, view in _COMMANDS.items():
             context.keyboard.bind(name, partial(self.look, view))
         context.keyboard.bind("rescale", partial(self._colour, "Rescale"))
@@ -235,5 +236,6 @@ class SceneViews:
 
     def _show(self) -> None:
         on_stage = self._context.layout.mode == "actuate" and self._actuator.fits
-        views = (*([("actuator", "Actuator")] if on_stage else []), *VIEWS)
+        whole = "Aircraft" if self._context.inputs().stand is None else "Rotor"
+        views = (*([("actuator", "Actuator")] if on_stage else []), ("3d", whole), *VIEWS)
         self._context.bridge.set(views=ViewsPart(views, self.now, self._missing))

@@ -161,7 +161,7 @@ class PoolAnswers:
         self._failures: dict[Call, str] = {}
         self._job: Job | None = None
         """The task under way."""
-        self._stopped = False
+        self._stopped = self._resting = False
         self._timer: threading.Timer | None = None
         self._lock = threading.RLock()
 
@@ -189,6 +189,13 @@ class PoolAnswers:
         with self._lock:
             return {**self._failures}
 
+    def rest(self, resting: bool) -> None:
+        """Whether no task begins."""
+        with self._lock:
+            self._resting = resting
+            if self._timer is None:
+                self._next_one()
+
     def stop(self) -> None:
         """The browser has left."""
         with self._lock:
@@ -209,7 +216,7 @@ class PoolAnswers:
         with self._lock:
             self._timer = None
             task = self._next()
-            if self._job is None and not self._stopped and task is not None:
+            if self._job is None and not self._stopped and not self._resting and task is not None:
                 keep = partial(self._keep, task)
                 self._job = self._pool.begin(task, keep, limit=_LIMIT, urgency=self._urgency)
 

@@ -128,13 +128,14 @@ class NewestWins:
     def __init__(
         self, update: Update, on_error: Callable[[Exception], None], pool: UpdatePool = UPDATES, held: bool = False
     ) -> None:
-        """held: no update begins before `release`."""
+        """held: as after `hold`."""
         self._update, self._on_error, self._pool = update, on_error, pool
         self._wanted = threading.Event()
         self.woken = -math.inf
         """When the change came that the latest update is for, or the one that waits, `time.monotonic` [s]."""
         self._stopped = False
-        self._state: Literal["held", "idle", "frame", "step", "running"] = "held" if held else "idle"
+        self._held = held
+        self._state: Literal["idle", "frame", "step", "running"] = "idle"
         self._ticket = self._thread = self._gave_way = 0
         self._steps: Iterator[float] | None = None
         self._answered = False
@@ -151,15 +152,20 @@ class NewestWins:
         with self._pool.change:
             self.woken = time.monotonic()
             self._wanted.set()
-            if self._state in ("idle", "step") and not self._stopped:
+            if self._state in ("idle", "step") and not self._stopped and not self._held:
                 self._line_up_for_frame()
 
-    def release(self) -> None:
-        """Updates may begin; one does where something changed before."""
+    def hold(self) -> None:
+        """No update and no step begins before `release`; the one that runs goes on."""
         with self._pool.change:
-            self._state = "idle"
-            if self._wanted.is_set() and not self._stopped:
-                self._line_up_for_frame()
+            self._held = True
+
+    def release(self) -> None:
+        """Updates may begin; one does where something changed before, and what it left goes on."""
+        with self._pool.change:
+            self._held = False
+            if self._state in ("idle", "step"):  # Its ticket may be gone.
+                self.requeue()
 
     def stop(self, timeout: float = 2.0) -> None:
         """No update and no step begins after this; waits for the one that runs."""
@@ -199,12 +205,13 @@ class NewestWins:
 
     def waits(self, ticket: int) -> bool:
         """Whether the step of this ticket is still to be done."""
-        return self._state == "step" and self._ticket == ticket and not self._stopped
+        return self._state == "step" and self._ticket == ticket and not self._stopped and not self._held
 
     def begin(self) -> bool:
-        """A thread takes it; False when it has stopped. The caller holds the pool's `change`."""
-        self._state, self._thread = "idle" if self._stopped else "running", threading.get_ident()
-        return not self._stopped
+        """A thread takes it; False when it is held or has stopped. The caller holds the pool's `change`."""
+        begins = not self._stopped and not self._held
+        self._state, self._thread = "running" if begins else "idle", threading.get_ident()
+        return begins
 
     def run(self) -> None:
         """One update, or one step of what can wait."""
@@ -234,6 +241,8 @@ class NewestWins:
         self._state, self._thread = "idle", 0
         if self._stopped:
             self._steps = None
+        elif self._held:
+            pass
         elif self._wanted.is_set():
             self._line_up_for_frame()
         elif self._steps is not None and self._pause == GIVE_WAY:

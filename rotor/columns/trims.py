@@ -83,7 +83,7 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     """The start with every quantity that is not solved for at its given value."""
     design = problem.design
     condition, models, stand = design.condition, design.models, design.condition.stand
-    given: dict[str, float] = {"lambda0": max(start.lambda0, 1e-4)}
+    given: dict[str, float] = {}
     if not design.flaps:
         cyclic = {"cyclic_1c": stand.cyclic_1c, "cyclic_1s": stand.cyclic_1s} if stand else {}
         given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0} | cyclic

@@ -317,6 +317,8 @@ class LagFactors:
         phi, psi: shapes and weights along the blade. Derivatives are those of an element at all azimuths, so all
         products of two waves are formed, not only their sums.
         """
+        if not len(self.used):  # Every section is beyond stall: nothing in it lags.
+            return
         row, wave = np.divmod(structure.coefficient_places, structure.waves)
         weight, other = np.divmod(structure.measure_places, structure.waves)
         elements, count = len(by_inputs), structure.waves

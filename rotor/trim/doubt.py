@@ -110,9 +110,13 @@ class Doubt:
 
     @property
     def part_bands(self) -> Mapping[str, float]:
-        """Uncertainty of the change of each part of power, ± [W]; empty without a change, and on a stand."""
+        """Uncertainty of the change of each part of power, and of `main_rotor`, all but the tail rotor, ± [W]; empty
+        without a change, and on a stand."""
         rows = np.array([row.changes for row in self.rows if row.changes])
-        return dict(zip(PARTS, np.linalg.norm(rows, axis=0).tolist(), strict=True)) if rows.size else {}
+        if not rows.size:
+            return {}
+        bands = np.linalg.norm(np.column_stack((rows, rows[:, : PARTS.index("tail")].sum(axis=1))), axis=0)
+        return dict(zip((*PARTS, "main_rotor"), bands.tolist(), strict=True))
 
     @property
     def _least(self) -> float:

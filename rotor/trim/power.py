@@ -50,7 +50,8 @@ class PowerBudget:
     tail: float
     """Of the tail rotor."""
     shaft: float
-    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
+    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding where all forces balance, which trim `thrust`
+    leaves to the lift alone; in the thesis preset it is not power."""
     climb: float = 0.0
     """W V_c, negative in descent; with a gust Σ w dF_z as well, w down."""
     damping: float = 0.0

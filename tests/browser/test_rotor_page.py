@@ -86,6 +86,17 @@ def until(watched: Watched, condition: str) -> None:
     watched.page.wait_for_function(condition, timeout=2 * WAIT)
 
 
+def test_a_rotor_tested_alone_is_no_aircraft_and_its_taper_stays_in_its_card(watched: Watched):
+    views = "() => RX.state.views.all.map(([, title]) => title)"
+    assert watched.page.evaluate(views)[0] == "Aircraft"
+    watched.page.set_viewport_size({"width": 1500, "height": 940})
+    watched.page.locator(".rxf-rotor").select_option("castles-gray-tapered")
+    watched.until(lambda: watched.page.evaluate(views)[0] == "Rotor")
+    watched.answered()
+    left = "() => Math.min(...[...document.querySelectorAll('[data-part=inset] svg path')].map(one => one.getBBox().x))"
+    assert 0 <= watched.page.evaluate(left) < 40
+
+
 def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.page.locator(".rxf-rotor").select_option(label="SA349/2 Gazelle")
     power = "RX.state.strip?.find(one => one.name === 'power')?.chart"

@@ -1,6 +1,11 @@
 """What `explorer/web/viser.js` changes in viser's client; when one of these fails, the pin may not move."""
 
+import time
+from dataclasses import replace
+
 import pytest
+from chromium import DRAW_NOTHING
+from playwright.sync_api import Browser
 from watched import Watched
 
 from explorer.app import App
@@ -146,3 +151,44 @@ def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
     watched.page.wait_for_timeout(3000)
     assert watched.page.evaluate(counted) <= 5
     watched.mode("explore")
+
+
+def test_a_hidden_tab_computes_nothing_until_it_is_seen(watched: Watched, app: App):
+    """What moves meanwhile, as by a presenter, a rotor that plays or a lecture, is one update when it is seen."""
+    page, session = watched.page, app.sessions[-1]
+    see = """hidden => {
+        Object.defineProperty(document, 'hidden', {configurable: true, value: hidden});
+        document.dispatchEvent(new Event('visibilitychange'));
+    }"""
+    watched.answered(wholly=True)
+    updates, update = list[float](), session._worker._update
+    session._worker._update = lambda: updates.append(time.monotonic()) or update()
+    page.evaluate("() => RX.send('play')")
+    watched.until(lambda: len(updates) > 5)
+    page.evaluate(see, True)
+    watched.until(lambda: session._worker._held and session._worker._state == "idle")
+    before, power = len(updates), watched.text("total-power")
+    session.page.context.drag_to(replace(session.page.context.inputs(), advance_ratio=0.3))
+    session._wake()
+    page.wait_for_timeout(500)
+    assert len(updates) == before
+    page.evaluate("() => RX.send('play')")
+    page.evaluate(see, False)
+    watched.until_changed(lambda: watched.text("total-power"), power)
+    watched.answered(wholly=True)
+    assert before < len(updates) < before + 6
+
+
+def test_a_language_that_is_none_leaves_the_page_its_controls(browser: Browser, app: App):
+    """WebKitGTK's C."""
+    unnamed = "Object.defineProperties(navigator, {language: {value: 'C'}, languages: {value: ['C']}})"
+    page = browser.new_page()
+    try:
+        for script in (DRAW_NOTHING, unnamed.replace("value:", "configurable: true, value:")):
+            page.add_init_script(script)
+        watched = Watched(page)
+        watched.open(app.address)
+        watched.row("Adv. ratio").get_by_role("slider").wait_for()
+        assert watched.complaints == []
+    finally:
+        page.close()

@@ -113,4 +113,8 @@ def test_touch_and_forced_colours_leave_each_control_usable(browser: Browser, ap
     )
     assert modes[0] not in modes[1:]
     assert len(set(parts)) > 3
+    watched.answered(wholly=True)
+    heads = """() => [...document.querySelectorAll('.rxp-worth > i')].map(
+        one => getComputedStyle(one, '::after').borderTopColor)"""
+    assert set(watched.page.evaluate(heads)) == {"rgba(0, 0, 0, 0)"}  # Arrows, not squares.
     context.close()

@@ -283,6 +283,19 @@ def test_nothing_is_begun_while_somebody_drags():
     until(lambda: pool.asked == [task])
 
 
+def test_at_rest_a_task_runs_to_its_end_and_the_next_waits():
+    pool: Any = FakePool()
+    answers = PoolAnswers(pool, 5, lambda: None)
+    first, second = asked("under way"), asked("waits")
+    answers.ask((first, second), 0.0)
+    until(lambda: pool.asked == [first])
+    answers.rest(True)
+    pool.end("one")
+    assert (answers.answer(first), pool.asked) == ("one", [first])
+    answers.rest(False)
+    assert pool.asked == [first, second]
+
+
 def test_the_lifted_blade_is_drawn_as_flown():
     """The part that voltage moves: zero at the root, and at the tip what the two trims differ by."""
     inputs = ActuatorInputs(drives=FULL)

@@ -1,7 +1,7 @@
 """Pages that drag, bend, climb, search and compute gradients at once: each ends at the answer of its design alone.
 
-A hundred pages that come and go do not add to the memory, and of one that leaves in any state nothing stays alive. How
-long frames take: `tests.tools.measured`.
+A hundred pages that come and go do not add to the memory, and of one that leaves in any state nothing stays alive.
+`pytest -s -m nightly -k at_once_end` prints how long twenty pages wait; without other work: `tests.tools.measured`.
 """
 
 import asyncio
@@ -47,13 +47,16 @@ def resident() -> float:
     return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6 if STATM.exists() else float("nan")
 
 
-async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
-    """Drag, and now and then search, or open what the doubt consists of, which needs the gradient."""
+async def work(visitor: Visitor, app: App, k: int, seconds: float) -> list[float]:
+    """Drag and rest as a hand does, now and then search, or open what the doubt consists of, which needs the gradient.
+
+    Returns the time from each edit to its picture [s].
+    """
     await visitor.open(app.address)
     await visitor.until(lambda: visitor.text("status") == "converged", PATIENCE)
     await visitor.press("more", "on")
     await visitor.until(lambda: visitor.shows("Altitude [m]"), PATIENCE)
-    end, step = time.monotonic() + seconds, 0
+    end, step, took = time.monotonic() + seconds, 0, list[float]()
     while step == 0 or time.monotonic() < end:
         if step % 40 == 0 and k % 5 == 0:
             await searching(visitor, PATIENCE)
@@ -61,15 +64,17 @@ async def work(visitor: Visitor, app: App, k: int, seconds: float) -> None:
             await visitor.press("discard")
         elif step % 40 == 0 and k % 5 == 1:
             await visitor.press("drawer", "trust")
-        shown = visitor.pictures
+        shown, begun = visitor.pictures, time.monotonic()
         if step % 2:
             await visitor.move("Altitude [m]", 50.0 * ((7 * k + 11 * step) % 60))
         else:
             await visitor.move("Adv. ratio µ", round(0.12 + 0.01 * ((5 * k + 3 * step) % 18), 3))
         await visitor.until(lambda shown=shown: visitor.pictures > shown, PATIENCE)
-        await asyncio.sleep(0.15)
+        took.append(time.monotonic() - begun)
         step += 1
+        await asyncio.sleep(0.05 if step % 20 else 3.0)
     await visitor.idle(PATIENCE, wholly=False)
+    return took
 
 
 def answers(session: Session) -> tuple[float, float]:
@@ -114,7 +119,10 @@ def test_a_power_comes_with_its_frame_while_another_page_draws_charts(app: App):
 def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, seconds: float):
     async def visit() -> tuple[list[str], list[Session]]:
         visitors = [Visitor(query=query(k)) for k in range(pages)]
-        await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
+        each = await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
+        took = sorted(time for times in each for time in times)
+        half, late = took[len(took) // 2], took[int(0.95 * len(took))]
+        print(f"{len(took)} edits; from edit to picture: median {half:.2f} s, 95 of 100 within {late:.2f} s")
         sessions, notices = list(app.sessions), [notice for visitor in visitors for notice in visitor.notices]
         for visitor in visitors:
             await visitor.close()
@@ -167,6 +175,23 @@ def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: A
     print("after every tenth page [MB]:", *(f"{size:.0f}" for size in sizes[9::10]))
     assert bytes_kept() <= 128 * 2**20
     assert min(sizes[-10:]) - min(sizes[30:40]) < 40.0  # The caches are full by then.
+
+
+def test_what_updates_free_is_returned_while_the_page_stays(app: App, monkeypatch: pytest.MonkeyPatch):
+    """glibc kept it, and one page went on growing."""
+    asked = threading.Event()
+    monkeypatch.setattr("explorer.session.trim_memory_soon", asked.set)
+
+    async def visit() -> None:
+        visitor = await arrived(app.address)
+        await visitor.idle()
+        asked.clear()
+        await visitor.move("Adv. ratio µ", 0.25)
+        await visitor.idle()
+        assert asked.is_set()
+        await visitor.close()
+
+    ran(visit)
 
 
 Act = Callable[[Visitor], Awaitable[None]]

@@ -37,14 +37,14 @@ STEP = (0.804, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0)
 """A twist of the front: cosines and sines [°]."""
 
 
-def numbers(slope: float) -> DialNumbers:
-    """A force of 1 N, which changes by `slope` for 1° of cos 2ψ, and 1000 kW, 10 more for 1° of sin 3ψ."""
+def numbers(slope: float, power: float = 1e4) -> DialNumbers:
+    """A force of 1 N, which changes by `slope` for 1° of cos 2ψ, and 1000 kW, `power` W more for 1° of sin 3ψ."""
     slopes = np.zeros((11, 8))
-    slopes[0, 0], slopes[10, 3] = slope, 1e4
+    slopes[0, 0], slopes[10, 3] = slope, power
     return DialNumbers([1.0, *[0.0] * 9, 1e6], slopes.tolist(), np.zeros((11, 8, 8)).tolist(), [1.0] * 5, 1e6, 1.0)
 
 
-OWN, OTHER = numbers(-0.5), numbers(0.25)
+OWN, OTHER = numbers(-0.5), numbers(0.25, -2e3)
 MOVED = EffectInFlight((1500.0, 900.0), (-20.004, 3.0))
 
 
@@ -109,7 +109,7 @@ def test_what_is_answered_is_shown(answered: PageState):
     assert [[round(value, 6) for value in dot[:2]] for dot in one.front] == [[0.0, 0.0], [0.5, 0.0]]
     assert [dot[2] for dot in one.front] == [(0.0,) * 8, STEP]
     words = [word for one in shown["dial_front"].series for word in getattr(one, "words", ()) if "over inflow" in word]
-    assert "power +0.5 %, vibration 0 % (−40 to +20 over inflow models, which disagree in sign)" in words[1]
+    assert "power +0.5 % (−0.1 to +0.5, unclear), vibration 0 % (−40 to +20, unclear) over inflow models" in words[1]
     waits = replace(answered, answers=dict([*answered.answers.items()][:2]))  # Its own model and one more.
     assert (dial(waits).computing, dial(waits).front) == (True, ())
     assert DIAL.view(waits)["dial_matrix"] == DialMatrix(**vars(OWN), inflows=(OTHER,))

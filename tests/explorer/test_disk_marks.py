@@ -135,6 +135,7 @@ class TestFlatPictures:
     def test_a_rotor_tested_alone_has_no_nose(self):
         assert disk_image.sides(make_design(mu=0.2)) == ("TAIL", "ADVANCING", "NOSE", "RETREATING")
         assert disk_image.sides(make_design(rotor="hart2")) == ("DOWNSTREAM", "ADVANCING", "UPSTREAM", "RETREATING")
+        assert disk_image.sides(make_design(mu=0.0)) == ("TAIL", "", "NOSE", "")
         still = disk_image.sides(make_design(rotor="caradonna-tung", mu=0.0))
         words = [disk_image.ring_mask(each) for each in (still, disk_image.sides(make_design()))]
         assert np.count_nonzero(words[0]) < np.count_nonzero(words[1])

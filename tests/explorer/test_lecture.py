@@ -20,9 +20,10 @@ from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, LectureStep, compared_inputs, compared_quantities, view_of
 from explorer.widgets.lecture import lecture_panel
 from explorer.widgets.lecture.lecture_panel import CASES, LecturePanel
-from rotor import Solution, hub_loads, make_design, optimise, solve
+from rotor import Solution, doubt, hub_loads, make_design, optimise, solve
 from rotor.actuator import with_actuator
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.trim.doubt import sureness
 from rotor.validation.thesis.ladder import RUNGS, SPEEDS, moving_twist
 
 BY_TITLE = {step.text.title: step for step in STEPS}
@@ -152,7 +153,8 @@ class TestSteps:
         stop = facts[step.name].stops[step.control.start]
         b = solved(stop.inputs)
         a = b if stop.against is None else solved(stop.against)
-        values = {**facts[step.name].words(SI), **compared_quantities(b, a, SI), **words_of(stop.numbers, SI)}
+        values = {**facts[step.name].words(SI), **words_of(stop.numbers, SI)}
+        values |= {name: one.value for name, one in compared_quantities(b, a, SI).items()}
         assert len({caption for _, caption in step.figures}) == 3
         for name, _ in step.figures:
             assert re.search(r"\d", values[name])
@@ -165,6 +167,26 @@ class TestSteps:
         assert not view.difference
         assert view.wipe == (step.against is not None) == bool(step.text.a) == bool(step.text.b)
         assert step.field in FIELDS
+
+
+def test_every_change_has_its_band_and_the_word_of_both():
+    """In a large number as on the line, once it is known; its place is kept until then."""
+    a, b = both("A wake that responds to loading")
+    sure = doubt(b, a)
+    before, after = compared_quantities(b, a, SI), compared_quantities(b, a, SI, (doubt(a), sure), (-3.0, 4.0))
+    changes = "total_change", "induced_change", "profile_change", "total_percent", "induced_percent"
+    for name in changes:
+        assert before[name].within == "\u00a0"
+        band, word = after[name].within.removeprefix("±\u00a0").split(",\u00a0")
+        value, band = (float(text.split("\u00a0")[0].replace("−", "-")) for text in (after[name].value, band))
+        assert sureness(value, band) == word
+    assert float(after["induced_percent"].within.split("\u00a0")[1]) == pytest.approx(
+        100.0 * sure.part_bands["induced"] / a.power.induced, abs=0.06
+    )
+    assert [after[f"total_{name}"].within for name in "ab"] == [
+        f"±\u00a0{one.band / 1e3:.0f}\u00a0kW" for one in (doubt(a), sure)
+    ]
+    assert after["induced_share"].within == ""
 
 
 class TestAnswers:
@@ -181,6 +203,11 @@ class TestAnswers:
         assert within == {"two_segments": (0,), "power_or_vibration": (0,)}  # 0.4 ± 0.4 %; wakes differ in the sign.
         (_, weak), (_, strong) = facts["fast_twist"].stops[1].dots
         assert weak < strong
+
+    @pytest.mark.slow
+    def test_what_an_answer_calls_saved_or_lost_has_its_band(self, facts: dict[str, StepFacts]):
+        said = {**facts["hover_twist"].words(SI), **facts["reverse_flow"].words(SI)}
+        assert [("±" in said[name]) for name in ("induced_saving", "cost", "slow_cost")] == [True] * 3
 
     @pytest.mark.slow
     def test_numbers_are_those_of_solve(self, facts: dict[str, StepFacts]):
@@ -294,7 +321,7 @@ def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pyt
     context = Mock(held=False)
     context.display.view, context.inputs.return_value, context.state.return_value = ViewState(), Inputs(), None
     context.bridge.set.side_effect = lambda **parts: sent.append(parts["lecture"])
-    panel = LecturePanel(context, Mock(), Mock())
+    panel = LecturePanel(context, Mock(), Mock(), Mock())
     panel._before = ScreenState(Inputs(), ViewState())
     panel.set(0)
     reading, go_on = Event(), Event()

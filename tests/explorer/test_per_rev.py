@@ -216,13 +216,14 @@ def test_published_programmes_are_told_with_their_sources():
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():
-    agreed, apart = (FrontDot(WAVES, -0.5, -40.0, over) for over in ((-60.0, -20.0), (-60.0, 51.0)))
+    agreed, apart = (FrontDot(WAVES, -0.5, (-0.7, 0.1), -40.0, over) for over in ((-60.0, -20.0), (-60.0, 51.0)))
     assert agreed.agreed
     assert not apart.agreed
     labels = [one.label for one in front_chart((agreed, apart)).series if isinstance(one, Points)]
     assert labels[-2:] == ["models agree", "models disagree"]
     words = [one.words for one in front_chart((apart,)).series if isinstance(one, Points)][-1]
-    assert "-60 to +51 over inflow models, which disagree in sign" in words[0].replace("−", "-")
+    said = "power -0.5 % (-0.7 to +0.1, unclear), vibration -40 % (-60 to +51, unclear) over inflow models"
+    assert words[0].replace("−", "-").startswith(said)
 
 
 def test_the_dial_knows_every_wake(whole: list[DialAnswer]):

@@ -97,7 +97,7 @@ class TestReport:
             assert f"{solution.power.total / 1e3:,.1f} kW".replace(",", "\u2009") in page
         band = doubt(NOW, BASELINE)
         assert band.saving_words in page
-        for part in ("total", "induced", "profile"):
+        for part in ("total", "induced", "profile", "main_rotor"):
             change, word = part_change(part, NOW.power, BASELINE.power, band, SI)
             assert f"<small>{change} kW: {word}</small>" in page
         for caveat in FAST.caveats:

@@ -110,13 +110,12 @@ class TestEveryRotor:
         assert len(arms) == rotor.blades
 
 
-@pytest.mark.parametrize(("name", "length"), [("s61", 17.96), ("bo105", 8.56), ("gazelle", 9.53), ("r22", None)])
-def test_each_helicopter_has_its_length_and_its_tail_rotor(name: str, length: float | None):
+@pytest.mark.parametrize(("name", "length"), [("s61", 17.96), ("bo105", 8.56), ("gazelle", 9.53), ("r22", 6.30)])
+def test_each_helicopter_has_its_length_and_its_tail_rotor(name: str, length: float):
     aircraft = shipped_aircraft(name)
     rotor, tail = rotor_named(name), aircraft.tail_rotor
     craft = airframe(rotor, tail)
-    if length is not None:
-        assert np.ptp(craft.body.vertices[:, 0]) == pytest.approx(length, abs=0.02)
+    assert np.ptp(craft.body.vertices[:, 0]) == pytest.approx(length, abs=0.02)
     aft = [
         part.vertices
         for part in parts_of(craft.dark)

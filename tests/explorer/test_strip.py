@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from explorer.charts.curve_bands import Bands, band_along, curve_bands
 from explorer.charts.plots import SWEEP, PowerCurve, angles_along
 from explorer.charts.strip import (
     LOOKS,
@@ -17,11 +18,12 @@ from explorer.charts.strip import (
     lift_per_metre,
     power_change_chart,
     total_power_chart,
+    with_band,
     with_speeds,
 )
-from explorer.model.units import AVIATION
-from rotor import Solution, Status, make_design, solve
-from rotor.support.chart import Chart, Line, Points, drawn_chart
+from explorer.model.units import AVIATION, SI
+from rotor import Solution, Status, doubt, make_design, solve
+from rotor.support.chart import Band, Chart, Line, Points, drawn_chart
 
 
 @pytest.fixture(scope="module")
@@ -194,3 +196,36 @@ class TestLift:
         per_blade = float(cruise.disk.dr @ lift_per_metre(cruise)) * design.rotor.radius
         assert_allclose(per_blade * design.rotor.blades, cruise.ct * design.thrust_unit, rtol=1e-9)
         assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
+
+
+BLADES = tuple(make_design(twist=twist) for twist in ("linear:-12", "builtin"))
+
+
+@pytest.fixture(scope="module")
+def bands() -> Bands:
+    return curve_bands(*BLADES)
+
+
+def test_the_band_of_the_curve_is_that_of_its_trims(bands: Bands):
+    """Where it is worked out, and between; beyond, and on a curve without it, there is none."""
+    for mu, atol in ((0.1, 1.0), (0.25, 1500.0)):
+        here, there = (solve(design.at(mu=mu)) for design in BLADES)
+        (within,) = band_along(bands, np.array([mu]))
+        assert within == pytest.approx(doubt(here, there).change_band, abs=atol)
+    assert np.isnan(band_along(bands, np.array([0.43]))).all()
+    ((mu, power), *_) = curve_bands(BLADES[0], None)
+    assert (mu, power) == (0.0, pytest.approx(doubt(solve(BLADES[0].at(mu=0.0))).band, rel=1e-3))
+
+
+def test_the_band_lies_about_the_curve(bands: Bands):
+    mu = np.array(SWEEP)
+    curve = PowerCurve(900.0 - 100.0 * mu, np.full(len(mu), 900.0), np.full(len(mu), math.nan))
+    first, *rest = with_band(power_change_chart(curve, 0.2, -20e3, "A"), bands, SI).series
+    assert isinstance(first, Band)
+    assert rest[0] == replace(rest[0], filled=False)
+    assert rest[1:] == list(power_change_chart(curve, 0.2, -20e3, "A").series)[1:]
+    assert 0.5 * (np.array(first.low) + np.array(first.high)) == pytest.approx(-100.0 * np.array(first.x))
+    assert 1e3 * (np.array(first.high) - np.array(first.low)) == pytest.approx(
+        2.0 * band_along(bands, np.array(first.x))
+    )
+    assert (first.x[0], first.x[-1]) == (0.0, pytest.approx(0.4))

@@ -22,7 +22,7 @@ from explorer.views.inset import blade_inset
 from explorer.views.line import line, line_text
 from explorer.views.page_state import HeldStation, OpenPanels, PageState, Panel, PanelWork
 from explorer.views.power import held_power, power_card
-from explorer.views.strip import remember_ranges, strip
+from explorer.views.strip import bands_asked, remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
 from explorer.workers.call import at_once
@@ -216,6 +216,16 @@ def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
     assert (worth(now)["worth"], slopes_asked(now)) == ({}, ())
 
 
+def test_the_band_of_the_curve_is_asked_once_for_all_speeds():
+    here, faster, heavier = (
+        bands_asked(now_at(replace(CHANGED, **changes))) for changes in ({}, {"advance_ratio": 0.25}, {"mass_t": 9.0})
+    )
+    assert here == faster is not None
+    assert here != heavier
+    assert here != bands_asked(now_at(OPENING))  # Without a change, that of the power.
+    assert bands_asked(now_at(STAND)) is None
+
+
 def test_in_the_hand_power_has_the_unit_of_the_page():
     now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", LeastPower(3.0, 745699.872, held=True)))
     shown = held_power(replace(now, change=-74569.9872))["hand"]
@@ -223,6 +233,22 @@ def test_in_the_hand_power_has_the_unit_of_the_page():
     assert shown.before == pytest.approx(shown.now + 100.0, abs=0.02)
     assert (shown.best.power, shown.place, shown.optimised) == (1000.0, "tip", None)
     assert held_power(replace(now, station=None)) == {"hand": None}
+
+
+def test_in_the_hand_a_change_has_its_band_once_it_rests():
+    before, now = solved(OPENING), now_at(CHANGED)
+    assert now.state is not None
+    change = now.state.solution.power.total - before.power.total
+    now = replace(now, station=HeldStation("tip", None, before), change=change)
+    sure = doubt(now.state.solution, before)
+    assert sure.change_band is not None
+    assert "±" not in held_power(now)["hand"].change
+    assert held_power(soon(now))["hand"].power.endswith(f" ± {1e-3 * sure.band:.0f} kW")
+    size, within, word = re.findall(r"(.+) ± (.+) kW, (.+)", held_power(soon(now))["hand"].change)[0]
+    assert [float(text.replace("−", "-")) for text in (size, within)] == pytest.approx(
+        [1e-3 * change, 1e-3 * sure.change_band], abs=0.51
+    )
+    assert word == sure.sureness
 
 
 # The power card where power is near zero or negative: descent and autorotation

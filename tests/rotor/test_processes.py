@@ -28,6 +28,7 @@ from rotor.support.processes import (
     WorkerLost,
     run_tasks,
 )
+from tests.tools.measured import memory
 from tests.waited import until
 
 ROOT = Path(__file__).parent.parent.parent
@@ -148,6 +149,14 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
     with pytest.raises(RuntimeError, match="shut down"):
         pool.submit(pow, 2, 3)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the system does not tell what processes share")
+def test_measured_memory_counts_a_process_that_a_thread_begins():
+    """Of a server no worker was counted."""
+    with Processes(1) as pool:
+        worker, own = pool.submit(os.getpid).result(), psutil.Process().memory_full_info().pss / 1e6
+        assert memory(os.getpid()) > own + 0.5 * memory(worker)
 
 
 def test_a_listener_that_fails_leaves_its_process_at_no_other_call():

@@ -21,6 +21,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import psutil
+
 import rotor
 from tests.tools.visitor import Visitor, arrived, ran
 
@@ -93,11 +95,9 @@ def served() -> Iterator[tuple[str, int]]:
 
 
 def memory(process: int) -> float:
-    """Of a process and its children [MB], what they share counted once."""
-    place = Path(f"/proc/{process}")
-    own = int(re.findall(r"^Pss:\s+(\d+) kB", (place / "smaps_rollup").read_text(), re.MULTILINE)[0]) / 1e3
-    children = (place / f"task/{process}/children").read_text().split()
-    return own + sum(memory(int(child)) for child in children)
+    """Of a process and all that it began [MB], what they share counted once."""
+    family = [first := psutil.Process(process), *first.children(recursive=True)]
+    return sum(one.memory_full_info().pss for one in family) / 1e6
 
 
 async def drag(visitor: Visitor, k: int, seconds: float) -> list[float]:

@@ -4,6 +4,7 @@ Also the flights and designs of the source document to begin from.
 """
 
 import threading
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -13,19 +14,23 @@ import viser
 from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import OWN, Inputs, preset_inflow
 from explorer.model.session_state import ScreenState, SessionState, same_but_flight
-from explorer.model.units import UNITS
+from explorer.model.units import UNITS, Units
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
 from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import StepFacts, facts_at, words_of
 from explorer.story.records import answer_record, step_record
-from explorer.story.steps import STEPS, compared_inputs, compared_quantities, view_of
+from explorer.story.steps import STEPS, Figure, compared_inputs, compared_quantities, view_of
 from explorer.text.glossary import hint
+from explorer.views.page_state import PageState
+from explorer.views.vibration import index_band
+from explorer.views.work import shown_doubt
 from explorer.widgets.context import TabContext
 from explorer.widgets.layout import by_hand
 from explorer.widgets.views import SceneViews
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
+from rotor import doubt
 from rotor.support.markup import tag
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
@@ -57,8 +62,10 @@ _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer.
 class LecturePanel:
     """One session's. Buttons act at once; the numbers follow the session."""
 
-    def __init__(self, context: TabContext, camera: FittedCamera, screen: SceneViews) -> None:
-        self._context, self._camera, self._screen, gui = context, camera, screen, context.gui
+    def __init__(
+        self, context: TabContext, camera: FittedCamera, screen: SceneViews, now: Callable[[], PageState]
+    ) -> None:
+        self._context, self._camera, self._screen, self._now, gui = context, camera, screen, now, context.gui
         self.place: StoryPlace | None = None
         """Where the lecture is; None outside it."""
         self._guesses: dict[int, int] = {}
@@ -71,6 +78,7 @@ class LecturePanel:
         self._showing = threading.Lock()
         """Held from reading the place to sending it: an answer that comes as the lecture ends shows nothing."""
         self._answers = PoolAnswers(context.pool, 4, self._facts_came)
+        context.resting.append(self._answers.rest)
         context.leaving.append(self._answers.stop)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
@@ -144,6 +152,11 @@ class LecturePanel:
             inputs = before.inputs if before.inputs.rotor == OWN else self._kept(before.inputs)
             self._camera.aim("3d")
             self._screen.put(replace(before, inputs=inputs))
+
+    def refresh(self) -> None:
+        """Take the bands that are known by now."""
+        if self.place is not None:
+            self._show()
 
     def show(self, state: SessionState | None) -> None:
         """Say what is seen now; None: the inputs have no solution, so there is nothing to say in numbers."""
@@ -248,11 +261,12 @@ class LecturePanel:
         step, state, answer = STEPS[place.step], self._state, self._answers.answer(_task(place.step))
         facts = answer if isinstance(answer, StepFacts) else None
         guessed = place.guess is not None
-        values = dict[str, str]()
+        values = dict[str, Figure]()
         if guessed and state is not None and facts is not None:
-            compared = compared_quantities(state.solution, state.reference, units)
-            values = {**facts.words(units), **compared, **words_of(facts.stops[place.stop].numbers, units)}
-        figures = [(caption, values.get(name, "–" if guessed else "?")) for name, caption in step.figures]
+            own = {**facts.words(units), **words_of(facts.stops[place.stop].numbers, units)}
+            values = {**{name: Figure(words) for name, words in own.items()}, **self._compared(state, units)}
+        none = Figure("–" if guessed else "?")
+        shown = [(caption, values.get(name, none)) for name, caption in step.figures]
         bridge.set(
             steps=[step_record(step, self._facts(k), units) for k, step in enumerate(STEPS)],
             lecture=LecturePart(
@@ -260,12 +274,20 @@ class LecturePanel:
                 guess=place.guess,
                 answer=answer_record(step, facts, units) if guessed and facts is not None else None,
                 stop=place.stop,
-                figures=figures,
+                figures=[(caption, one.value, one.within) for caption, one in shown],
                 busy=state is None,
                 problem=answer if isinstance(answer, str) else "",
                 held=self._context.held,
             ),
         )
+
+    def _compared(self, state: SessionState, units: Units) -> dict[str, Figure]:
+        """What is seen, with the bands of the line once they are known."""
+        now = replace(self._now(), state=state)
+        sure = now.answers.get(shown_doubt(now)[0].key)
+        a = state.reference
+        both = None if sure is None or not a.converged else (doubt(now.analyses.of(a)), sure)
+        return compared_quantities(state.solution, a, units, both, index_band(now))
 
     def _fly(self, advance_ratio: float) -> None:
         self._context.set_inputs(replace(self._context.inputs(), advance_ratio=advance_ratio))

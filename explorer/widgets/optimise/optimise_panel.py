@@ -88,6 +88,7 @@ class OptimisePanel:
         self._frame = gui.add_html("")
         self._details = gui.add_html("")
         self._best = PoolAnswers(context.pool, 3, context.wake)
+        context.resting.append(self._best.rest)
         context.leaving.append(self._best.stop)
         self._ranges = gui.add_html("")
         bridge.on("apply", lambda _: self._close(True))

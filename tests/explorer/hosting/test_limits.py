@@ -1,12 +1,14 @@
 """Who may use a server, and how much: host names and origins, rate of messages, uploads, freed memory, its log."""
 
 import logging
+import time
 from collections.abc import Iterator
 from logging.handlers import BufferingHandler
 
 import pytest
 
 from explorer.app import App
+from explorer.hosting import server_limits
 from explorer.hosting.request_filter import AllowedHosts, host_name
 from explorer.hosting.server_limits import (
     LARGEST_FILE,
@@ -16,6 +18,7 @@ from explorer.hosting.server_limits import (
     ServerLimits,
     refuse_upload,
 )
+from tests.waited import until
 
 HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
 PORT = "127.0.0.1:8080"
@@ -83,6 +86,18 @@ class TestRateLimiter:
         limiter = RateLimiter(0.0, RateLimit(100.0, 100.0), RateLimit(1e3, 1e4))
         assert limiter.allows(10_000, 0.0)
         assert not limiter.allows(1_000, 0.5)
+
+
+def test_memory_is_returned_once_for_updates_that_follow_each_other(monkeypatch: pytest.MonkeyPatch):
+    returned = list[float]()
+    monkeypatch.setattr(server_limits, "_TRIM_AFTER_S", 0.1)
+    monkeypatch.setattr(server_limits, "trim_memory", lambda: returned.append(time.monotonic()))
+    for number in (1, 2):
+        begun = time.monotonic()
+        server_limits.trim_memory_soon()
+        server_limits.trim_memory_soon()
+        until(lambda number=number: len(returned) == number)
+        assert returned[-1] - begun >= 0.1
 
 
 class TestUploads:

@@ -83,6 +83,48 @@ class TestNewest:
         assert go.is_set()
         assert worker._state != "running"
 
+    def test_held_nothing_begins_and_what_was_left_goes_on_after_the_release(self):
+        order, go, turns = list[str](), threading.Event(), itertools.count()
+
+        def steps(turn: int) -> Iterator[float]:
+            order.append(f"step {turn}")
+            assert go.wait(LONG)
+            yield 0.0
+            order.append(f"last {turn}")
+
+        worker = NewestWins(lambda: steps(next(turns)), fail, pool := UpdatePool(1))
+        worker.wake()
+        until(lambda: order == ["step 0"])
+        worker.hold()
+        go.set()
+        until(lambda: worker._state == "idle")  # The step that ran has ended.
+        other = list[int]()
+        NewestWins(lambda: other.append(1), fail, pool).wake()
+        until(lambda: other == [1])
+        assert order == ["step 0"]
+        worker.release()
+        until(lambda: order == ["step 0", "last 0"])
+        worker.hold()
+        worker.wake()
+        time.sleep(0.05)
+        assert order == ["step 0", "last 0"]
+        worker.release()
+        until(lambda: order[2:] == ["step 1", "last 1"])
+        worker.stop()
+
+    def test_held_in_line_it_leaves_it_and_takes_its_place_again(self):
+        pool, seen = UpdatePool(1), list[int]()
+        busy, go = blocked(pool)
+        worker = NewestWins(lambda: seen.append(1), fail, pool)
+        worker.wake()
+        worker.hold()
+        go.set()
+        until(lambda: busy._state == worker._state == "idle")
+        assert seen == []
+        worker.release()
+        until(lambda: seen == [1])
+        worker.stop()
+
 
 class TestSteps:
     def test_they_follow_the_frame_each_after_its_pause(self):

@@ -321,4 +321,6 @@ def test_the_band_of_a_part_of_power_is_that_of_new_trims(condition: str):
     assert sum(row.changes) == pytest.approx(row.change)
     for k, part in enumerate(PARTS):
         assert found.part_bands[part] == pytest.approx(math.hypot(*(each.changes[k] for each in found.rows)))
+    main = math.hypot(*(sum(each.changes[: PARTS.index("tail")]) for each in found.rows))
+    assert found.part_bands["main_rotor"] == pytest.approx(main)
     assert doubt(here).part_bands == {}

@@ -182,6 +182,11 @@ def test_continuation_on_a_stand_stays_within_its_limits():
     assert solution.message
 
 
+def test_a_rotor_whose_sections_are_all_beyond_stall_on_the_way_ends_with_a_sentence():
+    """None of them has a lag then, and the derivatives with lags had no shape: numpy's ValueError."""
+    assert solve(make_design(rotor="r22", mu=0.2, mass_kg=20_000.0, off="flapping")).message.startswith("Not trimmed:")
+
+
 def test_a_hopeless_design_ends_within_the_passes_allowed_or_when_told():
     solution = solve(HOPELESS)
     assert not solution.converged
