@@ -21,7 +21,7 @@ PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 help:                 ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
 
-run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
+run: $(READY)         ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
 # Without a browser on all cores; the page in two processes, for its tests wait more than they compute, but a busier
@@ -132,7 +132,7 @@ $(TYPESCRIPT)/.ready $(AXE)/.ready: $(DEV)
 	  --loglevel=error --no-audit --no-fund --no-save --no-package-lock --ignore-scripts $(subst e-4,e@4,$(subst t-,t@,$(notdir $(@D))))
 	@touch $@
 
-# The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
+# The kernels are compiled on first use and kept beside their source. Doing it here saves the page's tests the wait.
 # A line counts them.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
 	@$(BIN)/python -c "from rotor.support.compiled import log_compiling; log_compiling(); \

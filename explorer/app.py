@@ -30,8 +30,9 @@ from explorer.widgets.context import SharedServices
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins, UpdatePool
 from rotor import solve
+from rotor.command.warm import compile_all, lags_beside
 from rotor.support.bytes_cache import limit_caches
-from rotor.support.compiled import compiling
+from rotor.support.compiled import compiling, has_compiled
 from rotor.support.processes import Processes
 from rotor.trim.newton import SolverOptions
 
@@ -267,8 +268,11 @@ class App:
 
     def _warm(self) -> None:
         try:
-            picture.warm()  # First the trim that a page opens on, then what later steps need.
+            with lags_beside():
+                picture.warm()  # First the trim that a page opens on, then what later steps need.
             solver.warm()
+            if has_compiled():  # Or each worker would compile the rest.
+                compile_all()
         except Exception:  # The sessions will meet the same error and show it.
             _log.exception("warming the solver and the picture failed")
         self.pool.warm()  # Not earlier: it would compete with the first page for the processor.

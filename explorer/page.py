@@ -5,7 +5,7 @@ The parts themselves are in `explorer/widgets`, the scene in `explorer/scene`.
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Literal
@@ -73,7 +73,7 @@ PANELS = (
     *(*AT_ONCE, *_NUMBER, VIBRATION, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST),
     *(WATERFALL, COSTS, PRICES, *_ACTUATE),
 )
-Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept", "deferred"]
+Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept"]
 """What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
 number, with the frame; what stands beside the picture, after every frame; what follows that; power over µ; what is seen
 and kept at rest; what could wait."""
@@ -296,8 +296,8 @@ class Page:
         sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
         return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
 
-    def show(self, now: PageState, urgency: Urgency, stop: Callable[[], bool] = lambda: False) -> None:
-        """Have what is as urgent as this follow a converged state; what takes long ends at `stop`."""
+    def show(self, now: PageState, urgency: Urgency) -> None:
+        """Have what is as urgent as this follow a converged state."""
         last, self.latest, context, follow = self.latest.state, now, self.context, self.follower.follow
         state = now.state
         if state is None:
@@ -326,22 +326,27 @@ class Page:
                     show(state)
             case "power":
                 follow((STRIP,).__contains__)
-            case "rest":  # Vortices, slopes of power and how sure it is.
+            case "rest":  # Vortices in the scene.
                 self.scene.draw_at_rest()
                 self._views.show_plan(state.solution, state.view, at_rest=True)
-                self.follower.work(stop, soon=True)
-                self.lecture.refresh()
-                if self._curve.held is not None:
-                    self._learn()
-                    follow((HAND,).__contains__)
             case "kept":
                 self.file.follow(state)
                 self.file.keep()
                 self.history.store()
-            case "deferred":
-                self.history.solve_waiting(stop)
-                self.follower.work(stop, soon=False)
-                self.lecture.refresh()
+
+    def work(self) -> Iterator[None]:
+        """Steps of what a page at rest has computed: slopes of power and how sure it is."""
+        yield from self.follower.work(soon=True)
+        self.lecture.refresh()
+        if self._curve.held is not None:
+            self._learn()
+            self.follower.follow((HAND,).__contains__)
+
+    def work_later(self) -> Iterator[None]:
+        """Steps of what may come after the sweep of power over µ."""
+        yield from self.history.solve_waiting()
+        yield from self.follower.work(soon=False)
+        self.lecture.refresh()
 
     def _learn(self) -> None:
         """Where the station in the hand is best, as far as power and its slopes tell."""

@@ -9,9 +9,10 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 import viser
 
@@ -28,12 +29,13 @@ from explorer.views.page_state import PageState
 from explorer.widgets.context import SharedServices
 from explorer.widgets.controls import SessionCallbacks
 from explorer.workers import solver
-from explorer.workers.newest_wins import UPDATES, NewestWins
+from explorer.workers.newest_wins import GIVE_WAY, UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.newton import FEW_DIGITS
 
 _log = logging.getLogger(__name__)
+T = TypeVar("T")
 _STILL = 0.25
 """[s] without a change after which nothing is dragged; less would delay the frames of keys pressed one by one."""
 _DRAGGED = 0.5
@@ -167,37 +169,40 @@ class Session:
 
         def show(*urgencies: Urgency) -> None:
             for urgency in urgencies:
-                page.show(page.latest, urgency, self._overtaken)
+                page.show(page.latest, urgency)
 
         def show_with_curve(urgency: Urgency) -> None:
             page.show(replace(page.latest, curve=self._curves.known(design, reference)), urgency)
 
-        def sweep() -> bool:
+        def sweep() -> Generator[float, None, bool]:
             # On a test stand measured points take the place of power over µ.
-            tested = set_shown(state.solution) is not None
-            return tested or self._curves.sweep(design, reference, self._overtaken, partial(show_with_curve, "power"))
+            if set_shown(state.solution) is not None:
+                return True
+            known = partial(show_with_curve, "power")
+            return (yield from _giving_way(self._curves.sweep(design, reference, self._overtaken, known)))
 
         show_with_curve("results")
         yield 0.0
         show("tabs")
         self.shown.set()
         yield 0.0
-        if dragged and not self._curves.recent:
-            sweep()  # So that the curve follows a long drag.
+        if dragged and not self._curves.recent and not UPDATES.crowded:
+            yield from sweep()  # So that the curve follows a long drag.
         yield _STILL  # The next step of a drag is on its way, or nothing moves any more.
         if moving:
             self._settling = True
             self._wake()
             return
         show("rest")
-        yield 0.0
+        yield from _giving_way(page.work())
         show("kept")  # Before the power curve, since an early reload must find it.
         self._worker.answer()
         yield 0.0
-        if sweep() and not self._overtaken():
+        if (yield from sweep()) and not self._overtaken():
             yield 0.0
-            show("rest", "kept", "deferred")
-            yield 0.0
+            show("rest", "kept")
+            yield from _giving_way(page.work())
+            yield from _giving_way(page.work_later())
 
     def _show_failure(self, now: PageState) -> None:
         """The last converged picture stays, grey, with the sentence."""
@@ -234,3 +239,13 @@ class Session:
         self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()
         _log.error("an update failed", exc_info=error)
         self.page.show_error(f"This update failed ({error}): move any slider to continue.")
+
+
+def _giving_way(steps: Iterator[None] | Generator[None, None, T]) -> Generator[float, None, T]:
+    """What these steps return, as steps of an update."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+        yield GIVE_WAY

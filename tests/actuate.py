@@ -13,7 +13,7 @@ from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
 from explorer.views.actuated import counted_from
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, Panel, SetHand
-from explorer.workers.call import Call
+from explorer.workers.call import Call, at_once
 from rotor.design import Harmonic
 from rotor.trim.solve import solve
 
@@ -48,7 +48,7 @@ def told(panel: Panel, now: PageState, **answers: Any) -> PageState:
 
 def worked(panel: Panel, now: PageState) -> PageState:
     """With what it has the page's own thread compute."""
-    results = {work.key: work.run(lambda: False, lambda: None) for work in panel.works(now)}
+    results = {work.key: at_once(work.run(lambda: None)) for work in panel.works(now)}
     return replace(now, answers={**now.answers, **results})
 
 

@@ -75,6 +75,7 @@ class PanelPage:
         """Follow a converged state."""
         self.follow(replace(self.now, state=state, inputs=state.inputs, sliders=state.inputs.design()))
 
-    def rest(self, superseded: Callable[[], bool] = lambda: False) -> None:
+    def rest(self) -> None:
         for soon in (True, False):
-            self.updater.work(superseded, soon)
+            for _ in self.updater.work(soon):
+                pass

@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import replace
 
 from explorer.charts.plots import Range, held_range
@@ -97,8 +97,8 @@ class MeasuredChart:
             self._now = solution, quantity_of(measured.quantity, solution, measured)
         return self._now[1] if self._now is not None and self._now[0] is solution else math.nan
 
-    def trim_points(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
-        """Trim at every measured point, unless newer input comes; `shown`: called when there is more to draw."""
+    def trim_points(self, solution: Solution, shown: Callable[[], None]) -> Generator[None, None, None]:
+        """Trim at every measured point, yielding before each; `shown`: called when there is more to draw."""
         measured = set_shown(solution)
         if measured is None:
             return
@@ -109,8 +109,7 @@ class MeasuredChart:
             self._points.clear()
         begun = time.monotonic()
         for point in measured.points[len(points) :]:
-            if superseded():
-                return
+            yield
             points.append(compare_point(measured, point, key[1]))
             self._points[key] = tuple(points)
             if time.monotonic() - begun > _REDRAW_S:
@@ -197,8 +196,8 @@ class FlownPowers:
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         return f"{here.case}: {number(percent, 1, sign=True)} %"
 
-    def trim_flights(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
-        """Trim in every measured flight, unless newer input comes; `shown`: called when there is more to draw."""
+    def trim_flights(self, solution: Solution, shown: Callable[[], None]) -> Generator[None, None, None]:
+        """Trim in every measured flight, yielding before each; `shown`: called when there is more to draw."""
         flights = _shown(solution.design)
         if not flights:
             return
@@ -209,9 +208,8 @@ class FlownPowers:
         if all(flight.case in known for flight in flights):
             return
         for flight in flights:
-            if superseded():
-                return
             if flight.case not in known:
+                yield
                 trimmed = solve(key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude))
                 known[flight.case] = trimmed.power.main_rotor if trimmed.converged else math.nan
         shown()

@@ -6,7 +6,7 @@ abandoned when newer input waits.
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -132,18 +132,19 @@ class PowerCurves:
         self,
         design: Design,
         reference: Design,
-        superseded: Callable[[], bool],
+        superseded: Callable[[], bool] = lambda: False,
         known: Callable[[], None] = lambda: None,
-    ) -> bool:
-        """Sweep the curves of a design and its reference; False when abandoned half way.
+    ) -> Generator[None, None, bool]:
+        """Sweep the curves of a design and its reference; returns False when abandoned half way.
 
-        `known`: called after each curve that was not known before.
+        Yields before each trim for which another page would wait. `known`: called after each curve that was not known
+        before.
         """
         patient = self.recent
         for family in dict.fromkeys((any_speed(design), any_speed(reference))):
             swept = family not in self._curves or family in self._coarse
             if swept:
-                values, coarse = self._swept(family, superseded, patient)
+                values, coarse = yield from self._swept(family, superseded, patient)
                 self._tried = time.monotonic()
                 if values is None:
                     return False
@@ -157,7 +158,9 @@ class PowerCurves:
                 known()
         return True
 
-    def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
+    def _swept(
+        self, family: Design, superseded: Callable[[], bool], patient: bool
+    ) -> Generator[None, None, tuple[Array | None, bool]]:
         """Total, ideal and main-rotor power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
         begun, slow = time.monotonic(), int(slowest_swept(family) > 0.0)
         values = np.full((3, len(SWEEP)), math.nan)
@@ -175,6 +178,8 @@ class PowerCurves:
                     return _bridged(values, slow, base), True
                 if patient or UPDATES.waiting or time.monotonic() - begun > self._haste:
                     return None, False
+            elif UPDATES.crowded:
+                yield
             try:
                 design = family.at(mu=SWEEP[k])
             except ValueError:  # A free rotor in hover.

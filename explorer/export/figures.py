@@ -17,6 +17,7 @@ from explorer.export.contents import DesignReport, ReportEntry, colours_of, fiel
 from explorer.model.units import Units
 from explorer.picture.fields import Field
 from explorer.text.readout import balance, change_kind, fuel_words, mass_words, needs, pair_words
+from explorer.workers.call import at_once
 from rotor import Solution
 from rotor.actuator import Verdict, verdict_details
 from rotor.actuator.verdict import reference
@@ -86,7 +87,7 @@ def figure(chart: Chart) -> Markup:
 def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Line | Points]:
     """Curve over advance ratio, hover as a point, the present condition as a point."""
     design = entry.solution.design
-    curves.sweep(design, report.reference.solution.design, lambda: False)
+    at_once(curves.sweep(design, report.reference.solution.design))
     curve, mu = curves.known(design, report.reference.solution.design), np.array(SWEEP)
     is_reference = entry is report.reference
     unit = report.units.power[0]

@@ -12,7 +12,7 @@ it, so the station turns by that angle relative to its neighbours. Sliding a div
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -126,14 +126,12 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
     }
 
 
-def flight_sensitivities(
-    solution: Solution, superseded: Callable[[], bool] = lambda: False
-) -> dict[str, SliderSensitivity]:
+def flight_sensitivities(solution: Solution) -> Generator[None, None, dict[str, SliderSensitivity]]:
     """Sensitivity of the flight's sliders by central differences of a tenth of a step.
 
     One-sided where one neighbour does not trim or lies outside the permitted range; a slider without a trimmed
-    neighbour is left out, and so is the advance ratio in hover, which another model computes. `superseded` is asked
-    before every trim; once it says yes the sliders so far are returned. On a test stand only the advance ratio counts.
+    neighbour is left out, and so is the advance ratio in hover, which another model computes. On a test stand only the
+    advance ratio counts. Yields before every trim.
     """
     sensitivities: dict[str, SliderSensitivity] = {}
     tested, axial = solution.design.condition.stand is not None, solution.design.models.disk_axial_flow
@@ -144,8 +142,7 @@ def flight_sensitivities(
             continue
         points = [(0.0, solution.power.total)]
         for direction in (-1.0, 1.0):
-            if superseded():
-                return sensitivities
+            yield
             step = direction * _FRACTION * SLIDERS[name].natural
             moved = _moved(solution, name, step)
             if moved is not None:

@@ -20,7 +20,7 @@ from explorer.model.actuator_inputs import (
     verdict_tasks,
 )
 from explorer.views.dial_answer import HARMONICS, FittedBlade
-from explorer.views.page_state import OpenPanels, PageState, PanelWork
+from explorer.views.page_state import OpenPanels, PageState, PanelWork, in_one
 from explorer.views.work import doubt_work
 from explorer.workers.call import Call
 from rotor import Design, Solution, solve
@@ -234,7 +234,7 @@ def still_work(now: PageState) -> PanelWork | None:
     flown = now.state.solution
     still = replace(flown.design, active_twist=None)
     return PanelWork(
-        "still", (still,), lambda superseded, tell: flown if flown.design == still else solve(still, flown), soon=True
+        "still", (still,), in_one(lambda: flown if flown.design == still else solve(still, flown)), soon=True
     )
 
 

@@ -1,6 +1,6 @@
 """What the panels are functions of, and what a panel is."""
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Generator, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -143,8 +143,8 @@ class PanelWork:
     name: str
     about: tuple[Hashable, ...]
     """All that the result depends on."""
-    run: Callable[[Callable[[], bool], Tell], Any]
-    """The result; None where newer input came first: it is called again once the page rests, and goes on."""
+    run: Callable[[Tell], Generator[None, None, Any]]
+    """Yields before each trim, where it gives way to edits and to other pages, and returns the result."""
     soon: bool = False
     """Whether it comes as soon as nothing moves; else after the sweep of power over µ."""
 
@@ -152,6 +152,16 @@ class PanelWork:
     def key(self) -> Hashable:
         """By which `PageState.answers` has the result."""
         return self.name, *self.about
+
+
+def in_one(compute: Callable[[], Any]) -> Callable[[Tell], Generator[None, None, Any]]:
+    """`run` of work that is one piece."""
+
+    def run(tell: Tell) -> Generator[None, None, Any]:
+        yield
+        return compute()
+
+    return run
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -52,8 +52,8 @@ class PanelUpdater:
         self._following = threading.RLock()
         self.memory = PanelMemory()
         self._done: dict[Hashable, Any] = {}
-        self._begun: dict[Hashable, PanelWork] = {}
-        """The page's own work by its key: done, and wanted."""
+        self._begun: dict[Hashable, Generator[None, None, Any]] = {}
+        """The page's own work by its key: done, and half done."""
         self._sent: dict[str, Any] = {}
         self._stand: list[set[str]] = [set() for _ in self._panels]
         """Of each panel, the parts of the frame that it has shown. No two panels have one in common."""
@@ -72,25 +72,32 @@ class PanelUpdater:
         queues = [queue for each in self._queues for queue in list(each.values())]
         return {call: why for queue in queues for call, why in queue.failures.items()} | all_known() | self._done
 
-    def work(self, superseded: Callable[[], bool], soon: bool) -> None:
-        """Have the page's own work done that is wanted, `soon` or later; each result is shown as it comes.
+    def work(self, soon: bool) -> Iterator[None]:
+        """Steps of the page's own work that is wanted, `soon` or later; each result is shown as it comes.
 
-        A result is kept while it is wanted, and work that is interrupted goes on the next time.
+        A result is kept while it is wanted, and work that is left half done goes on the next time.
         """
         now = self._now()
         wanted: dict[Hashable, tuple[PanelWork, list[Panel]]] = {}
         for panel in self._panels:
             for work in panel.works(now) if panel.seen(now.ui) else ():
-                wanted.setdefault(work.key, (self._begun.get(work.key, work), []))[1].append(panel)
-        self._begun = {key: work for key, (work, _) in wanted.items()}
+                wanted.setdefault(work.key, (work, []))[1].append(panel)
+        self._begun = {key: steps for key, steps in self._begun.items() if key in wanted}
         self._done = {key: result for key, result in self._done.items() if key in wanted}
         for key, (work, panels) in wanted.items():
             if work.soon != soon or key in self._done:
                 continue
             show = partial(self.follow, panels.__contains__)
-            result = None if superseded() else work.run(superseded, show)
-            if result is None:
-                return
+            steps = self._begun.get(key) or work.run(show)
+            while True:
+                self._begun.pop(key, None)  # What fails begins anew.
+                try:
+                    next(steps)
+                except StopIteration as end:
+                    result = end.value
+                    break
+                self._begun[key] = steps
+                yield
             self._done = {**self._done, key: result}
             self.memory = replace(self.memory, latest={**self.memory.latest, work.name: result})
             show()

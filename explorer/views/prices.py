@@ -1,6 +1,6 @@
 """What stall and reverse flow cost, beside their regions on the disk, and how far away the edge of stall is."""
 
-from collections.abc import Callable
+from collections.abc import Generator
 from dataclasses import replace
 from typing import Any
 
@@ -18,10 +18,9 @@ def edges_asked(now: PageState) -> tuple[PanelWork, ...]:
         return ()
     solution = now.state.solution
 
-    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[bool, float, dict[str, float | None]] | None:
-        found = stall_edges(solution, superseded)
-        mu = solution.design.condition.advance_ratio
-        return None if found is None else (solution.stalled_area > 0.0, mu, found)
+    def run(tell: Tell) -> Generator[None, None, tuple[bool, float, dict[str, float | None]]]:
+        found = yield from stall_edges(solution)
+        return solution.stalled_area > 0.0, solution.design.condition.advance_ratio, found
 
     return (PanelWork("stall-edges", (solution.design,), run),)
 

@@ -4,7 +4,7 @@ Axes are held while the data fit them, so that they do not jump during a drag.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -121,10 +121,10 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
         return ()
     solution = now.state.solution
 
-    def work(name: str, trim: Callable[[Solution, Callable[[], bool], Tell], None]) -> PanelWork:
-        def run(superseded: Callable[[], bool], tell: Tell) -> bool | None:
-            trim(solution, superseded, tell)
-            return None if superseded() else True
+    def work(name: str, trim: Callable[[Solution, Tell], Generator[None, None, None]]) -> PanelWork:
+        def run(tell: Tell) -> Generator[None, None, bool]:
+            yield from trim(solution, tell)
+            return True
 
         return PanelWork(name, (solution.design,), run)
 

@@ -5,7 +5,7 @@ wakes is computed while the page rests.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Generator
 from dataclasses import replace
 from typing import Any
 
@@ -14,12 +14,12 @@ from explorer.model.units import number
 from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.text.readout import index_unit
-from explorer.views.page_state import PageState, Panel, PanelWork, Tell
-from rotor import Solution, hub_loads, solve
+from explorer.views.page_state import PageState, Panel, PanelWork, Tell, in_one
+from rotor import Design, Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.trim import DEFAULT_OPTIONS, HubLoads, analyse, why_no_hub_loads
-from rotor.trim.hub_loads import band_inflows
+from rotor.trim import Analysis, HubLoads, analyse, why_no_hub_loads
+from rotor.trim.hub_loads import band_designs, band_inflows
 
 
 def vibration(now: PageState) -> dict[str, Any]:
@@ -45,16 +45,20 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
     return (
         _loads_work(now, solution, True),
         *((_loads_work(now, reference, True),) if compared else ()),
-        PanelWork("rigid", (solution.design,), lambda superseded, tell: _rigid_power(solution)),
+        PanelWork("rigid", (solution.design,), in_one(lambda: _rigid_power(solution))),
     )
 
 
 def _loads_work(now: PageState, solution: Solution, band: bool) -> PanelWork:
-    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[HubLoads | None] | None:
-        options = replace(DEFAULT_OPTIONS, stop=superseded)
-        analysis = now.analyses.of(solution)
-        loads = hub_loads(analysis, solve=lambda design, start: analyse(design, start, options), band=band)
-        return None if superseded() else (loads,)
+    def run(tell: Tell) -> Generator[None, None, tuple[HubLoads | None]]:
+        trims, given = dict[Design, Analysis](), solution.design
+        if why_no_hub_loads(given) is None:
+            bent = replace(given, models=replace(given.models, bending=True))
+            for design in {bent, *(band_designs(bent) if band else ())} - {given}:
+                yield
+                trims[design] = analyse(design)
+        yield
+        return (hub_loads(now.analyses.of(solution), solve=lambda design, _: trims[design], band=band),)
 
     return PanelWork("hub loads", (solution.design, band), run)
 

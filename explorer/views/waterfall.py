@@ -1,6 +1,6 @@
 """What each part of the physics costs: the waterfall of power, and each switch off alone."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Generator, Sequence
 from typing import Any
 
 from explorer.colours import PARTS
@@ -127,15 +127,14 @@ def steps_asked(now: PageState) -> tuple[PanelWork, ...]:
     if now.state is None:
         return ()
     design = with_switches(now.state.solution.design, ())
-    coming, found = waterfall_steps(design), list[WaterfallStep]()
 
-    def run(superseded: Callable[[], bool], tell: Tell) -> tuple[WaterfallStep, ...] | None:
-        """Goes on where it was interrupted. Whole, or not at all: it would grow under the eyes."""
-        while not superseded():
-            if (step := next(coming, None)) is None:
-                return tuple(found)
+    def run(tell: Tell) -> Generator[None, None, tuple[WaterfallStep, ...]]:
+        """Whole, or not at all: it would grow under the eyes."""
+        found = list[WaterfallStep]()
+        for step in waterfall_steps(design):
             found.append(step)
-        return None
+            yield
+        return tuple(found)
 
     return (PanelWork("waterfall", (design,), run),)
 

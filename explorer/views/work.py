@@ -1,7 +1,7 @@
 """What the panels of power want computed once the page rests."""
 
 from explorer.model.session_state import Analyses
-from explorer.views.page_state import PageState, PanelWork
+from explorer.views.page_state import PageState, PanelWork, in_one
 from rotor import Design, Solution, doubt
 
 
@@ -15,7 +15,7 @@ def doubt_work(name: str, solution: Solution, reference: Solution | None, analys
     return PanelWork(
         name,
         (solution.design, reference and reference.design),
-        lambda superseded, tell: doubt(analyses.of(solution), reference and analyses.of(reference)),
+        in_one(lambda: doubt(analyses.of(solution), reference and analyses.of(reference))),
         soon=True,
     )
 

@@ -1,7 +1,7 @@
 """What a step of each slider changes: of the twist exactly, from one adjoint, with the band of two designs a step
 apart; of the flight by differences of trims, with the band of power in proportion, because all its parts change."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Literal
@@ -12,7 +12,7 @@ from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivit
 from explorer.model.units import SI, Units, number
 from explorer.parts.results import SliderSaving
 from explorer.text.readout import banded, fineness
-from explorer.views.page_state import PageState, Panel, PanelWork, Tell
+from explorer.views.page_state import PageState, Panel, PanelWork, in_one
 from explorer.views.work import has_power, shown_doubt
 from rotor import doubt, solve
 from rotor.trim.analysis import Analysis
@@ -33,28 +33,18 @@ def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
         return ()
     solution = state.solution
 
-    def of_flight(superseded: Callable[[], bool], tell: Tell) -> Mapping[str, SliderSensitivity] | None:
-        found = flight_sensitivities(solution, superseded)
-        return None if superseded() else found
-
-    of_twist = PanelWork(
-        "slopes", (solution.design,), lambda superseded, tell: analyses.of(solution).gradient, soon=True
-    )
-
-    def of_steps(superseded: Callable[[], bool], tell: Tell) -> Mapping[str, float] | None:
-        return step_bands(state.inputs, analyses.of(solution), superseded)
-
-    works = of_twist, PanelWork("flight-slopes", (solution.design,), of_flight)
-    alike = state.inputs.design() == solution.design
-    return (*works, PanelWork("twist-steps", (solution.design,), of_steps)) if alike else works
+    about = (solution.design,)
+    of_twist = PanelWork("slopes", about, in_one(lambda: analyses.of(solution).gradient), soon=True)
+    works = of_twist, PanelWork("flight-slopes", about, lambda tell: flight_sensitivities(solution))
+    of_steps = PanelWork("twist-steps", about, lambda tell: step_bands(state.inputs, analyses.of(solution)))
+    return (*works, of_steps) if state.inputs.design() == solution.design else works
 
 
-def step_bands(inputs: Inputs, here: Analysis, superseded: Callable[[], bool]) -> Mapping[str, float] | None:
+def step_bands(inputs: Inputs, here: Analysis) -> Generator[None, None, Mapping[str, float]]:
     """Band of what a step of each twist slider changes [W]; without those whose design does not trim."""
     found = dict[str, float]()
     for name in LAWS[inputs.law].inputs:
-        if superseded():
-            return None
+        yield
         step, high = slider(name, SI).natural, limits(name)[1]
         step = step if getattr(inputs, name) + step <= high else -step
         with suppress(ValueError):

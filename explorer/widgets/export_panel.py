@@ -39,6 +39,7 @@ from explorer.views.page_state import PageState
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
 from explorer.widgets.context import TabContext
 from explorer.widgets.history_panel import HistoryPanel
+from explorer.workers.call import at_once
 from rotor.support.markup import tag
 
 _log = logging.getLogger(__name__)
@@ -85,13 +86,11 @@ class ExportPanel:
         """All that is known, and how sure power and its change are, worked out where that is not known."""
         now = self._now()
         tasks = (task for task in works(now) if task.key not in now.answers)
-        return replace(
-            now, answers={**now.answers, **{task.key: task.run(lambda: False, lambda: None) for task in tasks}}
-        )
+        return replace(now, answers={**now.answers, **{task.key: at_once(task.run(lambda: None)) for task in tasks}})
 
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
-        self._curves.sweep(design, reference, lambda: False)
+        at_once(self._curves.sweep(design, reference))
         curve = self._curves.known(design, reference)
         return tables_zip(state.solution, reference, curve, state.view.azimuth_deg)
 

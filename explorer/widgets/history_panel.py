@@ -1,7 +1,7 @@
 """Undo, redo, and the kept designs; a click goes to one."""
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -157,9 +157,10 @@ class HistoryPanel:
             self._stored = text
             browser.store_text(self._context.client, share.STEPS_KEPT, text)
 
-    def solve_waiting(self, stop: Callable[[], bool]) -> None:
-        """Solve the designs that were kept before a reload, until `stop`."""
-        while self._waiting and not stop():
+    def solve_waiting(self) -> Iterator[None]:
+        """Solve the designs that were kept before a reload, yielding before each."""
+        while self._waiting:
+            yield
             inputs = self._waiting[-1]
             solution = solve(inputs.design())
             with self._lock:

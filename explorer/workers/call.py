@@ -1,8 +1,10 @@
 """A question to the worker processes, as a value."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Generator, Hashable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -19,3 +21,12 @@ class Call:
             return self.function(*self.arguments)
         except (ValueError, RuntimeError) as error:
             return str(error)
+
+
+def at_once(steps: Generator[Any, None, T]) -> T:
+    """What these steps return, done one after another."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value

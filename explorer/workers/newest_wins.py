@@ -18,7 +18,9 @@ from typing import Literal
 
 Update = Callable[[], Iterator[float] | None]
 """Draws a frame and returns what can wait, as steps. Each step yields how long to wait for a newer update before the
-next [s]. None: what waited before goes on."""
+next [s], or `GIVE_WAY`. None: what waited before goes on."""
+GIVE_WAY = -1.0
+"""The next step comes once those of no other page are due; of pages that give way, the first to do so goes on first."""
 
 _FRAMES_IN_A_ROW = 20
 """Frames after which a step of what can wait has its turn, in a crowd. A step is charts of some three frames' time."""
@@ -37,7 +39,9 @@ class UpdatePool:
         self._frames: deque[NewestWins] = deque()
         self._steps: list[tuple[float, int, NewestWins]] = []
         """What can wait: a heap by the time it is due and a number."""
-        self._numbers = itertools.count()
+        self._giving_way: list[tuple[float, int, NewestWins]] = []
+        """A heap by the number with which it first gave way, and a number."""
+        self._numbers = itertools.count(1)
         self._frames_in_a_row = 0
         self._step_runs = False
 
@@ -49,12 +53,27 @@ class UpdatePool:
     @property
     def busy(self) -> bool:
         """Whether what can wait of a page would wait for others now."""
-        return bool(self._frames or self._steps or self._step_runs)
+        return bool(self._frames or self._steps or self._giving_way or self._step_runs)
 
-    def queue(self, worker: "NewestWins", due: float | None) -> int:
-        """Put a worker in line, for a frame or for a step at `due` [s]; the caller holds `change`. Returns a ticket."""
+    @property
+    def crowded(self) -> bool:
+        """Whether anything waits for the step that runs."""
+        with self.change:
+            return bool(self._frames or self._giving_way) or self._due() <= 0.0
+
+    def _due(self) -> float:
+        """How long until a step is due [s]."""
+        return self._steps[0][0] - time.monotonic() if self._steps else math.inf
+
+    def queue(self, worker: "NewestWins", due: float | None, first: int | None = None) -> int:
+        """Put a worker in line, for a frame or for a step at `due` [s]; the caller holds `change`. Returns a ticket.
+
+        `first`: the ticket with which it first gave way; 0 for this one.
+        """
         number = next(self._numbers)
-        if due is None:
+        if first is not None:
+            heapq.heappush(self._giving_way, (first or number, number, worker))
+        elif due is None:
             self._frames.append(worker)
         else:
             heapq.heappush(self._steps, (due, number, worker))
@@ -78,18 +97,20 @@ class UpdatePool:
         """The next worker and whether it is for a step; None when there is no work."""
         with self.change:
             while True:
-                while self._steps and not self._steps[0][2].waits(self._steps[0][1]):
-                    heapq.heappop(self._steps)
-                wait = self._steps[0][0] - time.monotonic() if self._steps and not self._step_runs else _IDLE_S
+                for heap in (self._steps, self._giving_way):
+                    while heap and not heap[0][2].waits(heap[0][1]):
+                        heapq.heappop(heap)
+                due = self._due()
+                wait = _IDLE_S if self._step_runs else 0.0 if self._giving_way else due
                 if self._frames and not (wait <= 0.0 and self._frames_in_a_row >= _FRAMES_IN_A_ROW):
                     worker, is_step = self._frames.popleft(), False
                     self._frames_in_a_row += 1
                 elif wait <= 0.0:
-                    worker, is_step = heapq.heappop(self._steps)[2], True
+                    worker, is_step = heapq.heappop(self._steps if due <= 0.0 else self._giving_way)[2], True
                     self._frames_in_a_row, self._step_runs = 0, True
                 else:
                     woken = self.change.wait(min(wait, _IDLE_S))
-                    if not (woken or self._frames or self._steps):
+                    if not (woken or self._frames or self._steps or self._giving_way):
                         self._threads -= 1
                         return None
                     continue
@@ -115,7 +136,7 @@ class NewestWins:
         self._stopped = False
         self._held = held
         self._state: Literal["idle", "frame", "step", "running"] = "idle"
-        self._ticket = self._thread = 0
+        self._ticket = self._thread = self._gave_way = 0
         self._steps: Iterator[float] | None = None
         self._answered = False
         """Whether what the last update was for is shown."""
@@ -205,7 +226,7 @@ class NewestWins:
                 if steps is None:
                     self._answered = answered
                 else:
-                    self._steps = steps
+                    self._steps, self._gave_way = steps, 0
             elif self._steps is not None:
                 pause = next(self._steps, None)
                 self._pause, self._steps = pause or 0.0, None if pause is None else self._steps
@@ -224,6 +245,9 @@ class NewestWins:
             pass
         elif self._wanted.is_set():
             self._line_up_for_frame()
+        elif self._steps is not None and self._pause == GIVE_WAY:
+            self._state, self._ticket = "step", self._pool.queue(self, None, self._gave_way)
+            self._gave_way = self._gave_way or self._ticket
         elif self._steps is not None:
             self._state, self._ticket = "step", self._pool.queue(self, time.monotonic() + self._pause)
 

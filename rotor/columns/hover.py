@@ -112,7 +112,6 @@ _ROW = {pair: k for k, pair in enumerate(PAIRS)}
 _FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
 
 _compile = compiled(error_model="numpy")
-_inline = compiled(error_model="numpy", inline="always")
 
 
 def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
@@ -146,16 +145,11 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
     return channels, turning
 
 
-@_inline
-def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
+@_compile
+def _balance(theta: Any, inflow: Any, annuli: Any, half_solidity: Any, f: Any, d: Any, turning: Any) -> Any:
     """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch; last the slope of an
-    annulus whose lift falls with λ_i or not at all, (5, elements)."""
-    out = np.empty((5, len(theta)))
-    channels, turning = _channels(theta, inflow, annuli)
-    closed = len(annuli.slope) > 0
-    slopes = not closed
-    flow = closed and slopes  # Always False; with a constant numba would compile the section twice.
-    f, d, _ = section(channels, data, slopes, flow)
+    annulus whose lift falls with λ_i or not at all, (5, elements). f, d: of the section; turning: of `_channels`."""
+    out, closed = np.empty((5, len(theta))), len(annuli.slope) > 0
     for i in range(len(theta)):
         r, total = annuli.r[i], inflow[i] + annuli.climb[i]
         (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
@@ -163,7 +157,7 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
         signed = math.copysign(inflow[i], inflow[i] * total)
         momentum = 4.0 * r * (size * (2.0 * factor + slope * inflow[i]) + factor * (signed - size))
         if closed:  # Small angles and a linear lift curve, as (2.28) takes it.
-            gain = data.half_solidity[i] * annuli.slope[i]
+            gain = half_solidity[i] * annuli.slope[i]
             lift, by_inflow = gain * ((theta[i] - annuli.zero[i]) * r**2 - total * r), -gain * r
             out[3, i] = gain * r**2
         else:
@@ -174,23 +168,23 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
     return out
 
 
-@_compile
-def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
+def _balanced(theta: Array, start: Array, annuli: Annuli, data: SectionData) -> tuple[Array, Array]:
     """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket.
 
     As a windmill an annulus has up to three balances. The first on the way from λ_i = 0 is that of momentum theory, so
     where momentum falls faster than lift the way back is taken. In the turbulent state it has no such balance: NaN.
     """
     inflow, bracket, left = start.copy(), bracket_of(len(start)), MOST_PASSES
-    if annuli.windmill:
-        for i in range(len(inflow)):  # The disk does not turn the wind back.
-            bracket[0 if annuli.climb[i] > 0.0 else 1][i] = -annuli.climb[i]
-    while True:
-        balance = _balance(theta, inflow, annuli, data)  # The only call: the compiler makes a copy for each.
+    if annuli.windmill:  # The disk does not turn the wind back.
+        for end, here in zip(bracket, (annuli.climb > 0.0, annuli.climb <= 0.0), strict=True):
+            end[here] = -annuli.climb[here]
+    while True:  # Here and not in a kernel, whose compiler would make another copy of the section.
+        channels, turning = _channels(theta, inflow, annuli)
+        f, d, _ = section(channels, data, not len(annuli.slope), False)
+        balance = _balance(theta, inflow, annuli, data.half_solidity, f, d, turning)
         if annuli.windmill:
-            for i in range(len(inflow)):
-                if balance[4, i] <= 0.0:
-                    balance[0, i] = math.copysign(1.0, inflow[i])
+            falls = balance[4] <= 0.0
+            balance[0, falls] = np.copysign(1.0, inflow[falls])
         if left == 0 or not balancing_step(inflow, bracket, balance[0], balance[1], balance[2]):
             break
         left -= 1

@@ -311,7 +311,8 @@ def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places
         pairs = np.empty(((end - first) * (last - begin), n))
         for i in range(first, end):
             for k in range(begin, last):
-                pairs[(i - first) * (last - begin) + k - begin] = psi[i] * phi[k]
+                for j in range(n):  # Rows as arrays would have numba compile words for shapes that differ: 3 s.
+                    pairs[(i - first) * (last - begin) + k - begin, j] = psi[i, j] * phi[k, j]
         around = products[:waves].T
         if len(pairs) > n:  # The order of the two products that takes less.
             product = np.dot(pairs, np.dot(slopes[slope], around))

@@ -241,7 +241,9 @@ def _back(lags: Any, left: Any, means: Any, out: Any) -> None:
                     for j in range(columns):
                         z[INPUTS + k, at, j] += share * weights[k, c, j]
         _back_along_links(lags, e, z)
-        z[:INPUTS, 0] += z[:INPUTS, fine]
+        for k in range(INPUTS):
+            for j in range(columns):
+                z[k, 0, j] += z[k, fine, j]
         for c in range(azimuths):
             for m in range(1 - steps, steps):
                 at, share = (c * steps + m) % fine, (1.0 - abs(m) / steps) / steps

@@ -9,11 +9,15 @@ The first run compiles them. On a terminal and in a notebook a line on stderr co
 
 import hashlib
 import logging
+import os
 import pickle
+import subprocess
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from subprocess import DEVNULL
 from types import ModuleType
 from typing import Any
 
@@ -61,6 +65,7 @@ class _RepairingCache(FunctionCache):
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)  # pyright: ignore[reportUnknownMemberType]
         cache: Any = self
+        self._function = function
         place, stamp = cache._impl, cache._impl.locator.get_source_stamp()
         cache._cache_file = _CheckedFiles(cache._cache_path, place.filename_base, stamp)
 
@@ -71,7 +76,16 @@ class _RepairingCache(FunctionCache):
         return *key, tuple(_stamps.get(file) or _stamp(file) for file in files)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The kept code; None where there is none that can be read."""
+        """The kept code, once another process that compiles it has done so; None where none can be read."""
+        kept = self._read(sig, target_context)
+        if kept is None and self._function in _beside.functions and _beside.at_work:
+            with _watch.waiting(self._function):
+                while kept is None and _beside.at_work:
+                    time.sleep(_POLL_S)
+                    kept = self._read(sig, target_context)
+        return kept
+
+    def _read(self, sig: Any, target_context: Any) -> Any:
         try:
             return super().load_overload(sig, target_context)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
         except Exception as error:
@@ -131,20 +145,29 @@ class _Watch(event.Listener):
         """The words on what is being compiled; empty where nothing is."""
         if not self.open:
             return ""
-        ready, all_of_them = sum(bool(one.overloads) or self._is_kept(one) for one in self.kernels), len(self.kernels)
+        ready, all_of_them = sum(bool(one.overloads) or self.is_kept(one) for one in self.kernels), len(self.kernels)
         return f"Compiling, {self._often}: {min(ready + 1, all_of_them)} of {all_of_them}"
 
     @property
     def _often(self) -> str:
         return "in each run" if self.unkept else "once"
 
-    def _is_kept(self, kernel: Any) -> bool:
+    def is_kept(self, kernel: Any) -> bool:
         """Whether a run before has compiled it: the count goes on where that one ended. Looked up once."""
         if id(kernel) not in self._kept:
             self._kept[id(kernel)] = False
             with suppress(Exception):  # Without a file, or with a damaged one.
                 self._kept[id(kernel)] = bool(kernel._cache._cache_file._load_index())
         return self._kept[id(kernel)]
+
+    @contextmanager
+    def waiting(self, function: Callable[..., Any]) -> Generator[None]:
+        """While another process compiles it."""
+        self.open += (mine := [kernel for kernel in self.kernels if kernel.py_func is function])
+        self._show()
+        yield
+        del self.open[len(self.open) - len(mine) :]
+        self._show()
 
     def on_start(self, event: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         kernel = event.data["dispatcher"]
@@ -179,10 +202,52 @@ def compiling() -> str:
     return _watch.words
 
 
+def has_compiled() -> bool:
+    """Whether this process has compiled anything."""
+    return _watch.began
+
+
 def why_not_kept() -> str:
     """One sentence on why what was compiled could not be kept on disk; empty where it was, or nothing was compiled."""
     sentence = "Compiled kernels cannot be kept, so each run compiles anew: set NUMBA_CACHE_DIR to another folder"
     return sentence if _watch.unkept and _watch.began else ""
+
+
+class _Beside:
+    """Another process that compiles some of the kernels."""
+
+    functions: frozenset[Callable[..., Any]] = frozenset()
+    process: "subprocess.Popen[bytes] | None" = None
+
+    @property
+    def at_work(self) -> bool:
+        return self.process is not None and self.process.poll() is None
+
+
+_beside = _Beside()
+_POLL_S = 0.05
+"""[s] between two looks for a kernel that the other process compiles."""
+
+
+@contextmanager
+def compiled_beside(compile_them: Callable[[], None], *modules: str) -> Generator[None]:
+    """Within, the kernels of these modules are compiled by a second process, and waited for.
+
+    `compile_them`: a function of a module, which the process calls. There is none where some of these are kept, none
+    can be, or on one core.
+    """
+    kernels = [kernel for kernel in _watch.kernels if kernel.py_func.__module__ in modules]
+    if _watch.unkept or (os.cpu_count() or 1) < 2 or any(one.overloads or _watch.is_kept(one) for one in kernels):
+        yield
+        return
+    program = f"from {compile_them.__module__} import {compile_them.__name__} as go; go()"
+    with subprocess.Popen([sys.executable, "-c", program], stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as process:
+        _beside.functions, _beside.process = frozenset(kernel.py_func for kernel in kernels), process
+        try:
+            yield
+        except BaseException:
+            process.terminate()
+            raise
 
 
 def log_compiling() -> None:

@@ -115,14 +115,19 @@ def band_inflows() -> tuple[str, ...]:
     return tuple(name for name, model in INFLOW_MODELS.items() if model.in_index_band)
 
 
+def band_designs(design: Design) -> tuple[Design, ...]:
+    """A design whose blades bend with each other inflow model over which its index is stated."""
+    others = (name for name in band_inflows() if name != design.models.inflow)
+    return tuple(replace(design, models=replace(design.models, inflow=name)) for name in others)
+
+
 def _indices(design: Design, solve: Solve) -> dict[str, float]:
     """The index with each other inflow model with which the design trims [%]."""
     indices = dict[str, float]()
-    for name in band_inflows():
-        if name != design.models.inflow:
-            other = solve(replace(design, models=replace(design.models, inflow=name)), None)
-            loads = hub_loads(other, solve=solve, band=False) if other.solution.converged else None
-            indices |= {} if loads is None else {name: loads.index}
+    for other in band_designs(design):
+        trim = solve(other, None)
+        loads = hub_loads(trim, solve=solve, band=False) if trim.solution.converged else None
+        indices |= {} if loads is None else {other.models.inflow: loads.index}
     return indices
 
 

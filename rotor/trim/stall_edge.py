@@ -1,6 +1,6 @@
 """How far a trim is from the edge of stall: where the first section stalls, or the last one no longer does."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 
 from scipy.optimize import brentq
 
@@ -37,28 +37,27 @@ _WAYS: Mapping[str, tuple[_Put, float]] = {
 """What is changed, and the step: of the mass as a part of it, of a linear twist on top [°/R]."""
 
 
-def stall_edges(solution: Solution, superseded: Callable[[], bool]) -> dict[str, float | None] | None:
+def stall_edges(solution: Solution) -> Generator[None, None, dict[str, float | None]]:
     """By how much advance ratio [-], mass [kg] and twist [°/R, linear, on top] differ at the nearest edge of stall.
 
     The edge is where `Solution.least_margin` is zero: there a stalled area begins or ends. None where there is none
-    within 8 steps of 0.02, 4 % of the mass and 1 °/R, or no trim on the way there. Where superseded, None for all.
+    within 8 steps of 0.02, 4 % of the mass and 1 °/R, or no trim on the way there. Yields before each step.
     """
     found = dict[str, float | None]()
     for name, (put, step) in _WAYS.items():
         size = step * solution.design.condition.mass if name == "mass_kg" else step
-        found[name] = _nearest(solution, put, size, superseded)
-        if superseded():
-            return None
+        found[name] = yield from _nearest(solution, put, size)
     return found
 
 
-def _nearest(solution: Solution, put: _Put, step: float, superseded: Callable[[], bool]) -> float | None:
+def _nearest(solution: Solution, put: _Put, step: float) -> Generator[None, None, float | None]:
     stalls = solution.least_margin < 0.0
     ends = {1.0: (0.0, solution), -1.0: (0.0, solution)}
     for k in range(1, _STEPS + 1):
         for side, (before, near) in list(ends.items()):
             change = side * k * step
-            there = None if superseded() else _trim(put, solution.design, change, near)
+            yield
+            there = _trim(put, solution.design, change, near)
             if there is None:
                 del ends[side]
             elif (there.least_margin < 0.0) == stalls:

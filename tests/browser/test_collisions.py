@@ -32,8 +32,9 @@ def send(watched: Watched, *message: Any) -> None:
 def found(watched: Watched, view: str) -> list[str]:
     """What is wrong in this state."""
     watched.page.mouse.move(1, 1)  # Where it pressed last it would bring the hint of what stands there now.
-    look = f"view => [...({COLLIDE})(), ...(view && ({FRAME})(view)), ({CAMERA})()]"
-    *faults, stands = watched.at_rest(lambda: watched.page.evaluate(look, view))
+    look = f"view => [...({COLLIDE})(), ...(view && ({FRAME})(view))]"
+    stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
+    faults = watched.page.evaluate(look, view) and watched.at_rest(lambda: watched.page.evaluate(look, view))
     if view:
         send(watched, "aim")
         framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))

@@ -39,7 +39,7 @@ from explorer.views.pay import PAY
 from explorer.views.power import POWER
 from explorer.views.vibration import VIBRATION
 from explorer.views.worth import WORTH
-from explorer.workers.call import Call
+from explorer.workers.call import Call, at_once
 from rotor import Design, Solution, doubt
 from rotor.actuator import (
     FlightLeg,
@@ -96,7 +96,7 @@ def answered(
     effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
     now = replace(now, answers={**now.answers, **effects})
     now = worked(ACTUATOR_CARD, worked(DIAL, now))
-    doubts = {task.key: task.run(lambda: False, lambda: None) for task in works(now)}
+    doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
     now = replace(now, answers={**now.answers, **doubts})
     flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
     return replace(now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers)

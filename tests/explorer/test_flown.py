@@ -12,6 +12,7 @@ from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of
 from explorer.model.units import SI
 from explorer.text.status import validated
+from explorer.workers.call import at_once
 from rotor.trim.solve import solve
 from rotor.validation.airloads import MeasuredCurve
 
@@ -33,10 +34,10 @@ class TestFlights:
         assert before.y == pytest.approx((172.5, 441.9, 221.4, 442.6))
         assert before.faint == [False, True, True, True]
         assert "computed" not in before.words[1]
-        flown.trim_flights(solution, lambda: True, lambda: drawn.append(True))
+        next(flown.trim_flights(solution, lambda: drawn.append(True)))
         assert not drawn  # Newer input comes first.
         for _ in range(2):
-            flown.trim_flights(solution, lambda: False, lambda: drawn.append(True))
+            at_once(flown.trim_flights(solution, lambda: drawn.append(True)))
         assert len(drawn) == 1
         other = solve(at_test("gazelle", "FC2").design())
         assert f"computed {other.power.main_rotor / 1e3:.1f} kW" in flown.marks(solution, SI).words[1]

@@ -1,6 +1,7 @@
 """Panels on their way to a page, without one: asked, viewed, sent and pressed."""
 
-from collections.abc import Callable, Mapping
+from collections import deque
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
@@ -121,10 +122,9 @@ def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypa
 def counting(name: str, of: float, soon: bool, steps: list[str]) -> PanelWork:
     """Work of three steps, each of which is written down."""
 
-    def run(superseded: Callable[[], bool], tell: Tell) -> float | None:
-        while sum(step == name for step in steps) < 3:
-            if superseded():
-                return None
+    def run(tell: Tell) -> Generator[None, None, float]:
+        for _ in range(3):
+            yield
             steps.append(name)
             tell()
         return of
@@ -156,9 +156,9 @@ class TestWork:
         return page
 
     def test_what_comes_soon_comes_first_and_every_step_is_shown(self, page: PanelPage, steps: list[str]):
-        page.updater.work(lambda: False, soon=True)
+        deque(page.updater.work(soon=True))
         assert steps == ["power"] * 3
-        page.updater.work(lambda: False, soon=False)
+        deque(page.updater.work(soon=False))
         assert steps == ["power"] * 3 + ["strip"] * 3
         mu = OPENING.advance_ratio
         told = [(None, False, 1), (None, False, 2), (None, False, 3), (mu, True, 3)]
@@ -169,26 +169,28 @@ class TestWork:
         views = [partial(lambda name, now: {name: work.key in now.answers}, name) for name in ("power", "strip")]
         page = page_of(*(Panel(view, works=lambda now: (work,)) for view in views))
         page.updater._now = lambda: replace(NOW, answers=page.updater.answers())
-        page.updater.work(lambda: False, soon=True)
+        deque(page.updater.work(soon=True))
         assert steps == ["power"] * 3
         assert page.bridge.sent[-1] == {"power": True, "strip": True}
 
     def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: PanelPage, steps: list[str]):
-        asked = iter([False, False, True])
-        page.updater.work(lambda: next(asked), soon=True)
+        interrupted = page.updater.work(soon=True)
+        next(interrupted)
+        next(interrupted)
+        del interrupted
         assert steps == ["power"]
         for _ in range(2):
-            page.updater.work(lambda: False, soon=True)
+            deque(page.updater.work(soon=True))
             assert steps == ["power"] * 3
 
     def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(self, page: PanelPage, steps: list[str]):
-        page.updater.work(lambda: False, soon=True)
+        deque(page.updater.work(soon=True))
         at = "power", OPENING.advance_ratio
         assert page.updater.answers()[at] == OPENING.advance_ratio
         page.now = replace(page.now, inputs=replace(OPENING, advance_ratio=0.1))
-        page.updater.work(lambda: True, soon=False)
+        next(page.updater.work(soon=False))
         assert at not in page.updater.answers()
         (asked,) = page.updater._panels[1].works(page._now())
         assert page._now().latest(asked) == (OPENING.advance_ratio, False)
-        page.updater.work(lambda: False, soon=True)
+        deque(page.updater.work(soon=True))
         assert page._now().latest(asked) == (0.1, True)

@@ -5,6 +5,7 @@ import json
 import math
 import re
 import threading
+from collections.abc import Generator
 from dataclasses import asdict, replace
 from html import escape
 from pathlib import Path
@@ -46,7 +47,10 @@ RANGE = ALPHA.low, ALPHA.high
 class Swept(PowerCurves):
     """Curves that cost nothing."""
 
-    def sweep(self, design: Design, reference: Design, superseded: object, known: object = None) -> bool:
+    def sweep(
+        self, design: Design, reference: Design, superseded: object = None, known: object = None
+    ) -> Generator[None, None, bool]:
+        yield
         return True
 
     def known(self, design: Design, reference: Design) -> PowerCurve:

@@ -16,6 +16,7 @@ from explorer.text.readout import needs
 from explorer.views.actuated import actuated_blade, doubt_here
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import earns_state
+from explorer.workers.call import at_once
 from rotor.actuator import with_actuator
 from rotor.actuator.verdict import Against, Verdict, kilowatt_text, reference, try_actuator
 from rotor.command import actuator as command
@@ -90,7 +91,7 @@ def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
     task = doubt_here(now)
     assert task is not None
-    now = replace(now, answers={task.key: task.run(lambda: False, lambda: None)})
+    now = replace(now, answers={task.key: at_once(task.run(lambda: None))})
     driven, card, state = actuated_blade(now), ACTUATOR_CARD.view(now)["assessed"], now.state
     assert driven is not None
     words, against, kind = on_board(driven, SI)

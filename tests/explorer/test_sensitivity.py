@@ -18,6 +18,7 @@ from explorer.model.sliders import (
 )
 from explorer.model.units import AVIATION, SI, UNITS, number
 from explorer.views.worth import step_bands, worth_row
+from explorer.workers.call import at_once
 from rotor import doubt
 from rotor.trim.analysis import Analysis, power_gradient
 from rotor.trim.solve import solve
@@ -53,24 +54,22 @@ def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
 def test_the_band_of_a_step_of_twist_is_that_of_two_designs():
     inputs = Inputs(law="linear", linear=-12.0)
     here, there = (solve(one.design()).require() for one in (inputs, replace(inputs, linear=-11.0)))
-    found = step_bands(inputs, Analysis(here), lambda: False)
+    found = at_once(step_bands(inputs, Analysis(here)))
     assert found == {"linear": pytest.approx(doubt(there, here).change_band, rel=1e-3)}
-    assert step_bands(inputs, Analysis(here), lambda: True) is None
 
 
 @pytest.mark.parametrize("mass", [8.0, 9.5])
 def test_flight_sliders_agree_with_differences_of_another_step(mass: float):
     inputs = Inputs(advance_ratio=0.25, mass_t=mass, altitude_m=500.0)
     solution = solve(inputs.design()).require()
-    assert flight_sensitivities(solution, lambda: True) == {}  # Newer input ends the work.
-    found = flight_sensitivities(solution)
+    found = at_once(flight_sensitivities(solution))
     assert tuple(found) == tuple(FLIGHT)
     for name, step in (("advance_ratio", 3e-4), ("mass_t", 2e-3), ("altitude_m", 3.0), ("climb_m_s", 0.03)):
         assert_allclose(found[name].slope, difference(inputs, name, step), rtol=1e-2)
 
 
 def test_the_documents_equations_have_no_climb():
-    found = flight_sensitivities(solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require())
+    found = at_once(flight_sensitivities(solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require()))
     assert tuple(found) == tuple(name for name in FLIGHT if name != "climb_m_s")
 
 
@@ -78,7 +77,7 @@ def test_weight_in_hover_costs_what_momentum_theory_says():
     """Ideal induced power goes with W^1.5: a per cent of weight costs 1.5 per cent of it, and profile power adds."""
     inputs = Inputs(advance_ratio=0.0)
     solution = solve(inputs.design()).require()
-    found = flight_sensitivities(solution)
+    found = at_once(flight_sensitivities(solution))
     per_cent_of_mass = found["mass_t"].slope * 0.01 * inputs.mass_t
     assert 1.3 < per_cent_of_mass / (0.01 * solution.power.total) < 1.8
     assert "advance_ratio" not in found
@@ -86,7 +85,7 @@ def test_weight_in_hover_costs_what_momentum_theory_says():
 
 def test_one_sided_at_the_edge_of_the_permitted_altitude():
     inputs = Inputs(altitude_m=8000.0, mass_t=5.0)
-    found = flight_sensitivities(solve(inputs.design()).require())
+    found = at_once(flight_sensitivities(solve(inputs.design()).require()))
     lower = total(replace(inputs, altitude_m=7990.0))
     assert_allclose(found["altitude_m"].slope, (total(inputs) - lower) / 10.0, rtol=1e-3)
 
@@ -94,7 +93,7 @@ def test_one_sided_at_the_edge_of_the_permitted_altitude():
 def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     inputs = Inputs(law="builtin")
     solution = solve(inputs.design()).require()
-    found = flight_sensitivities(solution)
+    found = at_once(flight_sensitivities(solution))
     faster = worth_row(found["advance_ratio"], solution.power, SI, 1e3)
     assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
     assert (faster.value[0], faster.way, faster.unit) == ("+", "down", "kW/0.01")

@@ -3,6 +3,7 @@
 import math
 import threading
 import time
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -62,10 +63,18 @@ class RecordingPage:
         self.calls.append("draw")
         self.frames.append(SimpleNamespace(now=now, solution=solution, only_azimuth=only_azimuth))
 
-    def show(self, now: PageState, urgency: Urgency, stop: Any = None) -> None:
+    def show(self, now: PageState, urgency: Urgency) -> None:
         self.latest = now
         self.calls.append(urgency)
         self.states.append(now)
+
+    def work(self) -> Iterator[None]:
+        self.calls.append("work")
+        yield
+
+    def work_later(self) -> Iterator[None]:
+        self.calls.append("work later")
+        yield
 
     def show_failure(self, now: PageState, good: Solution | None) -> None:
         self.latest, self.good = now, good
@@ -113,7 +122,7 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
 
         def start(self) -> None: ...
 
-        def show(self, now: PageState, urgency: Urgency, stop: Any = None) -> None:
+        def show(self, now: PageState, urgency: Urgency) -> None:
             super().show(now, urgency)
             if urgency == "tabs":
                 shown.set()
@@ -132,7 +141,7 @@ def test_only_reading_and_pinning_come_before_the_frame(session: Session):
     page = update(session)
     assert page.calls[:3] == ["read", "pin_or_swap", "draw"]
     assert page.calls[3:7] == ["solve A", "address", "results", "tabs"]
-    assert page.calls[-1] == "deferred"
+    assert page.calls[-1] == "work later"
     assert page.frames[-1].solution is page.states[-1].state.solution
 
 
@@ -186,7 +195,7 @@ def test_a_moving_slider_is_solved_to_the_digits_shown_and_at_rest_to_the_end(se
     assert at_rest.design == moving.design
     assert at_rest.residual <= 1e-10
     assert_same_trim(at_rest, whole)
-    assert "rest" in [page.calls[-1] for _ in steps]
+    assert "work" in [page.calls[-1] for _ in steps]
     assert page.frames[-1].solution is page.latest.state.solution
     assert not session._all_changed
 
@@ -268,9 +277,15 @@ def test_search_is_shown_in_place_of_the_sliders(session: Session):
 def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
     """A page that is loaded again early must find its own rotor."""
     page: Any = session.page
-    monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
+
+    def sweep(*_: object) -> Generator[None, None, bool]:
+        page.calls.append("sweep")
+        yield
+        return True
+
+    monkeypatch.setattr(session._curves, "sweep", sweep)
     update(session)
-    assert page.calls[-6:] == ["rest", "kept", "sweep", "rest", "kept", "deferred"]
+    assert page.calls[-8:] == ["rest", "work", "kept", "sweep", "rest", "kept", "work", "work later"]
 
 
 def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):

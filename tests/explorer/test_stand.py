@@ -12,6 +12,7 @@ from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_con
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
+from explorer.workers.call import at_once
 from rotor import make_design, solve
 from rotor.support.chart import Points
 from rotor.validation.compare import SETS, load_set
@@ -99,7 +100,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert len(marks.x) == 4
     assert len(line.x) == 0
     drawn: list[bool] = []
-    chart.trim_points(solution, lambda: False, lambda: drawn.append(True))
+    at_once(chart.trim_points(solution, lambda: drawn.append(True)))
     after = chart.chart(solution)
     assert drawn
     assert after is not None

@@ -4,6 +4,7 @@ import itertools
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from explorer.text import readout
 from explorer.text.design_words import model_words
 from explorer.text.status import provenance, status_panel, trust_page
 from explorer.text.why import why
+from explorer.workers.call import at_once
 from rotor import Caveat, Design, Solution, Status, make_design, solve
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.design.twist import LinearTwist
@@ -122,17 +124,27 @@ class TestPowerCurves:
     def test_sweep_matches_single_solves(self):
         design, curves = LINEAR, PowerCurves()
         assert np.isnan(curves.known(design, baseline_of(design)).design).all()
-        assert curves.sweep(design, baseline_of(design), lambda: False)
+        assert at_once(curves.sweep(design, baseline_of(design)))
         k = plots.SWEEP.index(0.2)
         known = curves.known(design, baseline_of(design))
         assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
         assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
         assert (np.diff(known.design[:6]) < 0.0).all()  # From hover, without a gap.
 
+    def test_it_gives_way_before_each_trim_while_others_wait(self, monkeypatch: pytest.MonkeyPatch):
+        trims, one = list[Design](), solve(LINEAR)
+        monkeypatch.setattr("explorer.charts.plots.solve", lambda design, start: trims.append(design) or one)
+        assert list(PowerCurves().sweep(LINEAR, LINEAR)) == []
+        alone = len(trims)
+        monkeypatch.setattr("explorer.charts.plots.UPDATES", SimpleNamespace(crowded=True, waiting=0))
+        for k, _ in enumerate(PowerCurves().sweep(LINEAR, LINEAR)):
+            assert len(trims) == alone + k
+        assert len(trims) == 2 * alone == 2 * len(plots.SWEEP)
+
     def test_linear_inflow_has_a_gap_beside_hover(self):
         design = Inputs(law="linear", linear=-8.0, inflow="drees").design()
         curves = PowerCurves(haste=math.inf)
-        curves.sweep(design, design, lambda: True)
+        at_once(curves.sweep(design, design, lambda: True))
         known = np.isfinite(curves.known(design, design).design)
         # At µ 0.45 40 % of the disk would be stalled; of a few points the curve ends at the last that trims.
         assert known.tolist() == [mu == 0.0 or 0.075 <= mu < 0.39 for mu in plots.SWEEP]
@@ -140,7 +152,7 @@ class TestPowerCurves:
     def test_a_descent_has_its_curve_beyond_the_vortex_ring_state(self):
         design = Inputs(law="linear", linear=-8.0, climb_m_s=-13.0).design()
         curves = PowerCurves(haste=math.inf)
-        assert curves.sweep(design, baseline_of(design), lambda: False)
+        assert at_once(curves.sweep(design, baseline_of(design)))
         curve = curves.known(design, baseline_of(design))
         answers = [solve(design.at(mu=mu)) for mu in plots.SWEEP]
         assert np.isfinite(curve.design).tolist() == [one.converged for one in answers]
@@ -155,15 +167,15 @@ class TestPowerCurves:
         """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""
         monkeypatch.setattr("explorer.charts.plots.OLD_CURVE_S", math.inf)  # A busy machine sweeps more slowly.
         curves, design, next_one = PowerCurves(haste=math.inf), LINEAR, replace(LINEAR, twist=LinearTwist(-0.16))
-        assert curves.sweep(design, baseline_of(design), lambda: True)
-        assert not curves.sweep(next_one, baseline_of(next_one), lambda: True)
+        assert at_once(curves.sweep(design, baseline_of(design), lambda: True))
+        assert not at_once(curves.sweep(next_one, baseline_of(next_one), lambda: True))
         assert np.isfinite(curves.known(next_one, baseline_of(next_one)).design[1:10]).all()  # The one before stays.
         hasty, calls = PowerCurves(haste=0.0), itertools.count()
-        assert not hasty.sweep(design, design, lambda: True)
+        assert not at_once(hasty.sweep(design, design, lambda: True))
         assert hasty.recent
         # Input that comes once every third point is known loses nothing, and nothing more is computed.
         late = PowerCurves(haste=0.0)
-        assert late.sweep(design, design, lambda: next(calls) >= 8)
+        assert at_once(late.sweep(design, design, lambda: next(calls) >= 8))
         assert np.isfinite(late.known(design, design).design).all()
 
     def test_beyond_the_rotor_the_sweep_ends(self, monkeypatch: pytest.MonkeyPatch):
@@ -177,10 +189,10 @@ class TestPowerCurves:
 
         monkeypatch.setattr("explorer.charts.plots.solve", failing)
         design, curves = LINEAR, PowerCurves(haste=math.inf)
-        curves.sweep(design, design, lambda: True)
+        at_once(curves.sweep(design, design, lambda: True))
         assert asked[-2:] == [0.225, 0.3]
         asked.clear()
-        curves.sweep(design, design, lambda: False)
+        at_once(curves.sweep(design, design, lambda: False))
         assert [mu for mu in asked if mu > 0.24] == [0.3, 0.25, 0.275]
         assert np.isfinite(curves.known(design, design).design[:11]).all()
         assert np.isnan(curves.known(design, design).design[11:]).all()

@@ -25,6 +25,7 @@ from explorer.views.power import held_power, power_card
 from explorer.views.strip import bands_asked, remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_asked, twist_slopes, worth
+from explorer.workers.call import at_once
 from rotor import doubt
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -52,7 +53,7 @@ def now_at(inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: s
 
 def known(now: PageState, *works: PanelWork) -> PageState:
     """With the results of works, which are remembered."""
-    results = {work: work.run(lambda: False, lambda: None) for work in works}
+    results = {work: at_once(work.run(lambda: None)) for work in works}
     latest = {work.name: result for work, result in results.items()}
     answers = {**now.answers, **{work.key: result for work, result in results.items()}}
     return replace(now, answers=answers, memory=replace(now.memory, latest={**now.memory.latest, **latest}))

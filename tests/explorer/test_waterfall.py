@@ -12,6 +12,7 @@ from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from explorer.views.page_state import PageState
 from explorer.views.waterfall import cost_words, costs, steps_asked, waterfall_chart
 from explorer.views.waterfall import waterfall as shown
+from explorer.workers.call import at_once
 from rotor import Design, make_design, solve
 from rotor.aero.switches import SWITCHES
 from rotor.study.series import Waterfall, waterfall
@@ -59,15 +60,13 @@ def now_at(mu: float) -> PageState:
     return PageState(Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None))
 
 
-def test_what_was_interrupted_goes_on_and_it_is_shown_whole_or_not_at_all():
+def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
     now = now_at(0.2)
     (work,) = steps_asked(now)
     assert "Computing" in shown(now)["details.waterfall"]
-    asked = iter([False, False, True])
-    assert work.run(lambda: next(asked), lambda: None) is None
-    left = iter([False] * 2 * len(SWITCHES))  # For all steps but those two, and to see the end.
-    steps = work.run(lambda: next(left), lambda: None)
-    assert next(left, None) is None
+    coming = work.run(lambda: None)
+    assert [next(coming) for _ in range(2 * len(SWITCHES))] == [None] * 2 * len(SWITCHES)  # It gives way after each.
+    steps = at_once(coming)
     assert len(steps) == 2 * len(SWITCHES) + 1
     known = replace(now, answers={work.key: steps}, memory=replace(now.memory, latest={work.name: steps}))
     drawn = shown(known)

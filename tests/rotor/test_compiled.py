@@ -3,6 +3,7 @@
 import errno
 import importlib.util
 import io
+import os
 import re
 import sys
 from pathlib import Path
@@ -13,7 +14,12 @@ from numba.core import caching, config
 
 import rotor
 from rotor.__main__ import main
-from rotor.support.compiled import _watch, compiling, log_compiling, why_not_kept
+from rotor.command.warm import compile_lags
+from rotor.engine.linearise import jacobian
+from rotor.support import compiled
+from rotor.support.compiled import _watch, compiled_beside, compiling, log_compiling, why_not_kept
+from rotor.trim.analysis import power_gradient
+from rotor.trim.solve import analyse, solve
 
 SOURCE = """
 import numba
@@ -167,3 +173,58 @@ def test_a_line_does_not_say_once_where_nothing_can_be_kept(source: Path, monkey
     log_compiling()
     assert module(source).kernel(1.0) == 2.0
     assert "Compiling kernels, in each run" in said.getvalue()
+
+
+BESIDE = """
+import time
+from rotor.support.compiled import compiled
+
+@compiled(error_model="numpy")
+def kernel(x):
+    return x + 1.0
+
+def compile_it():
+    time.sleep(0.5)
+    kernel(1.0)
+
+def fail():
+    raise RuntimeError
+"""
+
+
+class TestBeside:
+    @pytest.fixture
+    def made(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+        name = f"beside_{tmp_path.name}"
+        (tmp_path / f"{name}.py").write_text(BESIDE, encoding="utf-8")
+        monkeypatch.syspath_prepend(tmp_path)
+        monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
+        monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+        return importlib.import_module(name)
+
+    def test_what_another_process_compiles_is_waited_for_and_not_compiled_twice(self, made: Any):
+        with compiled_beside(made.compile_it, made.__name__):
+            assert made.kernel(1.0) == 2.0
+        assert hits(made.kernel) == 1
+        assert not _watch.began
+        assert compiling() == ""
+
+    def test_what_it_does_not_compile_is_compiled_here(self, made: Any):
+        with compiled_beside(made.fail, made.__name__):
+            assert made.kernel(1.0) == 2.0
+        assert hits(made.kernel) == 0
+
+    def test_there_is_none_where_the_kernels_are_kept(self, made: Any, monkeypatch: pytest.MonkeyPatch):
+        made.kernel(1.0)
+        monkeypatch.setattr(compiled.subprocess, "Popen", None)
+        with compiled_beside(made.compile_it, made.__name__):
+            assert made.kernel(1.0) == 2.0
+
+
+def test_the_lags_compiled_beside_are_those_that_a_trim_and_its_gradient_use():
+    power_gradient(solve(rotor.make_design(mu=0.2)))
+    jacobian(analyse(rotor.make_design(mu=0.2, bending=True)).adjoint.point)
+    kernels = [one for one in _watch.kernels if one.py_func.__module__.startswith("rotor.")]
+    before = {one: set(one.signatures) for one in kernels}
+    compile_lags()
+    assert {one: set(one.signatures) for one in kernels} == before

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 
 from explorer.workers import newest_wins
-from explorer.workers.newest_wins import NewestWins, UpdatePool
+from explorer.workers.newest_wins import GIVE_WAY, NewestWins, UpdatePool
 from tests.waited import until
 
 LONG = 60.0
@@ -181,6 +181,26 @@ class TestSteps:
         go.set()
         until(lambda: order == ["first", "second"])
         worker.stop()
+
+    def test_what_gives_way_goes_on_after_the_steps_of_others_and_what_began_first_is_first(self):
+        pool, order = UpdatePool(1), list[str]()
+
+        def steps(name: str, pause: float, count: int) -> Iterator[float]:
+            for k in range(count):
+                order.append(f"{name}{k}")
+                yield pause
+
+        pages = [
+            NewestWins(lambda one=one: steps(*one), fail, pool)
+            for one in (("long", GIVE_WAY, 3), ("longer", GIVE_WAY, 3), ("short", 0.0, 2))
+        ]
+        _, go = blocked(pool)
+        for page in pages:
+            page.wake()
+        go.set()
+        until(lambda: len(order) == 8)
+        assert order[:4] == ["long0", "longer0", "short0", "short1"]
+        assert order[4:] == ["long1", "long2", "longer1", "longer2"]
 
 
 class TestCrowd:
