@@ -199,7 +199,7 @@ class Visitor:
 def part_of(page: Page, kind: type[Part]) -> Part:
     """The part of a page that has this class."""
     shows: list[Any] = [*page.context.refreshing, *page.context.following]
-    return next(part for show in shows if isinstance(part := show.__self__, kind))
+    return next(part for show in shows if isinstance(part := getattr(show, "__self__", None), kind))
 
 
 async def arrived(address: str, **options: Any) -> Visitor:
