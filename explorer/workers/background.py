@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any, Literal
 
 from explorer.workers.call import Call
+from explorer.workers.newest_wins import UPDATES
 from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted, Processes
 from rotor.support.worker_process import Task
 
@@ -137,6 +138,8 @@ class LongWork:
 _KEPT = 64
 _LIMIT = 600.0
 """[s] for each task, by the clock: it needs seconds of a processor, of which a busy machine gives a worker little."""
+_GIVES_WAY, _LOOKS_AGAIN_S = 7, 0.5
+"""From this urgency on a task begins only while no page draws: else the workers take the processor from its frames."""
 _LATE = "No answer after 10 minutes; the machine may be busy. Trying again."
 _lock = threading.Lock()
 _known: OrderedDict[Call, Any] = OrderedDict()
@@ -173,10 +176,7 @@ class PoolAnswers:
                 self._failures.clear()
             self._tasks = tasks
             if self._next() is not None and (changed or self._timer is not None):
-                self._stop_timer()
-                self._timer = threading.Timer(delay, self._next_one)
-                self._timer.daemon = True
-                self._timer.start()
+                self._next_after(delay)
 
     def answer(self, task: Call | None) -> Any:
         """What is known, or the sentence that says why there is no answer; None while it is being worked on."""
@@ -204,6 +204,12 @@ class PoolAnswers:
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
 
+    def _next_after(self, delay: float) -> None:
+        self._stop_timer()
+        self._timer = threading.Timer(delay, self._next_one)
+        self._timer.daemon = True
+        self._timer.start()
+
     def _stop_timer(self) -> None:
         if self._timer is not None:
             self._timer.cancel()
@@ -216,7 +222,11 @@ class PoolAnswers:
         with self._lock:
             self._timer = None
             task = self._next()
-            if self._job is None and not self._stopped and not self._resting and task is not None:
+            if self._job is not None or self._stopped or self._resting or task is None:
+                return
+            if self._urgency >= _GIVES_WAY and UPDATES.busy:
+                self._next_after(_LOOKS_AGAIN_S)
+            else:
                 keep = partial(self._keep, task)
                 self._job = self._pool.begin(task, keep, limit=_LIMIT, urgency=self._urgency)
 

@@ -110,9 +110,13 @@
     if (!seen(path) || path.closest('[viewBox="0 0 24 24"], [viewBox="0 0 20 11"]') || parseFloat(style.strokeWidth) < 1.2 || alpha(style.stroke) * style.strokeOpacity * style.opacity < .5) continue;
     const near = open.filter(({box, drawn, halo, element}) => drawn && !halo && element.ownerSVGElement === path.ownerSVGElement && box.left < edge.right && box.right > edge.left && box.top < edge.bottom + 1 && box.bottom > edge.top - 1);
     if (!near.length) continue;
-    const at = path.getScreenCTM(), long = path.getTotalLength();
+    const at = path.getScreenCTM(), long = path.getTotalLength(), clipped = path.closest('[clip-path]')?.getAttribute('clip-path').slice(4, -1);
+    const frame = clipped && document.querySelector(`${clipped} rect`);  // A curve beyond its axis is not seen.
+    const [least, most] = frame ? [frame.y.baseVal.value, frame.y.baseVal.value + frame.height.baseVal.value] : [-Infinity, Infinity];
     for (let s = 0; s <= long; s += 2) {
-      const {x, y} = path.getPointAtLength(s), [px, py] = [at.a * x + at.c * y + at.e, at.b * x + at.d * y + at.f];
+      const {x, y} = path.getPointAtLength(s);
+      if (y < least || y > most) continue;
+      const [px, py] = [at.a * x + at.c * y + at.e, at.b * x + at.d * y + at.f];
       for (const word of near) if (px > word.box.left + 1 && px < word.box.right - 1 && py > word.box.top + 1 && py < word.box.bottom - 1) hit.set(word, path);
     }
   }
