@@ -12,7 +12,7 @@ from rotor.trim.low_speed import vortex_ring
 Bands = tuple[tuple[float, float], ...]
 """Advance ratios, and the band there [W]."""
 _BANDED = (0, 2, 4, 6, 8, 12, 16)
-"""Places in `SWEEP`. Between them a cubic is within 1.1 kW of the band of the UH-60A's change, to µ 0.4."""
+"""Places in `SWEEP`. Between them a cubic is within 1.5 kW of the band of the UH-60A's change, as a test holds."""
 
 
 def curve_bands(design: Design, reference: Design | None) -> Bands:

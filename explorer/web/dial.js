@@ -280,8 +280,10 @@
     const dial = RX.shown('dial'), {dial_matrix: matrix, assessed} = RX.state, now = change();
     const [amplitude, phase] = wave(chosen);
     const dim = words => `<p class="rxf-dim">${text(words)}</p>`;
-    const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}°
-      <span class="rxf-dim">at phase ${phase.toFixed(0)}°${beyond(dial) ? ', out of reach' : ''}</span></p>`;
+    const others = dial.harmonics.filter(n => n !== chosen && wave(n)[0] > 0)
+      .map(n => `, with ${n}/rev ${wave(n)[0].toFixed(2)}°`);  // Power and vibration below are those of all together.
+    const head = `<p class="rxf-num"><b>${chosen}/rev</b> ${amplitude.toFixed(2)}° <span class="rxf-dim">at phase
+      ${phase.toFixed(0)}°${others.join('')}${beyond(dial) ? ', out of reach' : ''}</span></p>`;
     const wait = dial.computing || !now
       ? dim(dial.words || `${matrix ? 'Other inflow models' : 'Response to n/rev twist'}: computing …`) : '';
     if (!now) return head + wait;

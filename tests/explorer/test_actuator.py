@@ -7,6 +7,7 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import OpenPanels, SetHand
+from explorer.workers import background
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
 from rotor.actuator import with_actuator
@@ -272,10 +274,13 @@ def test_a_task_ended_after_its_time_is_begun_again_by_itself():
     assert (answers.answer(late), pool.asked[3:]) == ("found", [])
 
 
-def test_nothing_is_begun_while_somebody_drags():
+def waiting(urgency: int) -> tuple[FakePool, PoolAnswers]:
     pool: Any = FakePool()
-    answers = PoolAnswers(pool, 5, lambda: None)
-    task = asked("wait")
+    return pool, PoolAnswers(pool, urgency, lambda: None)
+
+
+def test_nothing_is_begun_while_somebody_drags():
+    (pool, answers), task = waiting(5), asked("wait")
     for _ in range(8):  # Longer than the wait altogether, but never still.
         answers.ask((task,), 0.4)
         time.sleep(0.1)
@@ -284,9 +289,7 @@ def test_nothing_is_begun_while_somebody_drags():
 
 
 def test_at_rest_a_task_runs_to_its_end_and_the_next_waits():
-    pool: Any = FakePool()
-    answers = PoolAnswers(pool, 5, lambda: None)
-    first, second = asked("under way"), asked("waits")
+    (pool, answers), first, second = waiting(5), asked("under way"), asked("waits")
     answers.ask((first, second), 0.0)
     until(lambda: pool.asked == [first])
     answers.rest(True)
@@ -294,6 +297,19 @@ def test_at_rest_a_task_runs_to_its_end_and_the_next_waits():
     assert (answers.answer(first), pool.asked) == ("one", [first])
     answers.rest(False)
     assert pool.asked == [first, second]
+
+
+def test_what_is_least_urgent_waits_while_any_page_draws(monkeypatch: pytest.MonkeyPatch):
+    (soon, urgent), (late, answers), task = waiting(6), waiting(7), asked("bands of a curve")
+    server = SimpleNamespace(busy=True)
+    monkeypatch.setattr(background, "UPDATES", server)
+    for one in (urgent, answers):
+        one.ask((task,), 0.0)
+    until(lambda: soon.asked == [task])
+    time.sleep(0.2)
+    assert late.asked == []
+    server.busy = False
+    until(lambda: late.asked == [task])
 
 
 def test_the_lifted_blade_is_drawn_as_flown():
