@@ -29,6 +29,8 @@ from tests.tools.visitor import Visitor, arrived, ran
 
 PATIENCE = 900.0
 """[s]"""
+PLACES = 20
+"""Pages that a server takes here."""
 SAME = 1e-7
 """Largest relative difference of a power from that of a solve alone, which starts elsewhere."""
 
@@ -115,7 +117,7 @@ def test_a_power_comes_with_its_frame_while_another_page_draws_charts(app: App):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("pages", "seconds"), [(4, 1.0), pytest.param(20, 600.0, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(("pages", "seconds"), [(4, 1.0), pytest.param(PLACES, 600.0, marks=pytest.mark.nightly)])
 def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, seconds: float):
     async def visit() -> tuple[list[str], list[Session]]:
         visitors = [Visitor(query=query(k)) for k in range(pages)]
@@ -196,7 +198,6 @@ def test_what_updates_free_is_returned_while_the_page_stays(app: App, monkeypatc
 
 Act = Callable[[Visitor], Awaitable[None]]
 SECRET = "a-secret"
-PLACES = 16
 
 
 async def plain(visitor: Visitor) -> None:
