@@ -36,9 +36,9 @@ SAME = 1e-7
 
 
 def query(k: int) -> str:
-    """The flight of a page: every second one bends, all have another height and speed."""
+    """The flight of a page: every second one bends; each has its own height, and a speed that `work` does not set."""
     bends = ";bending=true" if k % 2 else ""
-    return f"?d=1;linear:-{4 + 0.5 * k:g};mu={0.14 + 0.012 * k:g};mass={7000 + 90 * k};alt={150 * k}{bends}"
+    return f"?d=1;linear:-{4 + 0.5 * k:g};mu={0.145 + 0.012 * k:g};mass={7000 + 90 * k};alt={150 * k}{bends}"
 
 
 STATM = Path("/proc/self/statm")
