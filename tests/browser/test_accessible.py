@@ -3,11 +3,11 @@ text below 12 px, and contrast by WCAG 2.1 AA (1.4.3) wherever it is known, in d
 
 import sys
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import pytest
 from playwright.sync_api import Browser
-from watched import Visit, Watched, opened
+from watched import WAIT, Visit, Watched, opened
 
 from explorer.app import App
 
@@ -23,12 +23,20 @@ CHECK = f"""async () => {{
     return [...violations.map(({{id, nodes}}) => `${{id}}: ${{html(nodes)}}`), ...read];
 }}"""
 
+SPOKEN: tuple[tuple[str, Any, str], ...] = (
+    ("optimise", "checkbox", "Limit stall"),
+    ("actuate", "slider", "Voltage [%]"),
+    ("explore", "slider", "Δ outboard [°/R]"),
+)
+"""In each mode the role and name of a control, as a screen reader has them; axe sees to it that all have a name."""
+
 
 def violations(watched: Watched) -> list[str]:
     """Of what stays: what is stale, or fades in, is faint for a moment."""
     found = ["not asked"]
     for _ in range(20):
         watched.answered()
+        watched.page.wait_for_function("() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT)
         if not (found := watched.page.evaluate(CHECK)):
             break
         watched.page.wait_for_timeout(500)
@@ -52,8 +60,10 @@ def test_nothing_is_hard_to_reach(browser: Browser, app: App, scheme: Literal["l
         assert violations(watched) == [], "disk"
         page.locator("[data-do=view]").first.click()
 
-    for mode in ("optimise", "actuate", "explore"):
+    for mode, role, name in SPOKEN:
         watched.mode(mode)
+        watched.unfold(name)
+        page.get_by_role(role, name=name, exact=True).first.wait_for()
         assert violations(watched) == [], mode
     disk()
     for drawer in ("open", "share", "details", "probe", "trust", "lecture", "settings"):
