@@ -98,6 +98,29 @@ class Guess:
         """Factors for the first steps."""
         return None if self.box is None else self.box.factors
 
+    @property
+    def array(self) -> Array:
+        """All its numbers, flat."""
+        others = (part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None)
+        return np.concatenate([self.state.array(), *others])
+
+    def with_array(self, numbers: Array) -> "Guess":
+        """This guess with other numbers, in the order of `array`."""
+        parts, first = dict[str, Array](), len(STATE_NAMES)
+        for name in ("elastic", "bending", "inflow"):
+            if (part := getattr(self, name)) is not None:
+                parts[name] = numbers[first : first + part.size].reshape(part.shape)
+                first += part.size
+        return replace(self, state=TrimState.from_array(numbers[: len(STATE_NAMES)]), **parts)
+
+    def ahead(self, before: "Guess", steps: float) -> "Guess":
+        """So many steps ahead on the secant that leads from an earlier trim to this one; itself where they differ in
+        kind."""
+        here, there = self.array, before.array
+        if len(here) != len(there) or self.inflow_kind != before.inflow_kind:
+            return self
+        return self.with_array(here + steps * (here - there))
+
 
 @dataclass(frozen=True, eq=False)
 class LinearisedTrim:
