@@ -1,0 +1,61 @@
+"""Trims of a drag, which begin on the secant through the last two."""
+
+from typing import Any
+
+import pytest
+
+from rotor import Design, make_design, solve
+from rotor.trim import analyse
+from rotor.trim.newton import FEW_DIGITS
+from rotor.trim.secant import steps_ahead
+
+FIRST, SECOND = make_design(twist="linear:-10", mu=0.2), make_design(twist="linear:-10.4", mu=0.2)
+
+
+@pytest.mark.parametrize(
+    ("rate", "steps"), [(-10.4, 0.0), (-10.8, 1.0), (-11.4, 2.5), (-10.3, -0.25), (-10.0, -1.0), (-12.0, None)]
+)
+def test_a_step_of_the_same_slider_is_counted_in_the_last_one(rate: float, steps: float | None):
+    found = steps_ahead(FIRST, SECOND, make_design(twist=f"linear:{rate}", mu=0.2))
+    assert found == (steps if steps is None else pytest.approx(steps, abs=1e-9))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{"mu": 0.21}, {"twist": "linear:-10.4", "mu": 0.21}, {"twist": "segments:-10,-8@0.6"}, {"mu": 0.0},
+     {"inflow": "drees"}, {"rotor": "bo105"}, {"preset": "thesis"}, {"pitch_per_rev": "3:1:0"}],
+    ids=str,
+)  # fmt: skip
+def test_anything_else_begins_from_the_last_trim(changed: dict[str, Any]):
+    assert steps_ahead(FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed)) is None
+
+
+def test_two_sliders_count_where_they_move_in_proportion():
+    a, b, c = (make_design(mu=0.2 + 0.01 * k, mass_kg=8000.0 + 100.0 * k) for k in range(3))
+    assert steps_ahead(a, b, c) == pytest.approx(1.0)
+    assert steps_ahead(a, b, c.at(mass_kg=8300.0)) is None
+    assert steps_ahead(a, a, b) is None
+
+
+@pytest.mark.parametrize("models", [{}, {"inflow": "pitt-peters"}, {"bending": True}], ids=str)
+@pytest.mark.parametrize("slider", ["twist", "mu", "mass_kg", "altitude_m"])
+def test_a_drag_takes_fewer_passes_and_none_takes_more(models: dict[str, Any], slider: str):
+    """It turns round, and jumps at the end."""
+    step = {"twist": -0.25, "mu": 0.002, "mass_kg": 50.0, "altitude_m": 50.0}[slider]
+
+    begun = {"twist": -10.0, "mu": 0.2, "mass_kg": 8000.0, "altitude_m": 500.0}[slider]
+
+    def design(at: float) -> Design:
+        value: Any = begun + at * step
+        return make_design(**{"mu": 0.2} | models | {slider: f"linear:{value}" if slider == "twist" else value})
+
+    def passes(through: bool) -> list[int]:
+        latest, each = solve(design(0.0)), list[int]()
+        for at in (1.0, 2.0, 3.5, 4.0, 3.5, 2.5, 3.0, 15.0):
+            latest = analyse(design(at), latest if through else latest.start, FEW_DIGITS).solution.require()
+            each.append(latest.passes)
+        return each
+
+    plain, secant = passes(False), passes(True)
+    assert sum(secant) < sum(plain)
+    assert all(one <= other for one, other in zip(secant, plain, strict=True)), (secant, plain)
