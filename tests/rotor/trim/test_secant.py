@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from rotor import Design, make_design, solve
+from rotor.actuator import with_actuator
 from rotor.trim import analyse
 from rotor.trim.newton import FEW_DIGITS
 from rotor.trim.secant import steps_ahead
@@ -30,11 +31,13 @@ def test_anything_else_begins_from_the_last_trim(changed: dict[str, Any]):
     assert steps_ahead(FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed)) is None
 
 
-def test_two_sliders_count_where_they_move_in_proportion():
+def test_many_numbers_count_where_they_move_in_proportion():
     a, b, c = (make_design(mu=0.2 + 0.01 * k, mass_kg=8000.0 + 100.0 * k) for k in range(3))
     assert steps_ahead(a, b, c) == pytest.approx(1.0)
     assert steps_ahead(a, b, c.at(mass_kg=8300.0)) is None
     assert steps_ahead(a, a, b) is None
+    a, b, c = (with_actuator(FIRST, f"MFC_P1,drive={drive}") for drive in (10, 20, 25))
+    assert steps_ahead(a, b, c) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("models", [{}, {"inflow": "pitt-peters"}, {"bending": True}], ids=str)
