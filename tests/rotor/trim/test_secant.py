@@ -14,21 +14,21 @@ FIRST, SECOND = make_design(twist="linear:-10", mu=0.2), make_design(twist="line
 
 
 @pytest.mark.parametrize(
-    ("rate", "steps"), [(-10.4, 0.0), (-10.8, 1.0), (-11.4, 2.5), (-10.3, -0.25), (-10.0, -1.0), (-12.0, None)]
-)
-def test_a_step_of_the_same_slider_is_counted_in_the_last_one(rate: float, steps: float | None):
-    found = steps_ahead(FIRST, SECOND, make_design(twist=f"linear:{rate}", mu=0.2))
-    assert found == (steps if steps is None else pytest.approx(steps, abs=1e-9))
-
-
-@pytest.mark.parametrize(
-    "changed",
-    [{"mu": 0.21}, {"twist": "linear:-10.4", "mu": 0.21}, {"twist": "segments:-10,-8@0.6"}, {"mu": 0.0},
-     {"inflow": "drees"}, {"rotor": "bo105"}, {"preset": "thesis"}, {"pitch_per_rev": "3:1:0"}],
+    ("changed", "steps"),
+    [
+        *(({"twist": f"linear:{rate}"}, steps) for rate, steps in
+          ((-10.4, 0.0), (-10.8, 1.0), (-11.4, 2.5), (-10.3, -0.25), (-10.0, -1.0), (-12.0, None))),
+        *((changed, None) for changed in
+          ({"mu": 0.21}, {"twist": "linear:-10.4", "mu": 0.21}, {"twist": "segments:-10,-8@0.6"}, {"mu": 0.0},
+           {"inflow": "drees"}, {"rotor": "bo105"}, {"preset": "thesis"}, {"pitch_per_rev": "3:1:0"})),
+    ],
     ids=str,
 )  # fmt: skip
-def test_anything_else_begins_from_the_last_trim(changed: dict[str, Any]):
-    assert steps_ahead(FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed)) is None
+def test_steps_of_one_slider_are_counted_and_anything_else_begins_from_the_last_trim(
+    changed: dict[str, Any], steps: float | None
+):
+    found = steps_ahead(FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed))
+    assert found == (steps if steps is None else pytest.approx(steps, abs=1e-9))
 
 
 def test_many_numbers_count_where_they_move_in_proportion():
