@@ -222,6 +222,12 @@ def test_bash_completes_commands_and_flags(printed: Printed):
         assert done.stdout.split() == [expected]
 
 
+def test_a_change_is_printed_with_its_band_under_a_heading_of_words(printed: Printed):
+    twists = "--twist", "linear:-8", "linear:-16", "--relative-to", "linear:-8"
+    first = printed("sweep", "--mu", "0.2", *twists, *QUICK).splitlines()[0]
+    assert first.split("tail kW")[1].split() == ["change", "%", "±", "%", "sureness"]
+
+
 def test_a_sweep_prints_each_caveat_once_and_none_is_lost(printed: Printed):
     """Two remarks on sections have one name; what differs in numbers alone is one caveat."""
     lines = printed("sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--twist", "linear:-30", *QUICK)
