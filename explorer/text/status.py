@@ -106,9 +106,8 @@ def trust_page() -> Markup:
 
 def _trust_row(row: TrustRow) -> Markup:
     hint = ". ".join(part.rstrip(".") for part in (row.remark, row.test) if part)
-    against = tag("span.rx-dim", typographic(row.against))
-    compared = tag("span", typographic(row.what), " ", against)
-    return tag("div.rx-trust-row", compared, tag("b", typographic(row.shown)), title=hint)
+    compared = tag("span", _plain(row.what), " ", tag("span.rx-dim", _plain(row.against)))
+    return tag("div.rx-trust-row", compared, tag("b", _plain(row.shown)), title=hint)
 
 
 _DIGITISED = "uh60a-hover"
@@ -161,7 +160,12 @@ def validated(solution: Solution) -> ValidationRecord:
 
 def _printed(parts: list[str]) -> str:
     """Sentences in a line, as they are printed."""
-    return re.sub(r"\bC_(?=[TPQ])", "C", typographic(" ".join(part for part in parts if part)))
+    return _plain(" ".join(part for part in parts if part))
+
+
+def _plain(text: str) -> str:
+    """With minus signs, coefficients without underscores, and no number apart from its per cent."""
+    return re.sub(r"(?<=[Cc])_(?=[A-Za-z])", "", typographic(text)).replace(" %", "\u00a0%")
 
 
 def _flown(solution: Solution) -> ValidationRecord | None:
