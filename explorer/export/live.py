@@ -60,7 +60,9 @@ def live_html(solution: Solution, units: Units = SI) -> str:
     validity = "Numbers here come from polynomials through trimmed designs, with the error stated above."
     when = datetime.now().astimezone()
     styles = "report.css", "live.css"
-    return document_html(title_words(design), sentence(solution, units), content, validity, when, styles, _SCRIPTS)
+    return document_html(
+        title_words(design), solution, sentence(solution, units), content, validity, when, styles, _SCRIPTS
+    )
 
 
 class _Drawn:

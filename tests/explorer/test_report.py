@@ -32,6 +32,7 @@ from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.text.line import sentence
 from explorer.text.readout import part_change
+from explorer.text.status import validated
 from explorer.web import json_block
 from rotor import Design, Status, doubt, hub_loads, make_design, solve
 from tests.tools.lint_web import html_faults
@@ -165,6 +166,13 @@ class TestReport:
         front = page[page.index('class="front"') : page.index('class="glance"')]
         assert "image/webp;base64,ZHJhd24=" in front
         assert front.count('aria-label="Angle of attack over the disk"') == 1
+
+    @pytest.mark.parametrize(("rotor", "mu"), [("uh60a", 0.0), ("r22", 0.2)])
+    def test_its_foot_names_the_measurement_of_its_rotor(self, rotor: str, mu: float):
+        entry = ReportEntry("Now", solve(make_design(rotor=rotor, mu=mu)))
+        foot = report_html(DesignReport(entry, [entry], VIEW), None, Swept()).partition("<footer>")[2]
+        assert escape(validated(entry.solution).sentence, quote=False) in foot
+        assert ("UH-60" in foot) == (rotor == "uh60a")
 
     def test_chords_are_those_of_the_stl(self):
         said = re.search(r"Chord \[m\]</td>(.+?)</tr>", blade(NOW.design))
