@@ -136,7 +136,7 @@
       const stamp = JSON.stringify([twist, width, height]);
       if (!width || (place.stamp === stamp && place.childElementCount)) continue;
       const {chart} = twist, focus = document.activeElement?.dataset?.knot;
-      const frame = Charts.frame(chart, width, height, {left: 34});
+      const frame = Charts.frame(chart, width, height, {left: 36});
       const handles = twist.knots.map(({name, r, theta, title}) => `
         <g data-knot="${name}" tabindex="0" role="slider" aria-label="${text(title)}" aria-valuenow="${theta}"
           aria-valuetext="${theta}° at ${r} R"><title>${text(title)}</title>${['data-reach r="5"', 'r="5"'].map(of =>
