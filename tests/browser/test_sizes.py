@@ -30,6 +30,12 @@ SUBJECT = """name => {
     return [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
 }"""
 
+LIFTED = """() => [
+    [...document.querySelectorAll('.rxf-label[data-kind=lifted]')].filter(label =>
+        label.checkVisibility({opacityProperty: true, visibilityProperty: true})).length,
+    getComputedStyle(document.querySelector('.rxf-fly [data-key=reached]'), '::before').backgroundColor,
+]"""
+"""How many masses are named at the blade, and what is behind the dots of the schedule's key."""
 TOTAL = "() => RX.state.line.pieces.find(piece => piece.part === 'total-power')?.text"
 
 
@@ -63,6 +69,9 @@ def test_nothing_lies_over_anything(visit: Visit, width: int, height: int, least
         watched.mode(mode)
         page.wait_for_function("() => document.documentElement.dataset.mode !== 'actuate' || RX.state.earns")
         assert found(watched)[0] == CLEAN, mode
+        if mode == "actuate" and width > 1200:
+            page.wait_for_selector(".rxf-fly [data-key=reached]")
+            assert watched.at_rest(lambda: page.evaluate(LIFTED)) == [4, "rgba(0, 0, 0, 0)"]
     for drawer in ("share", "lecture"):
         watched.drawer(drawer)
         assert found(watched)[0] == CLEAN, drawer
