@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import expect
-from watched import LARGE, ON_SCREEN, Visit, Watched
+from watched import LARGE, ON_SCREEN, WAIT, Visit, Watched
 
 MEASURE = (Path(__file__).parent / "overlaps.js").read_text(encoding="utf-8")
 CLEAN: dict[str, list[str]] = {"hit": [], "outside": [], "hidden": [], "nameless": [], "cut": []}
@@ -70,7 +70,7 @@ def test_nothing_lies_over_anything(visit: Visit, width: int, height: int, least
         page.wait_for_function("() => document.documentElement.dataset.mode !== 'actuate' || RX.state.earns")
         assert found(watched)[0] == CLEAN, mode
         if mode == "actuate" and width > 1200:
-            page.wait_for_selector(".rxf-fly [data-key=reached]")
+            page.wait_for_selector(".rxf-fly [data-key=reached]", timeout=4 * WAIT)
             assert watched.at_rest(lambda: page.evaluate(LIFTED)) == [4, "rgba(0, 0, 0, 0)"]
     for drawer in ("share", "lecture"):
         watched.drawer(drawer)
