@@ -62,10 +62,8 @@ def document_html(
     styles: Sequence[str] = ("report.css",),
     scripts: Sequence[str] = ("report.js",),
 ) -> str:
-    """A file that opens without a server, with what its numbers are worth, and what was measured of `solution`.
-
-    Of scripts other than the report's no further one may run in it.
-    """
+    """A file that opens without a server, with what its numbers are worth and what was measured of `solution`. Of
+    scripts other than the report's no further one may run in it."""
     return web.fill(
         "report.html",
         {

@@ -124,6 +124,8 @@ def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
     heads = re.split(" {2,}", out.splitlines()[0])  # Headings stand apart.
     assert [head.replace(" kW", "_w").replace(" ", "_") for head in heads] == level
     assert max(map(len, out.splitlines())) <= 100
+    compared = printed("sweep", "--mu", "0.2", "--twist", "linear:-8", "--relative-to", "linear:-8", *QUICK)
+    assert re.split(" {2,}", compared.splitlines()[0])[-3:] == ["change %", "± %", "sureness"]
     single = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["power_total_w"]), single["power_w"]["total"], rtol=1e-9)
 
@@ -220,12 +222,6 @@ def test_bash_completes_commands_and_flags(printed: Printed):
         program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
         done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
         assert done.stdout.split() == [expected]
-
-
-def test_a_change_is_printed_with_its_band_under_a_heading_of_words(printed: Printed):
-    twists = "--twist", "linear:-8", "linear:-16", "--relative-to", "linear:-8"
-    first = printed("sweep", "--mu", "0.2", *twists, *QUICK).splitlines()[0]
-    assert first.split("tail kW")[1].split() == ["change", "%", "±", "%", "sureness"]
 
 
 def test_a_sweep_prints_each_caveat_once_and_none_is_lost(printed: Printed):
