@@ -58,9 +58,8 @@ def live_html(solution: Solution, units: Units = SI) -> str:
         ),
     )
     validity = "Numbers here come from polynomials through trimmed designs, with the error stated above."
-    when = datetime.now().astimezone()
-    styles = "report.css", "live.css"
-    return document_html(title_words(design), sentence(solution, units), content, validity, when, styles, _SCRIPTS)
+    title, line, when = title_words(design), sentence(solution, units), datetime.now().astimezone()
+    return document_html(title, solution, line, content, validity, when, ("report.css", "live.css"), _SCRIPTS)
 
 
 class _Drawn:

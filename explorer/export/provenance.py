@@ -19,6 +19,7 @@ from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.picture import flown_twist
 from explorer.text.design_words import inflow_words, physics_words, title_words
 from explorer.text.glossary import COLUMNS
+from explorer.text.status import validated
 from rotor import Design, Solution
 from rotor.aero.problem import grid_of
 from rotor.design.aircraft import in_words
@@ -53,6 +54,7 @@ def versions() -> dict[str, str]:
 
 def document_html(
     title: str,
+    solution: Solution,
     line: str,
     content: Markup,
     validity: str,
@@ -60,10 +62,8 @@ def document_html(
     styles: Sequence[str] = ("report.css",),
     scripts: Sequence[str] = ("report.js",),
 ) -> str:
-    """A file that opens without a server, with what its numbers are worth.
-
-    Of scripts other than the report's no further one may run in it.
-    """
+    """A file that opens without a server, with what its numbers are worth and what was measured of `solution`. Of
+    scripts other than the report's no further one may run in it."""
     return web.fill(
         "report.html",
         {
@@ -76,6 +76,7 @@ def document_html(
             "version": versions()[PROGRAM],
             "content": content,
             "validity": validity,
+            "measured": validated(solution).sentence,
             "versions": group(tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()),
             "scripts": web.scripts(*scripts),
         },

@@ -52,6 +52,7 @@ def report_html(
     sections = [_section(report, k) for k in range(len(report.shown))]
     return document_html(
         title,
+        first,
         title if several else report.line or _line(report),
         group(overview, sections),
         "Every design here is trimmed: thrust balances weight and drag, and the parts of power add up to the total.",

@@ -97,18 +97,16 @@ def _status(kind: str, *content: Content) -> Markup:
 
 def trust_page() -> Markup:
     """Comparisons by kind."""
-    parts: list[Content] = [tag("div.rx-dim", "Point at a row to see the test that verifies it.")]
-    for kind, title in KINDS.items():
-        parts.append(tag("h2", title))
-        parts.extend(_trust_row(row) for row in trust_rows() if row.kind == kind)
-    return tag("div.rx.rx-small.rx-trust", parts, data_explorer="trust")
+    hint = tag("div.rx-dim", "Point at a row to see the test that verifies it.")
+    rows = {kind: [_trust_row(row) for row in trust_rows() if row.kind == kind] for kind in KINDS}
+    parts = [[tag("h2", title), rows[kind]] for kind, title in KINDS.items()]
+    return tag("div.rx.rx-small.rx-trust", hint, parts, data_explorer="trust")
 
 
 def _trust_row(row: TrustRow) -> Markup:
     hint = ". ".join(part.rstrip(".") for part in (row.remark, row.test) if part)
-    against = tag("span.rx-dim", typographic(row.against))
-    compared = tag("span", typographic(row.what), " ", against)
-    return tag("div.rx-trust-row", compared, tag("b", typographic(row.shown)), title=hint)
+    compared = tag("span", _printed(row.what), " ", tag("span.rx-dim", _printed(row.against)))
+    return tag("div.rx-trust-row", compared, tag("b", _printed(row.shown)), title=hint)
 
 
 _DIGITISED = "uh60a-hover"
@@ -143,7 +141,7 @@ def validated(solution: Solution) -> ValidationRecord:
     row = row_of(measured, design.models.hover_inflow if design.hovering else design.models.inflow)
     report = f"{measured.title}, {measured.report}"
     if row is None:
-        sentence = _printed([f"Not compared with this inflow model. Measured: {report}.", measured.note])
+        sentence = _printed(f"Not compared with this inflow model. Measured: {report}.", measured.note)
         return ValidationRecord("not compared with this inflow", sentence, measured)
     outside = beyond(measured, solution)
     parts = [f"Compared with measurement: {row.shown} ({report}).", row.remark]
@@ -156,12 +154,13 @@ def validated(solution: Solution) -> ValidationRecord:
     parts.append(measured.note)
     size, error = "within" if measured.name == _DIGITISED else "rms", 0.0 if row.error is None else abs(row.error)
     words = "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
-    return ValidationRecord(words, _printed(parts), measured)
+    return ValidationRecord(words, _printed(*parts), measured)
 
 
-def _printed(parts: list[str]) -> str:
-    """Sentences in a line, as they are printed."""
-    return re.sub(r"\bC_(?=[TPQ])", "C", typographic(" ".join(part for part in parts if part)))
+def _printed(*parts: str) -> str:
+    """In a line, with minus signs, coefficients without underscores, and no number apart from its per cent."""
+    text = typographic(" ".join(filter(None, parts)))
+    return re.sub(r"(?<=[Cc])_(?=[A-Za-z])", "", text).replace(" %", "\u00a0%")
 
 
 def _flown(solution: Solution) -> ValidationRecord | None:

@@ -94,8 +94,8 @@ def _sweep_column(name: str, symbol: str) -> Column:
     """`symbol`: unit of the powers."""
     if name in ("twist", "sureness"):
         return Column(name, LEFT)
-    if name == "change_percent":
-        return Column("change %", "+.2f")
+    if name.startswith("change"):
+        return Column("change %", "+.2f") if name == "change_percent" else Column("± %", ".2f")
     if _is_power(name):
         return Column(f"{name[6:-2].replace('_', ' ')} {symbol}", "z.1f")
     return Column(name, ".4g" if name in NUMBERS else ".1f" if name == "speed_kt" else ".2f")

@@ -117,6 +117,9 @@ def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watch
     for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):
         page.locator(panel).first.wait_for(state="hidden")
     _controls_come_and_go(watched)
+    page.evaluate("() => RX.send('story', 5)")  # Its captions are the longest.
+    page.get_by_text("of the disk in reverse flow", exact=True).wait_for()
+    assert page.locator(".rxs-figures").evaluate("e => e.scrollWidth <= e.clientWidth")
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     rail.wait_for(state="visible" if size[0] > 1100 or size[0] <= 860 else "hidden")

@@ -39,7 +39,10 @@ SUBJECT = """name => {
     const [xs, ys] = [0, 1].map(k => at.map(point => point[k]));
     return [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
 }"""
-
+# How many masses are named at the blade, and what is behind the dots of the schedule's key.
+LIFTED = """() => [[...document.querySelectorAll('.rxf-label[data-kind=lifted]')].filter(label =>
+    label.checkVisibility({opacityProperty: true, visibilityProperty: true})).length,
+    getComputedStyle(document.querySelector('.rxf-fly [data-key=reached]'), '::before').backgroundColor]"""
 TOTAL = "() => RX.state.line.pieces.find(piece => piece.part === 'total-power')?.text"
 
 
@@ -64,6 +67,9 @@ def test_nothing_lies_over_anything(visit: Visit, least: dict[tuple[int, int], i
             faults, disk = found(watched)
             assert faults == CLEAN, (state, width, height)
             assert state != "disk" or disk >= least[width, height], (width, height)
+            if state == "actuate" and width > 1200:
+                page.wait_for_selector(".rxf-fly [data-key=reached]", timeout=4 * WAIT)
+                assert watched.at_rest(lambda: page.evaluate(LIFTED)) == [4, "rgba(0, 0, 0, 0)"]
 
     clean("explore")
     page.locator("[data-do=view][data-value=disk]").click()
@@ -109,11 +115,8 @@ def test_a_large_screen_has_large_type_charts_and_rail(visit: Visit):
     watched = visit(size=(2560, 1440))
     page = watched.page
     assert found(watched)[0] == CLEAN
-    size = (
-        "name => { const box = document.querySelector(name).getBoundingClientRect(); return [box.width, box.height]; }"
-    )
-    assert page.evaluate(size, ".rxf-chart > svg")[1] > 220.0
-    assert page.evaluate(size, "[data-dock-region=right]")[0] > 480.0
+    assert page.locator(".rxf-chart > svg").first.evaluate("e => e.getBoundingClientRect().height") > 220.0
+    assert page.locator("[data-dock-region=right]").evaluate("e => e.getBoundingClientRect().width") > 480.0
     assert page.evaluate("() => parseFloat(getComputedStyle(document.querySelector('.rxf-line')).fontSize)") > 24.0
     # What is dragged in a drawing that has grown stays under the pointer.
     knot = "[data-knot]:last-of-type [data-reach]"

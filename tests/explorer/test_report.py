@@ -32,6 +32,7 @@ from explorer.picture.picture import disk_png
 from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.text.line import sentence
 from explorer.text.readout import part_change
+from explorer.text.status import validated
 from explorer.web import json_block
 from rotor import Design, Status, doubt, hub_loads, make_design, solve
 from tests.tools.lint_web import html_faults
@@ -106,6 +107,7 @@ class TestReport:
             assert f"<tr><td>{name}</td><td>{number}</td></tr>" in page
         assert escape(json.dumps(FAST.design.to_dict()["twist"]), quote=False) in page
         assert "Kept &lt;1&gt;" in page
+        assert validated(NOW).sentence in page.partition("<footer>")[2]
 
     def test_hub_loads_of_blades_that_bend(self, page: str):
         assert "Vibration index" not in page

@@ -124,6 +124,8 @@ def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
     heads = re.split(" {2,}", out.splitlines()[0])  # Headings stand apart.
     assert [head.replace(" kW", "_w").replace(" ", "_") for head in heads] == level
     assert max(map(len, out.splitlines())) <= 100
+    compared = printed("sweep", "--mu", "0.2", "--twist", "linear:-8", "--relative-to", "linear:-8", *QUICK)
+    assert re.split(" {2,}", compared.splitlines()[0])[-3:] == ["change %", "± %", "sureness"]
     single = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["power_total_w"]), single["power_w"]["total"], rtol=1e-9)
 
