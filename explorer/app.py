@@ -96,7 +96,6 @@ class ClientConnection:
             call(self.client, "RX.awaitPlace")
 
     def leave(self) -> None:
-        """The connection has ended."""
         with self._lock:
             self._gone = True
             session, self.session = self.session, None
@@ -230,7 +229,6 @@ class App:
 
     @property
     def _full(self) -> bool:
-        """Whether all places are taken."""
         return len(self._seated) >= self._limits.sessions
 
     def _connected(self, client: viser.ClientHandle) -> None:

@@ -43,7 +43,6 @@ INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 
 def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool = False) -> Line:
-    """A line as its role looks."""
     colour, width, dashes = LOOKS[role]
     return Line(label, x, y, colour, dashes, width, filled=filled)
 

@@ -83,7 +83,6 @@ def document_html(
 
 
 def condition_line(design: Design) -> str:
-    """The flight condition in one line."""
     condition = design.condition
     speed = "hover" if design.hovering else f"advance ratio {condition.advance_ratio:g}"
     load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"

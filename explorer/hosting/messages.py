@@ -183,7 +183,6 @@ class NoDesign(ValueError):
 
 
 def log_dropped(what: str) -> None:
-    """Tell that something was dropped."""
     _log.warning("dropped from a page: %s", what)
 
 

@@ -186,7 +186,6 @@ class RepeatFilter(logging.Filter):
         """Begin of the window and number of records by kind: logger, line of code, type of the error."""
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the record passes."""
         error = record.exc_info[0] if record.exc_info else None
         kind = (record.name, record.lineno, error.__name__ if error else "")
         now = time.monotonic()

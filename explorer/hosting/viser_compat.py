@@ -163,7 +163,6 @@ def _log_failure(done: Any) -> None:
 
 
 def client_html() -> str:
-    """The page of the client, as it was built."""
     return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
 
 

@@ -254,7 +254,6 @@ def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float
 
 
 def flight_of(verdict: Verdict) -> ActuatorFlight:
-    """The flight of a judged actuator."""
     return fly(verdict, flight_legs(verdict.baseline.pair.design))
 
 

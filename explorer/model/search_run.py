@@ -101,7 +101,6 @@ class SearchRequest:
                 return getattr(self, name) is not None
 
     def known_concept(self) -> Concept:
-        """The concept, divided as asked."""
         if self.concept in _DIVIDED:
             return find_concept(self.concept, [self.division])
         if self.concept == "three-segment":
@@ -182,7 +181,6 @@ class SearchRun:
 
     @property
     def progress(self) -> Progress | None:
-        """The last report."""
         return next((report for report in reversed(self.record.reports) if isinstance(report, Progress)), None)
 
     @cached_property

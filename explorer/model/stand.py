@@ -229,7 +229,6 @@ def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
 
 
 def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
-    """The condition that a test begins with."""
     return next((condition for condition in conditions if condition.first), conditions[len(conditions) // 2])
 
 

@@ -121,8 +121,6 @@ SWEPT_TIPS = {"UH-60A": (0.929, math.radians(20.0))}
 
 @dataclass(frozen=True)
 class LoftDetail:
-    """How finely a blade is lofted."""
-
     points: int = 29
     """Round a section (odd)."""
     stations: int = 31

@@ -153,7 +153,6 @@ def drive_colour(actuator: Actuator, share: float) -> Rgb:
 
 
 def mixed_colour(rgb: Rgb, other: Rgb, share: float) -> Rgb:
-    """A colour on the way from one to another."""
     red, green, blue = (round(a + (b - a) * share) for a, b in zip(rgb, other, strict=True))
     return red, green, blue
 

@@ -81,7 +81,6 @@ class RotorNodes:
             self.turn(picture.blades)
 
     def turn(self, blades: Blades) -> None:
-        """Move blades and head."""
         viser_compat.set_pose(self._head, axis_rotation(2, blades.azimuth))
         for handle, pose in zip(self._blades, blades.poses, strict=False):
             place_node(handle, pose)

@@ -109,8 +109,6 @@ class StepChart:
 
 @dataclass(frozen=True)
 class ControlStop:
-    """One position of the control."""
-
     words: str
     inputs: Inputs
     against: Inputs | None
@@ -140,7 +138,6 @@ class StepFacts:
 
 
 def words_of(numbers: Mapping[str, Number], units: Units) -> dict[str, str]:
-    """As they are written."""
     return {name: number.words(units) for name, number in numbers.items()}
 
 

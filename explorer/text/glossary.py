@@ -14,8 +14,6 @@ from rotor.design.quantities import BY_INPUT
 
 @dataclass(frozen=True)
 class Term:
-    """The text of a tooltip."""
-
     sentence: str
     equations: tuple[str, ...] = ()
     """Equations of the source document, as numbered in docs/theory.md."""

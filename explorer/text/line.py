@@ -171,7 +171,6 @@ def change_pieces(
 
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
-    """The limits that are exceeded."""
     return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
 
 

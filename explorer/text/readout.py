@@ -429,5 +429,4 @@ def pair_words(verdict: Verdict) -> str:
 
 
 def limit_words(name: str) -> str:
-    """The name of a limit as an engineer reads it."""
     return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")

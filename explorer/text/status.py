@@ -86,7 +86,6 @@ def provenance(solution: Solution) -> Markup:
 
 
 def section_title(section: str) -> str:
-    """The usual name of a section."""
     return SECTIONS.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
 
 

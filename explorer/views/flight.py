@@ -102,7 +102,6 @@ STATES: Mapping[ActuatorState, str] = {"set": "as set", "schedule": "by schedule
 
 
 def _flown_words(state: str, there: TrimNumbers, units: Units) -> str:
-    """How it flies in this state."""
     left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
     return f"{state}: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
 

@@ -106,7 +106,6 @@ class DesignControls:
 
     @property
     def aircraft(self) -> Aircraft:
-        """That of the inputs."""
         return (self._own or self._special).aircraft
 
     def hold(self, held: bool) -> None:

@@ -114,7 +114,6 @@ class WidgetForm:
         return meant(self._rows[name], place, self._units) if name in self._rows else place
 
     def values(self) -> dict[str, Any]:
-        """All of them, by name."""
         return {name: self[name] for name in self._handles}
 
     def sliders(self, label: str) -> list[str]:
@@ -145,7 +144,6 @@ class WidgetForm:
         self._moved(name, True)
 
     def __contains__(self, name: str) -> bool:
-        """Whether it has this slider."""
         return name in self._placed
 
     def fit(self, name: str, form: Slider, value: float) -> None:
@@ -175,7 +173,6 @@ class WidgetForm:
         self.place(name, value)
 
     def show(self, seen: Mapping[str, bool]) -> None:
-        """Which widgets are on the page."""
         for name, visible in seen.items():
             if self._handles[name].visible != visible:
                 self._handles[name].visible = visible

@@ -115,7 +115,6 @@ class LongWork:
         self._wake()
 
     def stop(self) -> None:
-        """The browser has left."""
         for name in tuple(self._jobs):
             self._silence(name)
 
@@ -190,14 +189,12 @@ class PoolAnswers:
             return {**self._failures}
 
     def rest(self, resting: bool) -> None:
-        """Whether no task begins."""
         with self._lock:
             self._resting = resting
             if self._timer is None:
                 self._next_one()
 
     def stop(self) -> None:
-        """The browser has left."""
         with self._lock:
             self._stopped = True
             self._stop_timer()

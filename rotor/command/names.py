@@ -7,8 +7,6 @@ from rotor.support.assets import asset_path
 
 
 class Command(NamedTuple):
-    """One command."""
-
     adds: str
     """The function that adds its flags, in its file of this folder."""
     help: str

@@ -38,7 +38,6 @@ class Results:
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
         return len(self.columns["point"])
 
     @property

@@ -85,8 +85,6 @@ class JobStarted:
 
 @dataclass(frozen=True)
 class JobProgress:
-    """What the task reported."""
-
     item: Any
 
 

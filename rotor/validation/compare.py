@@ -149,8 +149,6 @@ def load_set(name: str) -> MeasuredSet:
 
 @dataclass(frozen=True)
 class ComparedPoint:
-    """One measured point with the computed one."""
-
     given: dict[str, float]
     measured: dict[str, float]
     computed: dict[str, float] | None

@@ -44,7 +44,6 @@ class ActuatorPanel:
         self.inputs = self.controls.inputs
 
     def hand(self) -> HandSettings:
-        """What the hand has set by now."""
         return replace(self._hand, actuator=self.inputs(), on_board=self._context.layout.mode == "actuate")
 
     def perform(self, effect: SetHand | SetAddress) -> None:

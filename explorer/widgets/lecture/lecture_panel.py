@@ -249,7 +249,6 @@ class LecturePanel:
         return compared_inputs(stop.against, stop.inputs, inputs)
 
     def _show(self) -> None:
-        """The steps in the frame."""
         with self._showing:
             self._send()
 

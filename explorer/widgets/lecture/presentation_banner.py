@@ -115,7 +115,6 @@ class PresentationBanner:
         self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
 
     def end(self) -> None:
-        """Stop presenting."""
         self._presentations.end(self._secret)
         self._presentations.release(self)
         self._secret = ""

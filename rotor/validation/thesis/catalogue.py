@@ -25,7 +25,6 @@ class CatalogueEntry:
 
     @property
     def chapter(self) -> str:
-        """Chapter of the thesis."""
         return thesis()[self.number]["chapter"]
 
     @property

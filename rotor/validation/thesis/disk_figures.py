@@ -143,7 +143,6 @@ def convergence_order(powers: Sequence[float]) -> float:
 
 
 def figure_3_9() -> Report:
-    """Azimuths."""
     powers: dict[str, list[float]] = {}
     errors: dict[str, list[float]] = {}
     numbers: dict[str, float] = {}
