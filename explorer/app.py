@@ -114,7 +114,6 @@ class ClientConnection:
 
 
 def show_dialogue(client: viser.ClientHandle, content: str) -> None:
-    """A dialogue on an empty page."""
     client.gui.main_panel.minimize()
     with client.gui.add_modal("Rotor explorer"):
         client.gui.add_html(content)

@@ -92,7 +92,6 @@ class DesignReport:
 
     @cached_property
     def _bands(self) -> dict[Design, Doubt]:
-        """Those that are known."""
         return {}
 
     def is_reference(self, entry: ReportEntry) -> bool:

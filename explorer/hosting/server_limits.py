@@ -203,7 +203,6 @@ class RepeatFilter(logging.Filter):
 
 
 def limit_log() -> None:
-    """Limit what this process writes to its log."""
     handlers = logging.getLogger().handlers or ([logging.lastResort] if logging.lastResort else [])
     for handler in handlers:
         if not any(isinstance(known, RepeatFilter) for known in handler.filters):

@@ -37,8 +37,6 @@ AGAINST: tuple[Against, ...] = ("same-blade", "best-fixed")
 
 @dataclass(frozen=True)
 class ActuatorInputs:
-    """Everything on the tab."""
-
     actuator: str = "MFC_P1"
     plies: int = 2
     span: tuple[float, float] = default_placement().span

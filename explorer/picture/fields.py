@@ -49,7 +49,6 @@ class Field:
         return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
 
     def exists(self, solution: Solution | DrawnSolution) -> bool:
-        """Whether the models of a solution have the quantity."""
         return not self.needs or getattr(solution.disk, self.needs) is not None
 
     def void(self, drawn: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_] | None:

@@ -38,8 +38,6 @@ TWIST_EXAGGERATION = 8.0
 
 @dataclass(frozen=True, eq=False)
 class StyledMesh:
-    """A mesh, how it looks and how it glows."""
-
     mesh: Mesh
     surface: PieceStyle
     glow: Glow | None = None

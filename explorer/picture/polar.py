@@ -280,8 +280,6 @@ _DASH_SHARE = 0.58
 
 
 class MarkedRegion(IntEnum):
-    """What a polar point is marked as."""
-
     NONE = 0
     STALLED = 1
     STALL_RIM = 2
@@ -362,7 +360,6 @@ def _smoothing(grid: PolarGrid) -> WeightedSums:
 
 @_compile
 def mark_below(codes: Bytes, code: int, values: Single, where: Booleans) -> None:
-    """Mark the points `where` values are below zero."""
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
             if where[i, j] and values[i, j] < 0.0:

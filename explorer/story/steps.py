@@ -219,7 +219,6 @@ def _step(
     against: dict[str, Any] | None = None,
     **shown: Any,
 ) -> LectureStep:
-    """A step as its table in `steps.toml` has it."""
     words: dict[str, Any] = {
         key: tuple(part) if key == "options" else " ".join(part.split()) for key, part in text.items()
     }

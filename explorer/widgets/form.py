@@ -187,7 +187,6 @@ class WidgetForm:
             handle.min = low
 
     def call(self, name: str, label: str) -> None:
-        """Another label."""
         self._handles[name].label = label
 
     def disable(self, held: Mapping[str, bool]) -> None:
@@ -238,7 +237,6 @@ class StandControls:
         self.place(start)
 
     def place(self, inputs: Inputs) -> None:
-        """Show these inputs."""
         self.stand = stand = inputs.stand
         titles = {key: title for key, title in TRIM_TITLES.items() if key != "flight" or not inputs.aircraft.isolated}
         self.form.offer(_TRIM, titles, "flight" if stand is None else stand.trim)

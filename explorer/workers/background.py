@@ -24,8 +24,6 @@ WorkState = Literal["starting", "waiting", "running", "stopping", "done", "stopp
 
 @dataclass(frozen=True, eq=False)
 class WorkRecord:
-    """Long work as it stands."""
-
     task: Any
     state: WorkState = "starting"
     ahead: int = 0

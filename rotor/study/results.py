@@ -60,7 +60,6 @@ class Results:
         return str(self.about.get("units", {}).get(column, ""))
 
     def numeric(self, column: str) -> bool:
-        """Whether a column holds numbers."""
         return self.columns[column].dtype == np.float64
 
     @property

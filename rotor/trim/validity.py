@@ -66,7 +66,6 @@ class CaveatInputs:
 
     @property
     def mu(self) -> float:
-        """Advance ratio."""
         return self.design.condition.advance_ratio
 
     @property

@@ -52,8 +52,6 @@ ALSO = {"xv15-forward-15deg": ("uniform",)}
 
 @dataclass(frozen=True)
 class MeasuredSet:
-    """The points of one test."""
-
     name: str
     title: str
     report: str
@@ -176,7 +174,6 @@ class Comparison:
 
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
-        """Points that count."""
         return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
 
     @property

@@ -62,7 +62,6 @@ class ActuatorPanel:
         self._context.wake()
 
     def put(self, hand: HandSettings) -> None:
-        """Set all of it."""
         if hand != self.hand():
             self._set(**vars(hand))
             self.controls.place(vars(hand.actuator))

@@ -116,7 +116,6 @@ class LecturePanel:
             self.set(max(step, 0))
 
     def set(self, step: int) -> None:
-        """Set the page as a step describes it."""
         if self._before is None:
             self._before = self._screen.on_screen()
             self._guesses.clear()
@@ -329,7 +328,6 @@ class LecturePanel:
             self._change(replace(place, guess=int(answer)))
 
     def _stop_asked(self, stop: Any) -> None:
-        """The control was moved."""
         place = self.place
         facts = None if place is None else self._facts(place.step)
         if self._context.held or place is None or facts is None:
@@ -351,5 +349,4 @@ class LecturePanel:
 
 
 def _task(step: int) -> Call:
-    """Finds the numbers of a step, from 0."""
     return Call(facts_at, (step,))
