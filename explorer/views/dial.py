@@ -22,6 +22,7 @@ from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, effect, programmes
 from rotor.design import Harmonic
+from rotor.design.design import with_models
 from rotor.optimisation.vibration import with_harmonics
 from rotor.support.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.support.markup import tag
@@ -53,7 +54,7 @@ def _asked(now: PageState) -> tuple[Call, ...]:
     reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH_DEG
     shaped, calls = with_harmonics(design, (Harmonic(3, math.radians(1.0)),)), list[Call]()
     for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
-        flown = replace(shaped, models=replace(shaped.models, inflow=inflow))
+        flown = with_models(shaped, inflow=inflow)
         calls.append(Call(dial_answer, (flown, losses, 0.0 if calls else reach)))
     return tuple(calls)
 

@@ -489,6 +489,11 @@ def _other_change(name: str) -> str:
     return f"rotor.make_design(case=design, {name}=…)" if name in quantities.ARGUMENTS and name != "case" else ""
 
 
+def with_models(design: Design, **changes: Any) -> Design:
+    """The design with some of its models changed."""
+    return replace(design, models=replace(design.models, **changes))
+
+
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:
     """The models on so many blade elements and azimuths, whatever the inflow model; None leaves the present number."""
     asked = {"elements": elements, "panels": elements, "azimuths": azimuths, "line_azimuths": azimuths}

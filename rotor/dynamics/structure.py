@@ -1,6 +1,5 @@
 """The structure and the materials of the UH-60A blade along its span (`assets/uh60a_structure.toml`)."""
 
-import tomllib
 from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any
@@ -9,7 +8,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.blade import BladeStructure, Carried, Rotor
 from rotor.dynamics.thin_wall import Material
 from rotor.dynamics.torsion import AddedStructure, stiffer_blade
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,10 +23,9 @@ class BendingStructure(BladeStructure):
     """GJ [N m²] to which the section model is calibrated."""
 
 
-@cache
 def structure_data() -> dict[str, Any]:
     """The parsed `assets/uh60a_structure.toml`."""
-    return tomllib.loads(asset_path("uh60a_structure.toml").read_text(encoding="utf-8"))
+    return toml_asset("uh60a_structure.toml")
 
 
 KNOWN_BLADE = "uh60a"

@@ -1,9 +1,7 @@
 """A design from names: preset, aircraft, twist SPEC, models."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
 from inspect import cleandoc
 from numbers import Integral
 from typing import Any, Unpack
@@ -19,17 +17,11 @@ from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS
 from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
-from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.assets import SHIPPED_ROTORS
 from rotor.support.user_input import did_you_mean
 
 ADVANCE_RATIO = 0.2
 """Advance ratio of a design whose speed is not given."""
-
-
-@cache
-def uh60a_data() -> dict[str, Any]:
-    """The parsed `assets/uh60a.toml`."""
-    return tomllib.loads(asset_path("uh60a.toml").read_text(encoding="utf-8"))
 
 
 def uh60a_rotor(preset: str) -> Rotor:

@@ -4,20 +4,18 @@ Each file has report, rotor, trim and scatter; the comparison gives rows and cha
 """
 
 import math
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import numpy as np
 
 from rotor.design.aircraft import Stand
-from rotor.design.design import Design
-from rotor.design.quantities import HoverInflow
+from rotor.design.design import Design, with_models
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -133,7 +131,7 @@ def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
     if name not in SETS:
         raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)}")
-    record: dict[str, Any] = tomllib.loads(asset_path(f"measured/{name}.toml").read_text(encoding="utf-8"))
+    record: dict[str, Any] = dict(toml_asset(f"measured/{name}.toml"))
     columns: dict[str, list[float]] = record.pop("points")
     rows = zip(*columns.values(), strict=True)
     return MeasuredSet(
@@ -365,8 +363,7 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    base = make_design(rotor=measured.rotor)
-    return replace(base, models=replace(base.models, hover_inflow=cast(HoverInflow, inflow)))
+    return with_models(make_design(rotor=measured.rotor), hover_inflow=inflow)
 
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:

@@ -6,12 +6,12 @@ against the number of blade elements and of azimuths, with the order of converge
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from rotor.aero.switches import with_switches
+from rotor.design.design import with_models
 from rotor.files.make_design import make_design
 from rotor.support.chart import Axis, Chart, Series
 from rotor.trim.solution import DiskFields
@@ -33,7 +33,7 @@ def figure_2_7() -> Report:
     numbers: dict[str, float] = {}
     for k, (preset, twist) in enumerate((("thesis", "linear:-16"), ("flight", "uh60a"))):
         design = make_design(preset=preset, twist=twist, mu=0.0)
-        disk = solve(replace(design, models=replace(design.models, elements=FINE_ELEMENTS, azimuths=8))).require().disk
+        disk = solve(with_models(design, elements=FINE_ELEMENTS, azimuths=8)).require().disk
         lift = disk.dct[:, 0]
         inner, outer = _share(disk, lift, 0.5, 0.9), _share(disk, lift, 0.9, 1.0)
         at_peak = float(disk.r[int(lift.argmax())])
@@ -117,8 +117,7 @@ CASES = (("thesis", "linear:-16"), (FLIGHT_LINEAR, "uh60a"))
 def power_on(name: str, twist: str, mu: float, elements: int, azimuths: int) -> float:
     """Main-rotor power on a grid [kW]."""
     design = variant(name, twist=twist, mu=mu)
-    models = replace(design.models, elements=elements, azimuths=azimuths)
-    return solve(replace(design, models=models)).require().power.main_rotor / 1e3
+    return solve(with_models(design, elements=elements, azimuths=azimuths)).require().power.main_rotor / 1e3
 
 
 LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
@@ -128,8 +127,7 @@ LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
 def line_error(mu: float) -> float:
     """Error of the power of the default model on its panels and azimuths, against twice as many of both [-]."""
     design = make_design(mu=mu)
-    models = replace(design.models, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
-    finer = replace(design, models=models)
+    finer = with_models(design, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
     return solve(design).require().power.main_rotor / solve(finer).require().power.main_rotor - 1.0
 
 

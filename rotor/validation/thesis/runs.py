@@ -12,7 +12,7 @@ from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
 
 from rotor.design.blade import with_airfoils
-from rotor.design.design import Design
+from rotor.design.design import Design, with_models
 from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
@@ -103,8 +103,7 @@ _INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged; mass [kg]."""
     design = make_design(preset=name.partition("-")[0], twist=twist, mu=mu, mass_kg=mass)
-    models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
-    return replace(design, models=models)
+    return with_models(design, inflow=_INFLOW.get(name, design.models.inflow))
 
 
 @lru_cache(maxsize=4096)
