@@ -260,8 +260,7 @@ class App:
         memory.release_memory_soon()
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
-        shared = SharedServices(self.pool, self.presentations)
-        return Session(client, self._start, facts, shared)
+        return Session(client, self._start, facts, SharedServices(self.pool, self.presentations))
 
     def _warm(self) -> None:
         try:

@@ -377,5 +377,4 @@ def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Respon
 def _plain(status: http.HTTPStatus, sentence: str, **others: str) -> Response:
     body = (sentence + "\n").encode(errors="replace")  # The message may repeat bytes of the request that are not text.
     kind = {"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body))}
-    headers = Headers({**kind, **_HEADERS, **others})
-    return Response(status, status.phrase, headers, body)
+    return Response(status, status.phrase, Headers({**kind, **_HEADERS, **others}), body)

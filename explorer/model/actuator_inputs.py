@@ -193,8 +193,7 @@ def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
 def concept_divisions(name: str) -> tuple[float, ...]:
     """r/R where a concept's segments meet."""
     concept = find_concept(name)
-    law = concept.twist([0.5 * (p.low + p.high) for p in concept.parameters])
-    return divisions_of(law, len(concept.parameters))
+    return divisions_of(concept.twist([0.5 * (p.low + p.high) for p in concept.parameters]), len(concept.parameters))
 
 
 Outcome = Verdict | str

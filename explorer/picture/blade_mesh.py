@@ -147,8 +147,7 @@ class BladeShape:
 
     def pitch(self, twist: TwistLaw, exaggeration: float) -> Array:
         """Drawn twist of each ring [rad]; the shank keeps the root's."""
-        lifting = np.maximum(self.r, self.r[_SHANK_RINGS])
-        return drawn_pitch(twist, lifting, exaggeration)
+        return drawn_pitch(twist, np.maximum(self.r, self.r[_SHANK_RINGS]), exaggeration)
 
 
 def drawn_pitch(twist: TwistLaw, r: ArrayLike, exaggeration: float) -> Array:

@@ -258,8 +258,7 @@ class _Ring:
         self._draw.ellipse(self._box(r), outline=strength, width=self._pixels(width))
 
     def tick(self, degrees: float, first: float, last: float, width: float, strength: int) -> None:
-        ends = [self._at(degrees, first), self._at(degrees, last)]
-        self._draw.line(ends, fill=strength, width=self._pixels(width))
+        self._draw.line([self._at(degrees, first), self._at(degrees, last)], fill=strength, width=self._pixels(width))
 
     def arrow(self, first: float, last: float, r: float, width: float, strength: int) -> None:
         """An arc with a head at its later end."""

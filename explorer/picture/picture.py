@@ -293,8 +293,7 @@ def page_disk_png(
     solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
-    ink = scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=scene_theme(view.dark).ink)
 
 
 def disk_png(

@@ -56,8 +56,7 @@ class RotorNodes:
         if rotor == self._fitted:
             return
         self._fitted, radius = rotor, rotor.radius
-        head = joined_meshes([rotor_head(rotor), mast(radius)])
-        set_mesh(self._head, head)
+        set_mesh(self._head, joined_meshes([rotor_head(rotor), mast(radius)]))
         start = straight(rotor)
         for blade in self._blades:
             set_mesh(blade, start)

@@ -288,8 +288,7 @@ def _two_segments(step: LectureStep) -> StepFacts:
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
     chart = StepChart("inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines)
     saving, band = 1.0 - b.power.total / a.power.total, 0.01 * (doubt(b, a).change_band_percent or 0.0)
-    facts = blades.facts(numbers, saving, chart, level, changes)
-    return _banded(step, facts, saving - band, saving + band)
+    return _banded(step, blades.facts(numbers, saving, chart, level, changes), saving - band, saving + band)
 
 
 def _fixed_or_moving(step: LectureStep) -> StepFacts:

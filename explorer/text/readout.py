@@ -295,8 +295,7 @@ def _compared_row(
     changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
     fine = fineness(power, units)
     if part != "total":
-        titled = patch(PARTS[part]) + title
-        return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
+        return _cells(patch(PARTS[part]) + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     return _cells(title, (number(a, fine), number(b, fine), *changes), "rx-sum", tip("total_power"))
 
 

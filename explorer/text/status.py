@@ -28,8 +28,7 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         problem = solution.message
     if problem is not None:
         # In full, even if it is a line longer than the box: the numbers below are out of date anyway.
-        sentence = f"{problem.rstrip('.')}. Greyed: last converged solution."
-        return _status("problem", tag("div.rx-sentence", sentence))
+        return _status("problem", tag("div.rx-sentence", f"{problem.rstrip('.')}. Greyed: last converged solution."))
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
@@ -105,8 +104,7 @@ def trust_page() -> Markup:
 
 def _trust_row(row: TrustRow) -> Markup:
     hint = ". ".join(part.rstrip(".") for part in (row.remark, row.test) if part)
-    against = tag("span.rx-dim", typographic(row.against))
-    compared = tag("span", typographic(row.what), " ", against)
+    compared = tag("span", typographic(row.what), " ", tag("span.rx-dim", typographic(row.against)))
     return tag("div.rx-trust-row", compared, tag("b", typographic(row.shown)), title=hint)
 
 

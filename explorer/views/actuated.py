@@ -263,8 +263,7 @@ def heat_here(now: PageState) -> float:
     if (on_blade := now.of(fitted)) is None:
         return 0.0
     losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
-    waves = now.inputs.twist_per_rev
-    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in waves)
+    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in now.inputs.twist_per_rev)
 
 
 def parts_asked(now: PageState) -> Call | None:

@@ -79,8 +79,7 @@ class DesignControls:
         self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
-                titles = INFLOW_MENUS.get(name, PRESET_TITLES)
-                form.menu(name, ROWS[name].title, titles, getattr(start, name))
+                form.menu(name, ROWS[name].title, INFLOW_MENUS.get(name, PRESET_TITLES), getattr(start, name))
                 if name == "inflow":
                     self._explanation = gui.add_html("")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
@@ -197,8 +196,7 @@ class DesignControls:
         """With a row below each for the arrow of its power sensitivity."""
         for name in names:
             form, below = slider(name, SI, self._start.aircraft), tag("div.rxp-worth", data_worth=name)
-            value = float(getattr(self._start, name))
-            self.form.slider(name, form, value, visible=name in seen, below=below)
+            self.form.slider(name, form, float(getattr(self._start, name)), visible=name in seen, below=below)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name == "preset":

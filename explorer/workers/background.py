@@ -222,8 +222,7 @@ class PoolAnswers:
             if self._urgency >= _GIVES_WAY and UPDATES.busy:
                 self._next_after(_LOOKS_AGAIN_S)
             else:
-                keep = partial(self._keep, task)
-                self._job = self._pool.begin(task, keep, limit=_LIMIT, urgency=self._urgency)
+                self._job = self._pool.begin(task, partial(self._keep, task), limit=_LIMIT, urgency=self._urgency)
 
     def _keep(self, task: Call, news: JobEvent) -> None:
         match news:

@@ -106,8 +106,7 @@ def with_actuator_mass(design: Design, installed: InstalledActuator, carried: Ca
         raise ValueError(f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator")
     carried = carried or _carried(installed, (), False, installed.actuator.id.replace("_", " "))
     condition = replace(design.condition, mass=design.condition.mass + carried.aircraft_kg)
-    rotor = carrying(design.rotor, carried, elastic=design.elastic)
-    return replace(design, rotor=rotor, condition=condition)
+    return replace(design, rotor=carrying(design.rotor, carried, elastic=design.elastic), condition=condition)
 
 
 def drive_name(installed: InstalledActuator, shares: Sequence[float]) -> str:

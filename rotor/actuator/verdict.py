@@ -234,8 +234,7 @@ def try_actuator(
         raise TypeError("the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)")
     host = HostBlade("new", 0.5) if new_blade else HostBlade()
     pair = ConditionPair(require_design(design), mu, share)
-    placement = default_placement(plies)
-    return judge(find_actuator(name), pair, find_concept(concept), placement, host, against=against)
+    return judge(find_actuator(name), pair, find_concept(concept), default_placement(plies), host, against=against)
 
 
 def judge(

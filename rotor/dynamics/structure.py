@@ -106,10 +106,6 @@ def titanium() -> Material:
 
 def glass() -> Material:
     """E-glass/epoxy, one direction."""
-    return listed_material("glass/epoxy", structure_data()["glass"])
-
-
-def listed_material(name: str, row: dict[str, Any]) -> Material:
-    """A material of one direction as the data files list it."""
+    row = structure_data()["glass"]
     moduli = (1e9 * row["e1_gpa"], 1e9 * row["e2_gpa"], row["nu12"], 1e9 * row["g12_gpa"])
-    return Material(name, *moduli, row["density_kg_m3"])
+    return Material("glass/epoxy", *moduli, row["density_kg_m3"])

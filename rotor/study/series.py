@@ -360,10 +360,12 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
     """A row of a sweep by column; what is left out has no value."""
     design, power = solution.design, solution.last_power
     reason = why_no_hub_loads(design) if design.models.bending else None
+    root = design.rotor.blade.root_cutout
+    ends = design.twist([root, 1.0])  # Their difference over the radius between is the rate of a linear twist.
     return {
         "rotor": design.rotor.name,
         "twist": design.twist.spec(),
-        "twist_deg_per_r": _mean_rate(design),
+        "twist_deg_per_r": round(math.degrees(ends[1] - ends[0]) / (1.0 - root), 9),
         "pitch_per_rev": harmonics_text(design.pitch_per_rev),
         "twist_per_rev": harmonics_text(design.linear_active_twist),
         "speed_kt": design.airspeed / KNOT,
@@ -374,13 +376,6 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
         **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
     }
-
-
-def _mean_rate(design: Design) -> float:
-    """Twist of the tip less that of the blade's root over the radius between them [°/R]: the rate of a linear twist."""
-    root = design.rotor.blade.root_cutout
-    ends = design.twist([root, 1.0])
-    return round(math.degrees(ends[1] - ends[0]) / (1.0 - root), 9)
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:

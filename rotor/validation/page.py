@@ -110,8 +110,7 @@ def write_set(data: TrustSet, folder: Path) -> Path:
         write_whole(folder / _picture(data, k), svg(chart))
     write_whole(folder / f"{data.name}-small.svg", small_svg(data.charts[0]))
     for file, _, rows in _tables(data):
-        text = csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n")
-        write_whole(folder / file, text)
+        write_whole(folder / file, csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n"))
     path = folder / f"{data.name}.md"
     write_whole(path, set_page(data))
     return path

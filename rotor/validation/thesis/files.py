@@ -46,8 +46,7 @@ def draw(report: Report, folder: Path) -> None:
         figure: Any = drawing_module().Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
-            place = axes[k // across][k % across]
-            draw_chart(panel, place, legend=not legend_below)
+            draw_chart(panel, axes[k // across][k % across], legend=not legend_below)
         if legend_below:
             handles, labels = axes[0][0].get_legend_handles_labels()
             columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))

@@ -176,8 +176,7 @@ def slower_kw(rate: float, mu: float) -> float:
 
     NaN where so much of the disk is stalled that there is none.
     """
-    design = make_design(twist=f"linear:{rate:g}", mu=100.0 * mu / SLOWER, rotor_speed_percent=SLOWER)
-    solution = solve(design)
+    solution = solve(make_design(twist=f"linear:{rate:g}", mu=100.0 * mu / SLOWER, rotor_speed_percent=SLOWER))
     return solution.power.main_rotor / 1e3 if solution.converged else math.nan
 
 
@@ -232,8 +231,7 @@ def _neighbours(mu: float) -> str:
 
 def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Series, ...]:
     """A curve for each of the five twists; `value` of a twist at a place in x."""
-    places = range(len(x))
-    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
+    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in range(len(x))]) for rate in FIVE_RATES)
 
 
 def best_of_five(name: str, mu: float) -> int:
