@@ -29,7 +29,7 @@ from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
 from rotor.support.markup import Markup, group, tag
 from rotor.support.terminal import OneLineParser, command_words, run_command
-from rotor.support.user_input import write_whole
+from rotor.support.user_input import write_output
 from rotor.trim.doubt import decimals
 
 
@@ -163,7 +163,7 @@ def _run(options: argparse.Namespace) -> int:
         if len(options.designs) > 1:
             raise ValueError(f"--live takes one design, not {len(options.designs)}: make a file of each")
         html = live_html(solve(load_design(options.designs[0])))
-        _write(options.out, html)
+        write_output(options.out, html)
         print(f"{options.out}: {len(html) / 1e3:.0f} kB")
         return 0
     entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
@@ -176,16 +176,9 @@ def _run(options: argparse.Namespace) -> int:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1
     stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
-    _write(options.out, report_html(report, stage))
+    write_output(options.out, report_html(report, stage))
     print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
     return 0
-
-
-def _write(path: str, html: str) -> None:
-    try:
-        write_whole(path, html)
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -12,7 +12,7 @@ from rotor.actuator.ply import PiezoPly
 from rotor.actuator.tube import TorqueTube
 from rotor.design.aircraft import Aircraft
 from rotor.support.assets import toml_asset
-from rotor.support.user_input import did_you_mean
+from rotor.support.user_input import check_known
 
 STEPS = ("numerical studies", "small-scale tests", "full-scale wind tunnel", "demonstrator", "production")
 """Steps of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems,
@@ -47,11 +47,8 @@ def actuators() -> dict[str, Actuator]:
 
 def find_actuator(id: str) -> Actuator:
     """One actuator; ValueError names the known ones."""
-    known = actuators()
-    if id not in known:
-        hint = did_you_mean(id, known) or ":"
-        raise ValueError(f"actuator {id!r} is not known{hint} use one of {', '.join(known)}")
-    return known[id]
+    check_known("actuator", id, actuators())
+    return actuators()[id]
 
 
 HORSEPOWER = 745.699872

@@ -275,12 +275,7 @@ def judge(
     required = base.segment_changes(installed.placement.divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
     free = [min(two, key=lambda trim: trim.power.total) for two in zip(free, reached.solutions, strict=True)]
-    blades = reached.solutions, near, bare, counted_from, heavy, free
-    known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
-    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
-    alike = own == other or against == "best-fixed"
-    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
-    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
+    doubts = _doubts(pair.shares, against, reached.solutions, near, bare, counted_from, heavy, free)
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -294,11 +289,22 @@ def judge(
         free_power=pair.mean(_totals(free)),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
-        doubt=difference_doubt(pair.shares, loaded, other),
-        parts_doubt={name: difference_doubt(pair.shares, *step) for name, step in steps.items()},
+        doubt=doubts.pop("net"),
+        parts_doubt=doubts,
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
+
+
+def _doubts(shares: Sequence[float], against: Against, *blades: Sequence[Solution]) -> dict[str, Doubt | None]:
+    """How sure the parts of a verdict are, and `net`. blades: trims of the one that is driven, at rest, bare, that
+    savings count from, with the actuator's mass, and free."""
+    known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
+    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
+    alike = own == other or against == "best-fixed"
+    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
+    return {name: difference_doubt(shares, *step) for name, step in {"net": (loaded, other), **steps}.items()}
 
 
 def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from rotor.command.common import add_command, add_output_arguments
 from rotor.support.plots import draw_chart, drawing_module
 from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
-from rotor.support.user_input import make_folder
+from rotor.support.user_input import check_known, make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
@@ -47,8 +47,7 @@ def run(args: argparse.Namespace) -> int:
     names = args.sets or [*SETS, *FIELDS]
     known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
     for name in names:
-        if name not in known:
-            raise ValueError(f"set {name!r} is not known: use one of {', '.join(known)}")
+        check_known("set", name, known)
     chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
     comparisons: list[Comparison] = []
     for measured in chosen:

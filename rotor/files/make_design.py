@@ -18,7 +18,7 @@ from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS
-from rotor.support.user_input import did_you_mean
+from rotor.support.user_input import check_known
 
 ADVANCE_RATIO = 0.2
 """Advance ratio of a design whose speed is not given."""
@@ -162,10 +162,7 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
 def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
-        known = (*INFLOW_MODELS, *HOVER_INFLOWS)
-        if inflow not in known:
-            hint = did_you_mean(inflow, known) or ":"
-            raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
+        check_known("inflow model", inflow, (*INFLOW_MODELS, *HOVER_INFLOWS))
         models = replace(models, **{"inflow" if inflow in INFLOW_MODELS else "hover_inflow": inflow})
     models = replace(models, **{field: value for field, value in chosen.items() if value is not None})
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models

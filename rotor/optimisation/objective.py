@@ -16,7 +16,7 @@ from rotor.design.quantities import CONDITION
 from rotor.design.quantity import number
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
 from rotor.support.arrays import Array
-from rotor.support.user_input import read_text, refusing
+from rotor.support.user_input import check_known, read_text, refusing
 from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.adjoint import power_along
 from rotor.trim.analysis import Analysis
@@ -54,8 +54,7 @@ class Objective:
     conditions: tuple[WeightedCondition, ...]
 
     def __post_init__(self) -> None:
-        if self.quantity not in QUANTITIES:
-            raise ValueError(f"objective {self.quantity!r} is not known: use {', '.join(QUANTITIES)}")
+        check_known("objective", self.quantity, QUANTITIES)
         if not self.conditions:
             raise ValueError("an objective needs a flight condition: give at least one")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from rotor.support.markup import Markup, tag
 from rotor.support.terminal import wrapped
-from rotor.support.user_input import csv_text, write_whole
+from rotor.support.user_input import csv_text, write_output
 
 CellValue = str | float | None
 """A text or a number; None where there is no value."""
@@ -68,10 +68,7 @@ class Table:
         if path == "-":
             print(self.csv(), end="")
             return
-        try:
-            write_whole(path, self.csv())
-        except OSError as error:
-            raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
+        write_output(path, self.csv())
 
 
 def table(columns: Iterable[Column], rows: Iterable[Iterable[CellValue]]) -> Table:

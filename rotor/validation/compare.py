@@ -17,6 +17,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart, Line, Points, Series
+from rotor.support.user_input import check_known
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
@@ -129,8 +130,7 @@ def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
 @cache
 def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
-    if name not in SETS:
-        raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)}")
+    check_known("set", name, SETS)
     record: dict[str, Any] = dict(toml_asset(f"measured/{name}.toml"))
     columns: dict[str, list[float]] = record.pop("points")
     rows = zip(*columns.values(), strict=True)
