@@ -215,9 +215,7 @@ class App:
     @property
     def sessions(self) -> tuple[Session, ...]:
         """Sessions at work, in the order in which their browsers connected."""
-        return tuple(
-            connection.session for connection in tuple(self._connections.values()) if connection.session is not None
-        )
+        return tuple(one.session for one in tuple(self._connections.values()) if one.session is not None)
 
     def stop(self) -> None:
         connections, self._connections = list(self._connections.values()), {}

@@ -56,9 +56,7 @@ class MeasuredChart:
         places = [wide * point[along] for point in measured.points]
         values = [size * point[measured.quantity] for point in measured.points]
         scatter = [size * measured.scatter_of(point) for point in measured.points]
-        computed = [
-            (wide * point.given[along], size * point.computed[measured.quantity]) for point in known if point.computed
-        ]
+        computed = [(wide * one.given[along], size * one.computed[measured.quantity]) for one in known if one.computed]
         computed.sort()
         x = (
             wide

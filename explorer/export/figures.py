@@ -217,9 +217,7 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
         start = 0.0 if row is rows[-1] else reached
         ends.append((start, start + row.value))
         reached += row.value
-    reach = [
-        (min(start, end - row.band), max(start, end + row.band)) for row, (start, end) in zip(rows, ends, strict=True)
-    ]
+    reach = [(min(a, b - row.band), max(a, b + row.band)) for row, (a, b) in zip(rows, ends, strict=True)]
     low, high = min(0.0, *(one for one, _ in reach)), max(0.0, *(one for _, one in reach))
     room = _WIDE - _NAME - _NUMBER
 

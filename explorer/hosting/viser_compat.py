@@ -143,9 +143,7 @@ def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
         finally:
             websockets.asyncio.server.serve = serve
     if not passed:
-        raise RuntimeError(
-            "The server started without its request filter: this viser starts its server in another way."
-        )
+        raise RuntimeError("The server started without its request filter: this viser starts servers in another way.")
 
 
 def log_failed_callbacks() -> None:

@@ -73,9 +73,7 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
     series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
     given = () if design is None or design.hovering else design.pitch_per_rev
     for n in range(2, max((harmonic.per_rev for harmonic in given), default=1) + 1):
-        size, phase = next(
-            ((harmonic.amplitude, harmonic.phase) for harmonic in given if harmonic.per_rev == n), (0.0, 0.0)
-        )
+        size, phase = next(((wave.amplitude, wave.phase) for wave in given if wave.per_rev == n), (0.0, 0.0))
         series += [size * math.cos(phase), size * math.sin(phase)]
     return series
 

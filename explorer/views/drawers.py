@@ -49,9 +49,7 @@ def trust(now: PageState) -> dict[str, Any]:
 
 
 def _models_asked(now: PageState) -> tuple[Questions, ...]:
-    return tuple(
-        Questions(_URGENCY, (Call(alternative_models, designs.about),), _STILL) for designs in shown_doubt(now)
-    )
+    return tuple(Questions(_URGENCY, (Call(alternative_models, work.about),), _STILL) for work in shown_doubt(now))
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details", works=shown_doubt)

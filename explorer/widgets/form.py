@@ -264,9 +264,7 @@ class StandControls:
             mach = stand.tip_mach
             self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)
-        conditions = [
-            condition for condition in measured_conditions(inputs.rotor) if (condition.stand is None) == flown
-        ]
+        conditions = [one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown]
         here = (one for one in conditions if all(getattr(inputs, name) == at for name, at in one.inputs.items()))
         now = next(here, None)
         tests = [_NONE, *dict.fromkeys(condition.test for condition in conditions)]

@@ -67,9 +67,7 @@ def run(args: argparse.Namespace) -> int:
     objective = _objective(args, design)
     alone = objective == at_condition(design)
     if args.doubt and not alone:
-        raise ValueError(
-            "--doubt needs the least total power of one flight condition: leave --mission and --objective out"
-        )
+        raise ValueError("--doubt needs the least total power of one condition: leave --mission and --objective out")
     limits = common.limits_from(args, design, (concept,))
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
@@ -143,9 +141,7 @@ def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimu
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
     """Least and largest mean index of some trims over inflow models [%]."""
-    ends = [
-        loads.band for solution in solutions if (loads := hub_loads(solution)) is not None and loads.band is not None
-    ]
+    ends = [loads.band for each in solutions if (loads := hub_loads(each)) is not None and loads.band is not None]
     if len(ends) < len(solutions):
         return None
     low, high = (sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True)) for k in (0, 1))

@@ -81,9 +81,7 @@ def plan_from(args: argparse.Namespace) -> SchedulePlan:
     else:
         ratios = sorted(set(parse_range(args.range or DEFAULT_MU)))
         conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    conditions = tuple(
-        sorted(conditions, key=lambda condition: (condition.flight.advance_ratio, condition.flight.mass))
-    )
+    conditions = tuple(sorted(conditions, key=lambda one: (one.flight.advance_ratio, one.flight.mass)))
     limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)

@@ -99,9 +99,7 @@ def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
             )
         if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
             degrees = math.degrees(harmonic.amplitude)
-            raise ValueError(
-                f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose a value inside"
-            )
+            raise ValueError(f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose one inside")
 
 
 PerRev = str | Sequence["Harmonic | Sequence[float] | Mapping[str, Any]"]
@@ -124,9 +122,7 @@ def read_harmonics(value: PerRev, name: str) -> tuple[Harmonic, ...]:
         raise ValueError(f"{name} is {value!r:.80}: {_FORM}")
     harmonics = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
     check_harmonics(harmonics, name)
-    return tuple(
-        sorted((harmonic for harmonic in harmonics if harmonic.amplitude), key=lambda harmonic: harmonic.per_rev)
-    )
+    return tuple(sorted((wave for wave in harmonics if wave.amplitude), key=lambda wave: wave.per_rev))
 
 
 def _harmonic(item: Any, name: str) -> Harmonic:

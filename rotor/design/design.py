@@ -139,9 +139,7 @@ class Models:
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
-            raise ValueError(
-                f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give at least 4 and 8"
-            )
+            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 

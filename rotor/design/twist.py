@@ -370,9 +370,7 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
     if rest and kind in ("builtin", *SHIPPED_ROTORS):
         raise ValueError(f"twist {spec!r} has numbers, which {kind} does not take: write {kind} or {kind}+linear:-2")
     if kind == "builtin":
-        raise ValueError(
-            f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
-        )
+        raise ValueError(f"twist {spec!r} needs a rotor: pass it to make_design, or name {', '.join(SHIPPED_ROTORS)}")
     if kind == "ideal" and not rest:
         if ideal_tip_pitch is None:
             raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")

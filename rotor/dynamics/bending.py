@@ -66,9 +66,7 @@ def bending_beam(
     ValueError for a structure without stiffness in flap and lag.
     """
     if not structure.bends:
-        raise ValueError(
-            "the blade structure has no stiffness in bending: give flap_stiffness_nm2 and lag_stiffness_nm2"
-        )
+        raise ValueError("the blade structure has no bending stiffness: give flap_stiffness_nm2 and lag_stiffness_nm2")
     nodes = np.linspace(root, structure.radius, ELEMENTS + 1)
     half = 0.5 * np.diff(nodes)
     r = (nodes[:-1, None] + half[:, None] * (1.0 + _PLACES)).ravel()

@@ -151,9 +151,7 @@ def parse_design(content: bytes, name: str) -> Design:
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)
         if "table:" in str(record.get("twist", "")):
-            raise ValueError(
-                f"design file {name!r} refers to a twist table on another machine: write its rows as points:…@…"
-            )
+            raise ValueError(f"design file {name!r} has a twist table of another machine: write its rows as points:…@…")
         return _named(record, name)
 
 

@@ -44,9 +44,7 @@ def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: S
 
     None where one does not trim.
     """
-    here, there = (
-        evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)
-    )
+    here, there = (evaluate_objective(objective, one, starts(one), gradient=False).trims for one in (best, baseline))
     return difference_doubt(objective.shares, here, there, induced=objective.quantity == "induced")
 
 

@@ -262,9 +262,7 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
         )
     if len(rows) < 2:
         raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line with a number for each column")
-    return tuple(
-        _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
-    )
+    return tuple(_condition(path, line, dict(zip(heading, cells, strict=False)), design) for line, cells in rows[1:])
 
 
 def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:

@@ -127,9 +127,7 @@ def read_file(path: str | Path) -> Results:
     except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
         raise
     except (OSError, KeyError, ValueError, arrow.ArrowException):
-        raise ValueError(
-            f"{Path(path).name!r} is not a result of a study: give a chunk-….parquet of its folder"
-        ) from None
+        raise ValueError(f"{Path(path).name!r} is no result of a study: give a chunk-….parquet of its folder") from None
     return results
 
 

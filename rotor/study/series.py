@@ -312,9 +312,7 @@ def _change_chart(table: SweepTable) -> Chart:
         for label, place, change in zip(table.labels, at, table.changes, strict=True)
     ]
     lines = tuple(
-        Line(
-            name, [x for label, x, _ in rows if label == name], [y for label, _, y in rows if label == name], dots=True
-        )
+        Line(name, [x for one, x, _ in rows if one == name], [y for one, _, y in rows if one == name], dots=True)
         for name in dict.fromkeys(table.labels)
     )
     return Chart("", Axis(table.axis.axis_title), Axis(f"Power relative to {table.reference} [%]"), lines)

@@ -274,9 +274,7 @@ def drawn_chart(chart: Chart) -> DrawnChart:
         axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
         for axis, (start, end) in (("x", chart.span("x")), ("y", chart.span("y")))
     }
-    series = [
-        _drawn_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
-    ]
+    series = [_drawn_series(one, colour, digits) for one, colour in zip(chart.series, chart.colours(), strict=True)]
     x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4 if chart.y.whole is None else 2)
     return DrawnChart(chart.title, x, y, series, chart.value, chart.note, chart.rules)
 

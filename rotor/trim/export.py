@@ -164,6 +164,4 @@ def _switches(solution: Solution) -> dict[str, Any]:
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
     """Keys of a record without their values."""
-    return {
-        key: _emptied(cast(dict[str, Any], value)) if isinstance(value, dict) else None for key, value in values.items()
-    }
+    return {key: _emptied(cast(dict[str, Any], one)) if isinstance(one, dict) else None for key, one in values.items()}

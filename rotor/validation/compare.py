@@ -190,9 +190,7 @@ class Comparison:
     @property
     def worst_percent(self) -> float | None:
         """The error of the largest size among the judged points that trim."""
-        return max(
-            (point.error_percent for point in self.judged if point.error_percent is not None), key=abs, default=None
-        )
+        return max((one.error_percent for one in self.judged if one.error_percent is not None), key=abs, default=None)
 
     @property
     def worst(self) -> str:
@@ -200,9 +198,7 @@ class Comparison:
         if self.measured.tolerance is None:
             return f"{self.worst_percent:+.1f} {self.measured.unit}"
         name = self.measured.quantity
-        differences = (
-            point.computed[name] - point.measured[name] for point in self.judged if point.computed is not None
-        )
+        differences = (one.computed[name] - one.measured[name] for one in self.judged if one.computed is not None)
         return f"{max(differences, key=abs):+.5f}"
 
     @property

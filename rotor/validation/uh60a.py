@@ -262,9 +262,7 @@ def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = [load.mu for load in loads]
     series: list[Series] = []
     for n in LOAD_HARMONICS:
-        theirs, computed = (
-            [1e-3 * load.beside.amplitude(n, measured=measured) for load in loads] for measured in (True, False)
-        )
+        theirs, computed = ([1e-3 * load.beside.amplitude(n, measured=of) for load in loads] for of in (True, False))
         series.append(Points(f"{n}/rev, measured", mu, theirs, n))
         series.append(Line("computed", mu, computed, n))
     return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))

@@ -157,9 +157,9 @@ class TestShare:
 
 
 BAD = {
-    "": "not of version 1",
+    "": "not version 1",
     "1;table:/etc/passwd": "a file on the sender",
-    "1;linear:-8;mu": "not of the form key=value",
+    "1;linear:-8;mu": "not key=value",
     "1;linear:-8;mu=fast": "not a number: write for example 1.0",
     "1;linear:-8;mu=NaN": "advance_ratio is nan, outside",
     "1;linear:-8;wings=2": "unknown key 'wings'",

@@ -129,9 +129,7 @@ def described(section: str) -> str:
 
 def shortfall(judgement: Judgement) -> float:
     """The sum of what the statements that do not hold miss the tolerance by, over power [-]."""
-    return sum(
-        abs(value - TOLERANCE) for value, held in zip(judgement.excess, judgement.holds, strict=True) if not held
-    )
+    return sum(abs(one - TOLERANCE) for one, held in zip(judgement.excess, judgement.holds, strict=True) if not held)
 
 
 def judged_readings(sections: tuple[str, ...] = SECTIONS) -> list[Judgement]:

@@ -76,9 +76,7 @@ def figure_3_11() -> Report:
             rate: [solve_variant(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES
         }
         loading = [solution.ct / sigma for solution in powers[0]]
-        least = [
-            min(row) for row in zip(*([solution.cp for solution in powers[rate]] for rate in FIVE_RATES), strict=True)
-        ]
+        least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
         title = f"{name} preset"
         panels += [
             panel(title, "C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
