@@ -190,21 +190,11 @@ def _parser() -> argparse.ArgumentParser:
             ("One whose twist can be dragged", "a.json --live --out page.html"),
         ),
     )
-    parser.add_argument(
-        "designs",
-        nargs="+",
-        metavar="FILE",
-        help="design files; changes are relative to the baseline twist of the first",
-    )
-    parser.add_argument(
-        "--live", action="store_true", help="a page that travels: the sliders of one design's twist work in the file"
-    )
+    words = "design files; changes are relative to the baseline twist of the first"
+    parser.add_argument("designs", nargs="+", metavar="FILE", help=words)
+    words = "a page that travels: the sliders of one design's twist work in the file"
+    parser.add_argument("--live", action="store_true", help=words)
     parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default report.html)")
-    parser.add_argument(
-        "--field",
-        default=ViewState.field,
-        choices=tuple(FIELDS),
-        metavar="NAME",
-        help=f"field on the 3D disk: {', '.join(FIELDS)}",
-    )
+    words = f"field on the 3D disk: {', '.join(FIELDS)}"
+    parser.add_argument("--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=words)
     return parser

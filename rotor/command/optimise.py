@@ -39,19 +39,11 @@ def add_parser(commands: Any) -> None:
         help="what to minimise: total (power, default) | induced (power) | hover-cruise (mean power of hover and the "
         "given speed) | vibration (index of the hub loads)",
     )
-    parser.add_argument(
-        "--hover-share",
-        type=common.finite,
-        metavar="0…1",
-        help="with hover-cruise: fraction of time in hover (default 0.5)",
-    )
+    words = "with hover-cruise: fraction of time in hover (default 0.5)"
+    parser.add_argument("--hover-share", type=common.finite, metavar="0…1", help=words)
     parser.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
-    parser.add_argument(
-        "--no-band",
-        dest="band",
-        action="store_false",
-        help="omit the range of each parameter that costs 0.1 %% of power",
-    )
+    words = "omit the range of each parameter that costs 0.1 %% of power"
+    parser.add_argument("--no-band", dest="band", action="store_false", help=words)
     parser.add_argument("--doubt", action="store_true", help="also search with other models, masses and drag areas")
     common.add_design_arguments(parser, speed=True)
     common.add_search_arguments(parser, STARTS)

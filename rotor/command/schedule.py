@@ -24,21 +24,12 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "schedule", run)
-    parser.add_argument(
-        "--concept",
-        nargs="+",
-        default=list(DEFAULT_CONCEPTS),
-        metavar="NAME",
-        help=f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})",
-    )
+    words = f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})"
+    parser.add_argument("--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=words)
     parser.add_argument("--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--mu",
-        dest="range",
-        metavar="A:B:STEP",
-        help=f"range of advance ratios, equal hours at each (default {DEFAULT_MU})",
-    )
+    words = f"range of advance ratios, equal hours at each (default {DEFAULT_MU})"
+    where.add_argument("--mu", dest="range", metavar="A:B:STEP", help=words)
     where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
     common.add_processes_argument(parser)

@@ -146,9 +146,8 @@ def add_front(commands: Any) -> None:
     parser = common.add_command(commands, "front", run_front)
     varied = f"vary static twist, not active twist; {common.CONCEPT_HELP}"
     parser.add_argument("--concept", metavar="NAME", help=varied)
-    parser.add_argument(
-        "--harmonics", default="2,3", metavar="N,…", help="harmonics per revolution of the active twist (default 2,3)"
-    )
+    words = "harmonics per revolution of the active twist (default 2,3)"
+    parser.add_argument("--harmonics", default="2,3", metavar="N,…", help=words)
     reach = "largest amplitude of each harmonic (default 1)"
     parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
     parser.add_argument("--points", type=int, default=5, metavar="N", help="points on the trade-off curve (default 5)")

@@ -28,9 +28,8 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "validate", run)
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
-    parser.add_argument(
-        "sets", nargs="*", metavar="SET", help=f"set of points: {measured} (default: all these), {more}"
-    )
+    words = f"set of points: {measured} (default: all these), {more}"
+    parser.add_argument("sets", nargs="*", metavar="SET", help=words)
     parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of preset flight)")
     parser.add_argument("--plot", metavar="DIR", help="also draw each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
