@@ -312,14 +312,8 @@ def lift_chart(
         lines.insert(0, role_line(compared, reference.disk.r, lift_per_metre(reference) / 1e3))
     low, high = (end(end(line.y) for line in lines) for end in (min, max))
     peak = float(solution.disk.r[np.argmax(lines[-1].y)])
-    return Chart(
-        "Lift",
-        _ALONG,
-        Axis("kN/m per blade", held_range(previous, min(0.0, low), high)),
-        tuple(lines),
-        value=f"peak at {peak:.2f} R",
-        note="Mean over azimuth.",
-    )
+    scale = Axis("kN/m per blade", held_range(previous, min(0.0, low), high))
+    return Chart("Lift", _ALONG, scale, tuple(lines), value=f"peak at {peak:.2f} R", note="Mean over azimuth.")
 
 
 def lift_per_metre(solution: Solution) -> Array:

@@ -204,12 +204,8 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
         x = 0.01 * wide * percent
         scale.append(tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor"))
         scale.append(text(x, 3.75 * size, word, 0.92 * size, anchor="middle"))
-    return group(
-        tag("linearGradient", stops, id=name),
-        text(0, size, field.label, size),
-        tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})"),
-        scale,
-    )
+    bar = tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})")
+    return group(tag("linearGradient", stops, id=name), text(0, size, field.label, size), bar, scale)
 
 
 def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:

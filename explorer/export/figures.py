@@ -192,12 +192,8 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     kind = change_kind(-verdict.net_saving, word)
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the mission."
-    parts = tag(
-        "figure.chart",
-        tag("figcaption", tag("b", "Extra power"), unit),
-        _balance_bars(verdict, units),
-        tag("p", tag("b", fuel_words(verdict)), data_report="fuel"),
-    )
+    fuel = tag("p", tag("b", fuel_words(verdict)), data_report="fuel")
+    parts = tag("figure.chart", tag("figcaption", tag("b", "Extra power"), unit), _balance_bars(verdict, units), fuel)
     return tag(
         "section.actuator",
         title,

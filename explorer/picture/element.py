@@ -275,12 +275,8 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
     ]
     highest = max(float(np.abs(cl).max()), *(float(np.abs(curve).max()) for curve in curves))
     path = Line("", np.append(alpha, alpha[0]), np.append(np.where(ahead, cl, np.nan), np.nan), THIS, width=1.2)
-    chart = Chart(
-        "Lift curve at this Mach number",
-        Axis("α", (-reach, reach), unit="°"),
-        Axis("C_l", (-1.1 * highest, 1.1 * highest)),
-        (path,),
-    )
+    across = Axis("α", (-reach, reach), unit="°")
+    chart = Chart("Lift curve at this Mach number", across, Axis("C_l", (-1.1 * highest, 1.1 * highest)), (path,))
     return RidePart(
         r=r,
         psi=psi_deg,

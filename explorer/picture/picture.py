@@ -95,10 +95,8 @@ def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | N
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
     pitch = root_pitch(controls, psi, design)
-    return Pose(
-        composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch)),
-        hinge * np.array([cos, sin, 0.0]),
-    )
+    turned = composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch))
+    return Pose(turned, hinge * np.array([cos, sin, 0.0]))
 
 
 def tip_path_pose(controls: TrimState, drop: float) -> Pose:

@@ -123,12 +123,8 @@ def _build(
 ) -> PolarGrid:
     r = np.linspace(*ends, radii)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
-    return PolarGrid(
-        r=r,
-        psi=psi,
-        along=_along(r, np.array(elements)),
-        around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi),
-    )
+    along = _along(r, np.array(elements))
+    return PolarGrid(r=r, psi=psi, along=along, around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi))
 
 
 def _weights(fraction: Array) -> Array:

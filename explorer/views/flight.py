@@ -250,11 +250,5 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     return {} if flight is None else schedule_at(flight, one.installed, POINTS_PER_LEG * x)
 
 
-FLIGHT = Panel(
-    view,
-    blade_out,
-    asks=asks,
-    remember=remember,
-    reacts=follow_flight,
-    presses={"fly": fly_to, "state": choose_state, "balance": choose},
-)
+_PRESSES = {"fly": fly_to, "state": choose_state, "balance": choose}
+FLIGHT = Panel(view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES)

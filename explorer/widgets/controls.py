@@ -239,12 +239,8 @@ def _beside(part: str, words: str) -> Markup:
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> Markup:
     """The heading of the flight sliders with the airspeed [m/s], where the pointer rests as each reader reads it."""
     words, title = units.airspeed(speed), "TEST STAND" if tested else "FLIGHT"
-    return tag(
-        "div.rxp-head",
-        title,
-        tag("span.rx-num", words.partition(" · ")[0], title=words, data_explorer="speed"),
-        data_ruled=True,
-    )
+    airspeed = tag("span.rx-num", words.partition(" · ")[0], title=words, data_explorer="speed")
+    return tag("div.rxp-head", title, airspeed, data_ruled=True)
 
 
 _ALWAYS = ("advance_ratio", "mass_t")

@@ -271,11 +271,8 @@ class StandControls:
         self.form.show({_TEST: bool(conditions), _POINT: now is not None})
         self.form.offer(_TEST, {name: name for name in tests}, _NONE if now is None else now.test)
         if now is not None:
-            self.form.offer(
-                _POINT,
-                {condition.label: condition.label for condition in conditions if condition.test == now.test},
-                now.label,
-            )
+            labels = {condition.label: condition.label for condition in conditions if condition.test == now.test}
+            self.form.offer(_POINT, labels, now.label)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         """The value is `stand`, so that only what a hand does counts."""
@@ -319,11 +316,8 @@ class StandControls:
 
     def _change_load(self, load: str) -> None:
         solution = self._solution()
-        usual = {
-            "ct_over_sigma": 0.07,
-            "collective_deg": 8.0,
-            "thrust_n": 0.3 * stand_slider("thrust_n", self._inputs()).high,
-        }
+        usual = {"ct_over_sigma": 0.07, "collective_deg": 8.0}
+        usual["thrust_n"] = 0.3 * stand_slider("thrust_n", self._inputs()).high
         if self.stand is not None:
             value = usual[load] if solution is None else load_of(solution, load)
             self._change(replace(self.stand, load=load, value=value))

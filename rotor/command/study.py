@@ -281,10 +281,8 @@ def _summary(store: StudyFolder, ended: ChunkRun, message: str) -> int:
     if results is not None:
         print(report(results, record(results)))
     if ended.stopped and missing:
-        print(
-            f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
-            file=sys.stderr,
-        )
+        words = f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue"
+        print(words, file=sys.stderr)
         return STOPPED
     if message := message or ended.sentence:
         print(f"rotor: {message}", file=sys.stderr)

@@ -42,11 +42,8 @@ def _declared(row: Quantity) -> Any:
     return Literal[row.choices] if row.kind == "choice" else BY_KIND[row.kind]
 
 
-_Record = msgspec.defstruct(
-    "_Record",
-    [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)],
-    bases=(FileTable,),
-)
+_FIELDS = [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)]
+_Record = msgspec.defstruct("_Record", _FIELDS, bases=(FileTable,))
 
 
 class _Carried(FileTable, frozen=True, kw_only=True):

@@ -262,11 +262,8 @@ class ControlsTable(FileTable, frozen=True, kw_only=True):
         return ControlRange(*ends, phase=math.radians(self.phase_deg))
 
 
-DoubtTable = defstruct(
-    "DoubtTable",
-    [(row.name, Annotated[float, Meta(ge=0.0, le=row.largest)], None) for row in UNCERTAIN],
-    bases=(FileTable,),
-)
+_ROWS = [(row.name, Annotated[float, Meta(ge=0.0, le=row.largest)], None) for row in UNCERTAIN]
+DoubtTable = defstruct("DoubtTable", _ROWS, bases=(FileTable,))
 """Sizes of uncertain inputs, by the names of `assets/doubt.toml`."""
 
 

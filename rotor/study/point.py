@@ -300,10 +300,8 @@ def _search(design: Design, values: Values, searching: OptimumSettings, warm: Wa
         else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
     )
     near = warm.optimum if warm.concept == _name(concept) else ()
-    limits, guesses = (
-        Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index),
-        (near,) if near else (),
-    )
+    limits = Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index)
+    guesses = (near,) if near else ()
     return Search(design, concept, objective, limits, searching.starts, searching.seed, guesses, band=False)
 
 

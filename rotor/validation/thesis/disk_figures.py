@@ -38,12 +38,8 @@ def figure_2_7() -> Report:
         inner, outer = _share(disk, lift, 0.5, 0.9), _share(disk, lift, 0.9, 1.0)
         at_peak = float(disk.r[int(lift.argmax())])
         at_tip = float(lift[-1] / lift.max())
-        numbers |= {
-            f"{preset}_share": inner,
-            f"{preset}_tip_share": outer,
-            f"{preset}_peak": at_peak,
-            f"{preset}_tip_over_peak": at_tip,
-        }
+        numbers |= {f"{preset}_share": inner, f"{preset}_tip_share": outer}
+        numbers |= {f"{preset}_peak": at_peak, f"{preset}_tip_over_peak": at_tip}
         rows += [(preset, r, v, f) for r, v, f in zip(disk.r, disk.induced[:, 0], lift, strict=True)]
         inflow.append(curve(f"{preset}, {twist}", disk.r, disk.induced[:, 0], colour=k))
         thrust.append(curve(f"{preset}, {twist}", disk.r, lift, colour=k))
