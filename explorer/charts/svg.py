@@ -11,7 +11,7 @@ import msgspec
 
 from explorer.colours import RIM, DiskInk, Rgb, colour_map, css
 from explorer.model.units import SI, Units
-from explorer.picture import disk_image
+from explorer.picture.disk_image import LARGEST, SIZE, half_width
 from explorer.picture.fields import Field
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import ALL_MARKS, DrawnSolution, MarkedRegion, polar_grid, region_codes
@@ -131,18 +131,13 @@ _GRADIENT_STOPS = 25
 
 
 def disk_drawing(
-    solution: Solution,
-    field: Field,
-    colour_range: Range,
-    pixels: int = disk_image.SIZE,
-    letters: float = 9.0,
-    units: Units = SI,
+    solution: Solution, field: Field, colour_range: Range, pixels: int = SIZE, letters: float = 9.0, units: Units = SI
 ) -> Markup:
     """The inside of an SVG that spans −HALF_EDGE…HALF_EDGE: nose up, advancing side right.
 
     `pixels`: along each edge of the field's picture; `letters`: their height.
     """
-    half = disk_image.half_width(100.0, min(pixels, disk_image.LARGEST))
+    half = half_width(100.0, min(pixels, LARGEST))
     png = disk_png(solution, field, colour_range, size=pixels, marks=ALL_MARKS)
     return image(-half, -half, 2 * half, 2 * half, png) + disk_marks(solution, letters, units)
 

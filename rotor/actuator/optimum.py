@@ -28,6 +28,8 @@ from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
+Starts = Sequence[Sequence[float]]
+"""Parameters to begin from, each of one descent."""
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
 FLATTENED_SHARE = 0.5
@@ -83,12 +85,7 @@ class TwistOptimum:
 
 
 def best_twist(
-    design: Design,
-    concept: Concept,
-    starts: Sequence[Sequence[float]] = (),
-    *,
-    alone: bool = False,
-    known: "_Known | None" = None,
+    design: Design, concept: Concept, starts: Starts = (), *, alone: bool = False, known: "_Known | None" = None
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: search from these starts only."""
     return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone, known=known)
@@ -105,7 +102,7 @@ def best_actuated(
     installed: InstalledActuator,
     *,
     scale: float = 1.0,
-    starts: Sequence[Sequence[float]] = (),
+    starts: Starts = (),
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
     """Least mean power [W] with the actuator within `scale` times its range; `near`: trims to start from."""
@@ -134,7 +131,7 @@ def _search(
     flights: _Flights,
     concept: Concept,
     fitted: _Fitted,
-    starts: Sequence[Sequence[float]],
+    starts: Starts,
     *,
     alone: bool = False,
     known: _Known | None = None,

@@ -19,6 +19,7 @@ from rotor.trim.solve import solve
 from rotor.validation.thesis.report import Report, curve, judged, panel, report, table
 from rotor.validation.thesis.runs import FLIGHT_LINEAR, variant
 
+Curves = dict[str, list[float]]
 FINE_ELEMENTS = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""
 FAST_MU = 0.30
@@ -137,8 +138,8 @@ def convergence_order(powers: Sequence[float]) -> float:
 
 
 def figure_3_9() -> Report:
-    powers: dict[str, list[float]] = {}
-    errors: dict[str, list[float]] = {}
+    powers: Curves = {}
+    errors: Curves = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
         *powers[name], finest = [power_on(name, twist, FORWARD, 40, m) for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
@@ -165,8 +166,8 @@ def figure_3_9() -> Report:
 def elements_figure(number: str) -> Report:
     """Power against the number of elements: 3.7 in hover, 3.8 in forward flight."""
     mu, azimuths = (0.0, 8) if number == "3.7" else (FORWARD, 120)
-    powers: dict[str, list[float]] = {}
-    errors: dict[str, list[float]] = {}
+    powers: Curves = {}
+    errors: Curves = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
         row = powers[name] = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
@@ -189,12 +190,7 @@ def elements_figure(number: str) -> Report:
 
 
 def _grid_panels(
-    what: str,
-    grid: Sequence[int],
-    powers: dict[str, list[float]],
-    errors: dict[str, list[float]],
-    mark: tuple[int, str],
-    reference: str,
+    what: str, grid: Sequence[int], powers: Curves, errors: Curves, mark: tuple[int, str], reference: str
 ) -> tuple[Chart, ...]:
     """Power and its error over the grid, each with a dashed line at the marked one."""
     panels: list[Chart] = []

@@ -19,6 +19,7 @@ from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.results import SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.support.processes import Processes, run_tasks
+from rotor.support.worker_process import Stop, Tell
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -49,10 +50,7 @@ Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
 
 
 def compute_ahead(
-    groups: Sequence[Sequence[Call]],
-    processes: int,
-    advance: Callable[[str], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    groups: Sequence[Sequence[Call]], processes: int, advance: Tell | None = None, stop: Stop | None = None
 ) -> bool:
     """Make the calls, each group in one process, one after the other; True when stopped before the end.
 
@@ -72,7 +70,7 @@ def compute_ahead(
         return run_tasks(pool, [(_work, (group,)) for group in waiting if group], keep, stop)
 
 
-def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[tuple[Call, Any]]:
+def _work(calls: tuple[Call, ...], stop: Stop | None) -> Iterator[tuple[Call, Any]]:
     for function, args in calls:
         if stop is not None and stop():
             return
