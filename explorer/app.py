@@ -185,10 +185,8 @@ class App:
         self.pool = Processes(_WORKERS, partial(solver.prepare_worker, self._limits.cache_bytes))
         self._warmed = threading.Event()
         self.presentations = Presentations()
-        hosts, page = (
-            AllowedHosts(host, self._limits.allow_hosts),
-            with_loading_screen(viser_compat.client_html(), web.frame()),
-        )
+        hosts = AllowedHosts(host, self._limits.allow_hosts)
+        page = with_loading_screen(viser_compat.client_html(), web.frame())
         first = FirstAnswers(lambda: self._start)
         request_filter = RequestFilter(
             hosts, self._limits.connections, page, self._limits.frame_ancestors, first, lambda: not self._full

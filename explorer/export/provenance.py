@@ -150,10 +150,8 @@ def disk_csv(solution: Solution) -> bytes:
         angle = name in _ANGLES
         columns.append((f"{name} [{'deg' if angle else '-'}]", np.degrees(values) if angle else values))
     per_blade = design.thrust_unit / (rotor.blades * rotor.radius)
-    columns += [
-        ("thrust per blade [N/m]", disk.dct * per_blade),
-        ("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed),
-    ]
+    columns.append(("thrust per blade [N/m]", disk.dct * per_blade))
+    columns.append(("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed))
     notes = [
         f"{len(disk.r)} elements of {_widths(disk.dr)}; {len(disk.psi)} azimuths",
         "psi = 0 over the tail, 90 on the advancing side",

@@ -269,11 +269,8 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
     saved = np.array([verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least])
-    twists, per_kg, carried = (
-        np.array(strokes) * installed.attainable,
-        verdict.mass_cost / mass,
-        _changes(parts["mass"]),
-    )
+    twists, per_kg = np.array(strokes) * installed.attainable, verdict.mass_cost / mass
+    carried = _changes(parts["mass"])
     net = _changes(verdict.doubt) - carried
     changes = {stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()}
     return OtherStroke(twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass)

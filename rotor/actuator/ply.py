@@ -205,10 +205,8 @@ class PiezoPly(Actuator):
             needs, swings_by = "is out of range at any voltage", "would have to swing by hundreds of kV/mm"
         by_voltage = f"The required twist {needs}; the range is {span}."
         by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
-        return (
-            Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage),
-            Limit("field", ok, field, allowed, "kV/mm", by_field),
-        )
+        voltage = Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage)
+        return voltage, Limit("field", ok, field, allowed, "kV/mm", by_field)
 
     def _strain(self, installed: InstalledActuator, solution: Solution | None) -> Limit:
         strain = fibre_strain(installed, self.material.nu12, solution)

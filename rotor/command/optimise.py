@@ -163,10 +163,7 @@ def _words(progress: Progress) -> str:
 
 def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
     """Parameters by label, degrees in labels that end in _deg."""
-    return {
-        parameter.label: round(parameter.shown(value), 6)
-        for parameter, value in zip(concept.parameters, values, strict=True)
-    }
+    return {one.label: round(one.shown(value), 6) for one, value in zip(concept.parameters, values, strict=True)}
 
 
 def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[str, Any]:

@@ -132,11 +132,8 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
         channels = np.zeros((len(CHANNELS), len(r), 1))
         channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
-        channels[UT], channels[UR], channels[LOSS] = (
-            r - elements.swirl[:, None] + flow.mu_x * sin,
-            flow.mu_x * cos,
-            loss,
-        )
+        channels[UT], channels[UR] = r - elements.swirl[:, None] + flow.mu_x * sin, flow.mu_x * cos
+        channels[LOSS] = loss
         channels[UP] = spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0] + arm[:, None] * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
