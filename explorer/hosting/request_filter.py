@@ -233,11 +233,8 @@ class RequestFilter:
             if not upgrade and path == "/compiling":  # The loading screen asks.
                 return _plain(http.HTTPStatus.OK, compiling())
             if not upgrade and path == "/first-answer":
-                if site not in (
-                    None,
-                    "same-origin",
-                    "none",
-                ):  # An image of another site could ask for solve after solve.
+                # An image of another site could ask for solve after solve.
+                if site not in (None, "same-origin", "none"):
                     return _plain(http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers.")
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
             if not upgrade and path == "/place":  # Asked by a page that was turned away.

@@ -24,7 +24,7 @@ from explorer.story.steps import (
     on_one_line,
     speed_words,
 )
-from explorer.text.line import listed
+from explorer.text.design_words import listed
 from explorer.text.readout import banded, digits_of, limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import FlightLeg, fly, try_actuator

@@ -2,6 +2,7 @@
 models."""
 
 import math
+from collections.abc import Sequence
 
 from explorer.model.inputs import INFLOW_MENUS, PRESET_TITLES, Inputs, baseline_of, baseline_title
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
@@ -47,7 +48,7 @@ def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> 
         return f"{amplitude}° at {harmonic.per_rev}/rev (phase {phase:.0f}°)"
 
     kinds = (("active twist", twist), ("root pitch", pitch))
-    return " and ".join(f"{kind} of {_joined([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
+    return " and ".join(f"{kind} of {listed([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
 
 
 def title_words(design: Design) -> str:
@@ -167,5 +168,6 @@ def _degrees(angle: float) -> str:
     return number(math.degrees(angle), 1).removesuffix(".0")
 
 
-def _joined(parts: list[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+def listed(names: Sequence[str]) -> str:
+    """`fibre strain, temperature and mass`"""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))

@@ -11,7 +11,7 @@ from explorer.model.sliders import slider, stand_slider
 from explorer.model.stand import LOAD_TITLES
 from explorer.model.units import Units, number, shown
 from explorer.parts.results import Kind, LineControl, LinePiece
-from explorer.text.design_words import AS_BUILT, twist_name, wave_names
+from explorer.text.design_words import AS_BUILT, listed, twist_name, wave_names
 from explorer.text.readout import change_sizes, fineness
 from rotor import Design, Solution
 from rotor.design.quantity import Slider
@@ -172,11 +172,6 @@ def change_pieces(
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
     return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
-
-
-def listed(names: Sequence[str]) -> str:
-    """`fibre strain, temperature and mass`"""
-    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def plain(pieces: Sequence[LinePiece], note: str = "") -> str:

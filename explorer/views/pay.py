@@ -16,7 +16,7 @@ from explorer.model.actuator_inputs import as_it_comes
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
-from explorer.text.line import listed
+from explorer.text.design_words import listed
 from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
 from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, here_problem, in_actuate
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand

@@ -171,9 +171,8 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
             ("tip_twist_deg", 1.0, "twist", "twist_deg"), ("tip_flap", 1.0, "flap", "z"),
         ):  # fmt: skip
             rows = csv_rows(asset_path(f"measured/hart2_{file}.csv"))
-            rows = [
-                row for row in rows if row.get("case", case.name) == case.name
-            ]  # One column of loads for each case.
+            # One column of loads for each case.
+            rows = [row for row in rows if row.get("case", case.name) == case.name]
             psi_deg, values = columns(rows, "psi_deg", column)
             yield MeasuredCurve(case, quantity, r, np.radians(psi_deg), values)
         return
