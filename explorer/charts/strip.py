@@ -318,9 +318,7 @@ def lift_chart(
 
 def lift_per_metre(solution: Solution) -> Array:
     """Thrust of one blade per metre of span, mean of a revolution [N/m], (elements,)."""
-    design = solution.design
-    per_blade = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
-    return solution.disk.dct.mean(axis=1) * per_blade
+    return solution.disk.dct.mean(axis=1) * solution.design.thrust_per_metre
 
 
 def _margin(r: Array, margin: Array) -> tuple[str, str]:

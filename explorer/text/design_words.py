@@ -36,8 +36,7 @@ def against(design: Design, reference: Design, pinned: bool) -> str:
 
 def wave_words(design: Design) -> str:
     """Active twist and root pitch that follow the azimuth; empty without, and in hover."""
-    active = () if design.active_twist is None else design.active_twist.harmonics
-    return "" if design.hovering else harmonic_words(active, design.pitch_per_rev)
+    return "" if design.hovering else harmonic_words(design.active_waves, design.pitch_per_rev)
 
 
 def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> str:
@@ -69,10 +68,9 @@ def twist_name(design: Design) -> str:
 
 def wave_names(design: Design) -> list[str]:
     """Active twist and root pitch, a wave each."""
-    active = () if design.active_twist is None else design.active_twist.harmonics
     return [
         f"{wave.per_rev}/rev {kind} {number(math.degrees(wave.amplitude), 2)}°"
-        for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
+        for kind, harmonics in (("twist", design.active_waves), ("pitch", design.pitch_per_rev))
         for wave in harmonics
     ]
 

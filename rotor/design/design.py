@@ -331,6 +331,11 @@ class Design:
         return active.harmonics if active and active == linear_active_twist(active.harmonics, root) else ()
 
     @property
+    def active_waves(self) -> tuple[Harmonic, ...]:
+        """Harmonics of the active twist; none without."""
+        return () if self.active_twist is None else self.active_twist.harmonics
+
+    @property
     def pitch_waves(self) -> tuple[ActiveTwist, ...]:
         """What is given of the pitch as a function of azimuth: active twist and n/rev root pitch; none in hover."""
         if self.hovering:
@@ -439,6 +444,11 @@ class Design:
     def thrust_unit(self) -> float:
         """ρ A (ΩR)² [N], eq. (2.11)."""
         return self.condition.density * self.rotor.disk_area * self.rotor.tip_speed**2
+
+    @property
+    def thrust_per_metre(self) -> float:
+        """What 1 of a coefficient per r/R, such as `dct`, stands for on one blade [N/m]."""
+        return self.thrust_unit / (self.rotor.blades * self.rotor.radius)
 
     @cached_property
     def power_unit(self) -> float:

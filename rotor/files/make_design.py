@@ -89,26 +89,19 @@ def make_design(
     _check_type(Design, "a design: give what rotor.load_design or make_design returns", case=case)
     _check_type(Models, "rotor.Models", models=models)
     _check_type((Stand, Mapping), "a dictionary of what the test gives, or a Stand", stand=stand)
-    name = preset or (case.preset if case else PRESETS[0])
-    check_preset(name)
     if bending not in (True, False):
         raise TypeError(f"bending is {bending!r:.40}: write bending=True or leave it out")
+    name = preset or (case.preset if case else PRESETS[0])
+    check_preset(name)
     aircraft = _aircraft(rotor, case)
-    same = case if case and name == case.preset else None
-    blade = same if rotor is None else None  # Another rotor, or another preset, has its own blade.
-    if case and blade is None and case.rotor.blade.carried is not None:
-        raise ValueError(
-            f"the blades of the case carry {case.rotor.blade.carried.name}: leave rotor and preset as they are"
-        )
-    own = case.twist if case and rotor is None and case.twist != aircraft.twist_for(case.preset) else None
-    if models is None:
-        models = same.models if same else preset_models(name)
-    models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
-    models = replace(models, **{option: True for option in OPTIONS if asked[option]})
-    blades, body = aircraft.rotor_for(name), case if case and rotor is None else aircraft
+    kept, blade = _kept(case, rotor, name)
+    own = kept.twist if kept and kept.twist != aircraft.twist_for(kept.preset) else None
+    models = models or (case.models if case and name == case.preset else preset_models(name))
+    models, stand = _test(aircraft, models, trim, stand, kept)
+    chosen = {"low_speed": low_speed, "loss_on": loss_on, **{option: True for option in OPTIONS if asked[option]}}
+    blades, body = aircraft.rotor_for(name), kept or aircraft
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
-    chosen = {"low_speed": low_speed, "loss_on": loss_on}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -157,6 +150,16 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
             f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or the path of a rotor file, "mine.toml"'
         )
     return rotor
+
+
+def _kept(case: Design | None, rotor: Aircraft | str | None, preset: str) -> tuple[Design | None, Design | None]:
+    """The case where its aircraft stays, and where its blade does too: not on another rotor, nor of another preset."""
+    kept = case if rotor is None else None
+    blade = kept if kept and kept.preset == preset else None
+    carried = case.rotor.blade.carried if case and not blade else None
+    if carried is not None:
+        raise ValueError(f"the blades of the case carry {carried.name}: leave rotor and preset as they are")
+    return kept, blade
 
 
 def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
