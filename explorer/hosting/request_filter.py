@@ -63,9 +63,7 @@ class AllowedHosts:
         name, port = _split(host or "")
         if not name or not self._answers_to(name):
             shown = (host or "")[:_NAME_LENGTH]
-            return (
-                f"This server does not answer to the name {shown!r}: start it with --allow-host {name[:_NAME_LENGTH]}"
-            )
+            return f"This server does not answer to {shown!r}: start it with --allow-host {name[:_NAME_LENGTH]}"
         if origin is None or self._is_own(origin, name, port):
             return None
         return f"Pages of {origin[:_NAME_LENGTH]!r} may not use this server."

@@ -59,9 +59,7 @@ def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
     for id in sorted(one.outcomes, key=list(actuators()).index):
         rows += _kind(one, id, now.units)
     mission = " and ".join(map(flight_text, one.inputs.advance_ratios))
-    note = (
-        f"Power by schedule over the mission, mean of {mission}, against the {against_words(one, one.inputs.against)}."
-    )
+    note = f"Power by schedule, mean of {mission}, against the {against_words(one, one.inputs.against)}."
     return tag("div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds")
 
 

@@ -55,9 +55,7 @@ class ActiveTwist:
     def __post_init__(self) -> None:
         check_harmonics(self.harmonics, "active twist")
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
-            raise ValueError(
-                f"{len(self.stations)} stations but {len(self.shape)} shape values: give two or more pairs"
-            )
+            raise ValueError(f"{len(self.stations)} stations but {len(self.shape)} shape values: give 2 or more pairs")
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"active-twist stations {list(self.stations)} must ascend: sort them")
 

@@ -146,9 +146,7 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     if isinstance(rotor, str):
         return find_aircraft(rotor)
     if not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(
-            f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or the path of a rotor file, "mine.toml"'
-        )
+        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or a rotor file, "mine.toml"')
     return rotor
 
 

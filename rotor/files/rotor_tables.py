@@ -236,9 +236,7 @@ class AirframeTable(FileTable, frozen=True, kw_only=True):
         if low is None and high is None:
             return None
         if low is None or high is None:
-            raise Refusal(
-                "only one of drag_area_low_m2 and drag_area_high_m2 is given: give both, or neither", "airframe"
-            )
+            raise Refusal("only one of drag_area_low_m2 and drag_area_high_m2: give both, or neither", "airframe")
         given = f"drag_area_low_m2 = {low:g} and drag_area_high_m2 = {high:g}"
         check_bounds(self.drag_area_m2, low, high, "airframe", "drag_area_m2", given=given)
         return low, high

@@ -93,9 +93,7 @@ def over_conditions(
         where, weight = pair
         if isinstance(where, Design):
             if where.rotor.at_speed(100.0).tip_speed != design.rotor.at_speed(100.0).tip_speed:
-                raise ValueError(
-                    f"a condition is of {where.rotor.name}, the design of {design.rotor.name}: use one rotor"
-                )
+                raise ValueError(f"a condition has {where.rotor.name}, the design {design.rotor.name}: use one rotor")
             flight = where.condition
         else:
             flight = design.at(mu=where).condition

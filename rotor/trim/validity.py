@@ -90,9 +90,7 @@ def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
     design, models = trim.design, trim.design.models
     found = dict[str, str]()
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        found["teetering"] = (
-            "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft."
-        )
+        found["teetering"] = "A teetering hub has built-in coning; here the blades cone as if hinged at the shaft."
     if design.twist != design.rotor.builtin_twist:
         root, tip = design.twist(np.array([design.rotor.blade.root_cutout, 1.0])).tolist()
         if abs(tip - root) > LARGEST_BUILT_TWIST:
@@ -248,9 +246,7 @@ def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
             )
         return found
     if top_mach > 0.5:
-        found["no-compressibility"] = (
-            f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}."
-        )
+        found["no-compressibility"] = f"The section polar holds for one Mach number; the tip reaches {top_mach:.2f}."
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
         found["mixed-section-data"] = (
             f"Part of the blade uses the polynomials {THESIS_NAME} for one Mach number and transition, the rest tables "
