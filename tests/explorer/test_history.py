@@ -228,7 +228,7 @@ def test_only_what_differs_is_written():
         ("1;colour=red", "'colour=red'"),
         ("1;field=" + "x" * 90, "choose angle, induced"),
         ("1;stall=1", "choose on, off"),
-        ("1;exaggeration=nan", "from 1 to 6"),
+        ("1;exaggeration=nan", "give 1 to 6"),
     ],
 )
 def test_a_bad_view_is_one_sentence(code: str, said: str):
