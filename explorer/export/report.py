@@ -146,10 +146,7 @@ def _section(report: DesignReport, k: int) -> Markup:
 def _caveats(solution: Solution) -> Markup:
     if solution.caveats:
         return tag("ul.care", [tag("li", caveat.sentence) for caveat in solution.caveats])
-    sentence = (
-        "Trimmed: it carries its weight and overcomes its drag, with a residual of "
-        f"less than {tiny(solution.residual)} of the weight."
-    )
+    sentence = f"Trimmed: it carries its weight and overcomes its drag, within {tiny(solution.residual)} of the weight."
     return tag("p.good", sentence)
 
 

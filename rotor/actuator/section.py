@@ -116,8 +116,7 @@ def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | No
     thinnest, thickest = 5e-5, 2e-2
     if excess(thinnest) > 0.0:
         raise ValueError(
-            f"the plies alone are stiffer than the GJ of {spec.stiffness:.0f} N·m² required: "
-            "use fewer plies or a stiffer blade"
+            f"the plies are stiffer than the required {spec.stiffness:.0f} N·m²: use fewer plies or a stiffer blade"
         )
     return float(scipy.optimize.brentq(excess, thinnest, thickest, xtol=1e-8))
 

@@ -262,7 +262,6 @@ def one_row_an_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
         elif any(abs(b - a) > _ALIKE[0] * abs(a) + _ALIKE[1] for a, b in zip(kept[-1][2:], row[2:], strict=True)):
             lines = sorted((int(kept[-1][0]), int(row[0])))
             raise ValueError(
-                f"{name}, line {lines[1]}: {row[1]:g} deg again, with other values than in line {lines[0]}: "
-                "keep one of the two rows"
+                f"{name}, line {lines[1]}: {row[1]:g} deg again, unlike line {lines[0]}: keep one of the two rows"
             )
     return kept

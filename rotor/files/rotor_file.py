@@ -281,8 +281,7 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
                 continue
             if not allow_outside and not beside.resolve().is_relative_to(path.parent.resolve()):
                 raise ValueError(
-                    f"{path.name} names {shorten(name)!r}, which is outside its folder: copy it there, "
-                    "or allow it with --allow-outside"
+                    f"{path.name} names {shorten(name)!r}, outside its folder: copy it there, or give --allow-outside"
                 )
             texts[name] = _read(beside)
         return read_aircraft(path.name, texts)

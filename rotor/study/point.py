@@ -280,8 +280,7 @@ def _bladed(design: Design, values: Values) -> Design:
     missing = [parameter.label for parameter in concept.parameters if parameter.name not in held]
     if missing:
         raise ValueError(
-            f"the concept {concept.name} needs a value of {missing[0]}: add it to [axes] or [fixed], "
-            "or add [optimum] to search for it"
+            f"concept {concept.name} needs {missing[0]}: add it to [axes] or [fixed], or add [optimum] to search for it"
         )
     return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 

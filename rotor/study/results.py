@@ -94,8 +94,7 @@ def read_results(folder: str | Path) -> Results:
             raise
         except (OSError, ValueError, arrow.ArrowException) as error:
             raise ValueError(
-                f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again, which "
-                "computes its points again"
+                f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again for its points"
             ) from None
         if tables[-1].schema != tables[0].schema:
             raise ValueError(f"{path.name} of {str(folder)!r} is of another study: move it elsewhere")

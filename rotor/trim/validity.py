@@ -120,8 +120,7 @@ def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         found["no-blade-structure"] = (
-            "The rotor file has no blade structure, so the blade is rigid in torsion here; real blades twist by "
-            "degrees in flight."
+            "The rotor file has no blade structure, so the blade is rigid in torsion; real blades twist by degrees."
         )
     return found
 
@@ -210,8 +209,7 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
         found["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
     if mu > HIGH_SPEED:
         found["high-speed"] = (
-            f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; the section data describe them "
-            "only roughly."
+            f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; section data are only rough there."
         )
     loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
@@ -241,8 +239,7 @@ def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
     if disk.fit_range is None:  # Tables, not polynomials of one Mach number.
         if top_mach > disk.mach_limit:
             found["mach-outside-data"] = (
-                f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant "
-                "above."
+                f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f}, constant above."
             )
         return found
     if top_mach > 0.5:
