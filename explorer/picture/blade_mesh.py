@@ -86,14 +86,14 @@ def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
     return loft([radius * ring + [0.0, 0.0, height] for radius, height in profile[1:-1]])
 
 
-def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None, segments: int = 14) -> Mesh:
+def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None) -> Mesh:
     """A round bar between two points, conical where `end_radius` is given; lengths [m]."""
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     along = (b - a) / np.linalg.norm(b - a)
     across = np.cross(b - a, np.eye(3)[int(np.argmin(np.abs(b - a)))])
     across /= np.linalg.norm(across)
     up = np.cross(along, across)
-    angle = 2.0 * math.pi * np.arange(segments)[:, None] / segments
+    angle = 2.0 * math.pi * np.arange(14)[:, None] / 14
     ring = np.cos(angle) * across + np.sin(angle) * up
     return loft([a + radius * ring, b + (radius if end_radius is None else end_radius) * ring])
 

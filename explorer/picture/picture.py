@@ -296,7 +296,6 @@ def disk_png(
     solution: Solution,
     field: Field,
     colour_range: tuple[float, float],
-    faded: bool = False,
     size: int = disk_image.SIZE,
     marks: RegionMarks = NO_MARKS,
     ink: DiskInk | None = None,
@@ -312,7 +311,7 @@ def disk_png(
     regions = region_codes(drawn, grid, marks, half_width)
     void = field.void(drawn, grid)
     pixels = disk_image.indices(grid, field.sample(drawn, grid), *colour_range, void, size, regions)
-    return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
+    return encode_png(pixels, disk_image.palette(field.colours, ink))
 
 
 def field_values(solution: Solution, field: Field) -> Array:

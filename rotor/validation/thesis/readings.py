@@ -132,7 +132,7 @@ def shortfall(judgement: Judgement) -> float:
     return sum(abs(one - TOLERANCE) for one, held in zip(judgement.excess, judgement.holds, strict=True) if not held)
 
 
-def judged_readings(sections: tuple[str, ...] = SECTIONS) -> list[Judgement]:
+def judged_readings() -> list[Judgement]:
     """Every reading with these section data: first the one that most statements hold of, or that misses least."""
-    found = [judgement for pair in product(sections, LOSS_ON) for judgement in judge(*pair)]
+    found = [judgement for pair in product(SECTIONS, LOSS_ON) for judgement in judge(*pair)]
     return sorted(found, key=lambda judgement: (-sum(judgement.holds), shortfall(judgement)))
