@@ -104,11 +104,8 @@ def provenance_lines(solution: Solution) -> list[str]:
     ]
     for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", design.active_waves)):
         if harmonics:
-            waves = ", ".join(
-                f"{harmonic.per_rev}/rev {harmonic.amplitude:g} rad, phase {harmonic.phase:g} rad"
-                for harmonic in harmonics
-            )
-            lines.insert(1, f"added {what}: {waves}" + (" (at rest in hover)" if design.hovering else ""))
+            waves = (f"{each.per_rev}/rev {each.amplitude:g} rad, phase {each.phase:g} rad" for each in harmonics)
+            lines.insert(1, f"added {what}: {', '.join(waves)}" + (" (at rest in hover)" if design.hovering else ""))
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
     lines.append("A model, not a measurement.")

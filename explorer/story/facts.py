@@ -156,10 +156,8 @@ def _trim(step: LectureStep) -> StepFacts:
     powers = [solution.power for solution in flight.b]
     values = step.control.values
     hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([power.total for power in powers]))
-    parts = tuple(
-        ChartLine(name, name, tuple(getattr(power, name) for power in powers))
-        for name in ("induced", "profile", "parasite")
-    )
+    names = "induced", "profile", "parasite"
+    parts = tuple(ChartLine(name, name, tuple(getattr(power, name) for power in powers)) for name in names)
     totals = tuple(power.total for power in powers)
     chart = StepChart("advance ratio", "power", "power", values, "mu", (ChartLine("total", "b", totals), *parts))
     ratio = cruise.induced / hover.induced
@@ -415,10 +413,8 @@ class _Sweep:
         self._step, control = step, step.control
         b = [control.apply(step.inputs, value) for value in control.values]
         a = [compared_inputs(step.against, step.inputs, inputs) for inputs in b]
-        self.stops = tuple(
-            ControlStop(control.words(value), inputs, other, ())
-            for value, inputs, other in zip(control.values, b, a, strict=True)
-        )
+        stops = zip(control.values, b, a, strict=True)
+        self.stops = tuple(ControlStop(control.words(value), inputs, other, ()) for value, inputs, other in stops)
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
 
     @property

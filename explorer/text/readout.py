@@ -47,10 +47,8 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
     rows = [_row(name, title, power, reference, units, band) for name, title in titles.items()]
-    words = (
-        tag("span", "total power"),
-        tag("span", f"vs. {baseline_title(solution.design, baseline and baseline.design)}"),
-    )
+    against = baseline_title(solution.design, baseline and baseline.design)
+    words = tag("span", "total power"), tag("span", f"vs. {against}")
     return _panel(solution, reference, words, tag("table", rows), units, band)
 
 
@@ -259,10 +257,8 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     power = solution.power
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
-    rows = [
-        _compared_row(title, name, power, reference, units, band)
-        for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
-    ]
+    titles = {**part_titles(solution.design, pinned.design), "total": "Total"}
+    rows = [_compared_row(title, name, power, reference, units, band) for name, title in titles.items()]
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", ""), "rx-dim rx-small")
     compared = tag("span", "vs. " if reference else None, _name("A"), against)

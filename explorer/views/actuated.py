@@ -284,10 +284,8 @@ def parts_here(now: PageState) -> tuple[tuple[str, float, float], ...]:
     if not isinstance(found, tuple) or drive is None:
         return ()
     steps = pairwise(cast("tuple[tuple[float, float], ...]", found))
-    parts = [
-        (name, before - after, band)
-        for name, ((before, _), (after, band)) in zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
-    ]
+    named = zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
+    parts = [(name, before - after, band) for name, ((before, _), (after, band)) in named]
     return (*(part for part in parts if part[1] or part[0] in ("gross", "mass")), ("drive", 0.0 - drive, 0.0))
 
 

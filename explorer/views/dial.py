@@ -248,11 +248,7 @@ def _spread(name: str, value: float, ends: tuple[float, float], digits: int) -> 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
     """The front beside what other programmes reached, where power and vibration belong to one input."""
     shown = [result for result in programmes() if result.together and result.power_change_percent is not None]
-    powers = [
-        0.0,
-        *(end for dot in dots for end in dot.powers),
-        *(result.power_change_percent or 0.0 for result in shown),
-    ]
+    powers = [0.0, *(end for dot in dots for end in dot.powers), *(one.power_change_percent or 0.0 for one in shown)]
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
     spreads += [Line("", dot.powers, (dot.index, dot.index), _SPREAD, width=4.0) for dot in dots]

@@ -174,10 +174,8 @@ class PiezoPly(Actuator):
         """Energy ½C ΔV² of each segment over the slewing time."""
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
-        energy = sum(
-            0.5 * per_area * area * (swing * self.voltage_swing) ** 2
-            for area, swing in zip(installed.segment_areas, swings, strict=True)
-        )
+        segments = zip(installed.segment_areas, swings, strict=True)
+        energy = sum(0.5 * per_area * area * (swing * self.voltage_swing) ** 2 for area, swing in segments)
         time = float(data["slew_s"])
         slew = installed.masses.blades * energy / time / float(data["amplifier_efficiency"])
         return Drive(self.capacitance(installed), 0.0, slew, time)

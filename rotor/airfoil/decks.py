@@ -308,10 +308,8 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns
 def _at(polar: Polar, alpha_deg: Array) -> Columns:
     """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
     where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
-    cl, log_cd, cm = (
-        np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where))
-        for y in (polar.cl, np.log(polar.cd), polar.cm)
-    )
+    columns = polar.cl, np.log(polar.cd), polar.cm
+    cl, log_cd, cm = (np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where)) for y in columns)
     # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
     beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
     return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm

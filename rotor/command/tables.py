@@ -69,10 +69,8 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
     symbol, size = power_unit(*(solution.last_power.total for solution in solutions))
     columns = [_sweep_column(solutions.columns[k], symbol) for k in kept]
     failures = ("" if one.converged else f"{one.status.value}: {one.message}" for one in solutions)
-    rows = [
-        (*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure)
-        for row, failure in zip(solutions.rows, failures, strict=True)
-    ]
+    pairs = zip(solutions.rows, failures, strict=True)
+    rows = [(*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure) for row, failure in pairs]
     sentences: dict[str, str] = {}
     for caveat in (caveat for solution in solutions for caveat in solution.caveats):
         words = re.sub(r"[\d.]+", "", caveat.sentence)

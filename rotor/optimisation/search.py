@@ -392,11 +392,8 @@ def best_linear_twist(design: Design) -> BestTwist:
     result = run_search(Search(design, concept, starts=1))
     if result.best is None:
         raise ValueError(result.message)
-    ranges = [
-        TwistRange(cause, (band[0].low, band[0].high))
-        for cause, band in (("flat", result.band), ("doubt", result.doubt_band))
-        if band
-    ]
+    bands = ("flat", result.band), ("doubt", result.doubt_band)
+    ranges = [TwistRange(cause, (band[0].low, band[0].high)) for cause, band in bands if band]
 
     def rate(other: Design) -> float:
         best = run_search(Search(other, concept, guesses=(result.best.parameters,), starts=1, band=False)).best  # type: ignore[union-attr]

@@ -265,10 +265,8 @@ def schedule(
     times = [1.0] * len(speeds) if hours is None else list(hours)
     if len(times) != len(speeds):
         raise ValueError(f"{len(times)} hours for {len(speeds)} advance ratios: give one for each")
-    flights = [
-        WeightedCondition(design.at(mu=speed).condition, time)
-        for speed, time in sorted(zip(speeds, times, strict=True))
-    ]
+    weighted = sorted(zip(speeds, times, strict=True))
+    flights = [WeightedCondition(design.at(mu=speed).condition, time) for speed, time in weighted]
     blades = tuple(find_concept(name) for name in concepts)
     plan = SchedulePlan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
     return run_plan(plan, processes=processes)
@@ -307,10 +305,8 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
 
 def _change_chart(table: SweepTable) -> Chart:
     at = _values(table.solutions, table.axis)
-    rows = [
-        (label, place, math.nan if change is None else change)
-        for label, place, change in zip(table.labels, at, table.changes, strict=True)
-    ]
+    points = zip(table.labels, at, table.changes, strict=True)
+    rows = [(label, place, math.nan if change is None else change) for label, place, change in points]
     lines = tuple(
         Line(name, [x for one, x, _ in rows if one == name], [y for one, _, y in rows if one == name], dots=True)
         for name in dict.fromkeys(table.labels)

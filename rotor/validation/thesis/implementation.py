@@ -174,10 +174,8 @@ def tail_rotor() -> Report:
         shares.append(power.tail / power.main_rotor)
         rows.append((mu, power.main_rotor / 1e3, power.tail / 1e3, 100.0 * shares[-1]))
     low, high = min(shares), max(shares)
-    curves = (
-        curve("solved", TAIL_SPEEDS, [100 * share for share in shares], "both"),
-        curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
-    )
+    document = curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed")
+    curves = curve("solved", TAIL_SPEEDS, [100 * share for share in shares], "both"), document
     return report(
         "tail rotor",
         judged(low >= 0.04 and high <= 0.06),

@@ -183,10 +183,8 @@ def figure_3_15() -> Report:
     best = [best_of_five("flight", mu) for mu in FULL]
     flown = tuple(mu for mu in FULL if all(math.isfinite(slower_kw(rate, mu)) for rate in FIVE_RATES))
     slow = [min(FIVE_RATES, key=lambda rate, mu=mu: slower_kw(rate, mu)) for mu in flown]
-    gain = {
-        mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
-        for mu, rate, saving in zip(flown, slow, best, strict=False)
-    }
+    rates = zip(flown, slow, best, strict=False)
+    gain = {mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu) for mu, rate, saving in rates}
     beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
