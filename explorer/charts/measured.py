@@ -70,10 +70,8 @@ class MeasuredChart:
         y = size * now
         seen = [*values, *(value for _, value in computed), *([y] if math.isfinite(y) else [])]
         low, high = min(places), max(places)
-        words = [
-            _words(measured, value, point)
-            for value, point in zip(values, (*known, *[None] * len(values)), strict=False)
-        ]
+        points = (*known, *[None] * len(values))
+        words = [_words(measured, value, point) for value, point in zip(values, points, strict=False)]
         value, note = _summary(measured, known, solution)
         both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
         return Chart(

@@ -81,10 +81,8 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
 def root_pitch(controls: TrimState, psi: float, design: Design | None = None) -> float:
     """Root pitch of a blade at ψ [rad]."""
     mean, *waves = pitch_series(controls, design)
-    return mean + sum(
-        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
-        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
-    )
+    orders = enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
+    return mean + sum(cosine * math.cos(n * psi) + sine * math.sin(n * psi) for n, (cosine, sine) in orders)
 
 
 def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:

@@ -198,13 +198,9 @@ def _changes(step: LectureStep) -> StepFacts:
     """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
     blades = _Sweep(step)
     a, b = blades.pair
-    induced, profile = (
-        tuple(
-            getattr(solution.power, name) - getattr(other.power, name)
-            for solution, other in zip(blades.b, blades.a, strict=True)
-        )
-        for name in ("induced", "profile")
-    )
+    powers = [(here.power, there.power) for here, there in zip(blades.b, blades.a, strict=True)]
+    induced = tuple(here.induced - there.induced for here, there in powers)
+    profile = tuple(here.profile - there.profile for here, there in powers)
     lines = ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)
     chart = StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
     by_induced, by_profile = (getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile"))
@@ -269,11 +265,9 @@ def _two_segments(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     a, b = blades.pair
     changes = tuple(solution.power.total / a.power.total - 1.0 for solution in blades.b)
-    flat = [
-        rate
-        for rate, solution in zip(step.control.values, blades.b, strict=True)
-        if solution.power.total < (1.0 + _FLAT_SHARE) * min(other.power.total for other in blades.b)
-    ]
+    most = (1.0 + _FLAT_SHARE) * min(solution.power.total for solution in blades.b)
+    rated = zip(step.control.values, blades.b, strict=True)
+    flat = [rate for rate, solution in rated if solution.power.total < most]
     inputs = step.begin()
     numbers = (
         _named(step, a, b)
@@ -427,10 +421,8 @@ class _Sweep:
         self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]
     ) -> StepFacts:
         """With dots on these curves over the values of the control."""
-        stops = tuple(
-            replace(stop, dots=tuple((value, curve[k]) for curve in curves))
-            for k, (stop, value) in enumerate(zip(self.stops, self._step.control.values, strict=True))
-        )
+        placed = enumerate(zip(self.stops, self._step.control.values, strict=True))
+        stops = tuple(replace(stop, dots=tuple((value, curve[k]) for curve in curves)) for k, (stop, value) in placed)
         return _answered(self._step, stops, numbers, answer, chart)
 
 

@@ -100,11 +100,8 @@ def _rotor_causes(a: Design, b: Design) -> list[str]:
 
 
 def _model_causes(a: Design, b: Design) -> list[str]:
-    causes = [
-        f"{'with' if getattr(b.models, name) else 'without'} {switch.title.lower()}"
-        for name, switch in SWITCHES.items()
-        if getattr(a.models, name) != getattr(b.models, name)
-    ]
+    switched = [name for name in SWITCHES if getattr(a.models, name) != getattr(b.models, name)]
+    causes = [f"{'with' if getattr(b.models, name) else 'without'} {SWITCHES[name].title.lower()}" for name in switched]
     for row in (QUANTITIES[name] for name in OPTIONS):
         if row.of(a) != row.of(b):
             causes.append(f"{'with' if row.of(b) else 'without'} {row.title.lower()}")

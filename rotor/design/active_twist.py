@@ -145,10 +145,7 @@ def _shown(item: Any) -> str:
 
 def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
     """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
-    return ",".join(
-        f"{harmonic.per_rev}:{degrees_text(harmonic.amplitude)}:{degrees_text(harmonic.phase)}"
-        for harmonic in harmonics
-    )
+    return ",".join(f"{wave.per_rev}:{degrees_text(wave.amplitude)}:{degrees_text(wave.phase)}" for wave in harmonics)
 
 
 def harmonics_record(harmonics: tuple[Harmonic, ...]) -> list[dict[str, Any]]:

@@ -138,10 +138,8 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
     mass, stiffness = np.zeros((size, size)), np.zeros((size, size))
 
     def add(matrix: Array, by_value: Array, by_slope: Array, by_curvature: Array, rows: int, columns: int) -> None:
-        blocks = sum(
-            (beam.weight * factor)[:, None, None] * product
-            for factor, product in ((by_value, value), (by_slope, slope), (by_curvature, curvature))
-        )
+        parts = (by_value, value), (by_slope, slope), (by_curvature, curvature)
+        blocks = sum((beam.weight * factor)[:, None, None] * product for factor, product in parts)
         first = 4 * element[:, None] + np.array([0, 1, 4, 5])
         np.add.at(matrix, ((first + rows)[:, :, None], (first + columns)[:, None, :]), blocks)
 

@@ -153,11 +153,8 @@ def design_of_row(results: Results, row: int) -> Design:
     given: dict[str, Any] = results.about.get("given", {})
     values: dict[str, Value] = {name: value for name, value in given.items() if name in PLAIN}
     values |= {name: results.columns[name][row] for name in results.axes if name in PLAIN}
-    blade = {
-        name: float(results.columns[name][row])
-        for name in results.columns
-        if name in QUANTITIES and name not in PLAIN and math.isfinite(results.columns[name][row])
-    }
+    varied = {name: column[row] for name, column in results.columns.items() if name in QUANTITIES and name not in PLAIN}
+    blade = {name: float(value) for name, value in varied.items() if math.isfinite(value)}
     design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
     if "concept" not in values:
         return design

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -190,11 +191,8 @@ def figure_4_12(most: int | None = None) -> Report:
 
 def figure_4_13(speeds: tuple[float, ...] = runs.FULL) -> Report:
     """All concepts side by side."""
-    savings = {
-        (name, concept): [_percent(name, concept, mu, speeds) for mu in speeds]
-        for name in runs.VARIANTS
-        for concept in runs.CONCEPTS
-    }
+    pairs = product(runs.VARIANTS, runs.CONCEPTS)
+    savings = {(name, concept): [_percent(name, concept, mu, speeds) for mu in speeds] for name, concept in pairs}
     panels: list[Chart] = []
     for name in runs.VARIANTS:
         curves: list[Series] = []
