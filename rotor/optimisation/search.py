@@ -289,10 +289,9 @@ def _starts(search: Search, evaluate: Evaluator) -> Sequence[Array]:
 
 def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> Minimum:
     values = evaluate.values(record.x)
-    active: list[str] = []
-    for parameter, x in zip(evaluate.concept.parameters, record.x, strict=True):
-        if x < 1e-4 or x > 1.0 - 1e-4:
-            active.append(f"{parameter.name} {'low' if x < 0.5 else 'high'}")
+    names = (parameter.name for parameter in evaluate.concept.parameters)
+    at = zip(names, record.x, strict=True)
+    active = [f"{name} {'low' if x < 0.5 else 'high'}" for name, x in at if x < 1e-4 or x > 1.0 - 1e-4]
     limits = evaluate.limits
     tight = record.margins < 10.0 * FEASIBLE
     rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0

@@ -296,10 +296,8 @@ def _speeds(
 
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
     """`−12°, −8° from µ 0.09`."""
-    parts: list[str] = [f"{values[0]}°"]
-    for before, value, mu in zip(values, values[1:], speeds[1:], strict=False):
-        if value != before:
-            parts.append(f"{value}° from µ {mu:g}")
+    steps = zip(values, values[1:], speeds[1:], strict=False)
+    parts = [f"{values[0]}°", *(f"{value}° from µ {mu:g}" for before, value, mu in steps if value != before)]
     return ", ".join(parts)
 
 
