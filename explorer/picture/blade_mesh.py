@@ -53,13 +53,9 @@ def loft(rings: ArrayLike) -> Mesh:
     following = (k + 1) % points
     first, last = count * points, count * points + 1
     tip = (count - 1) * points
-    faces = np.concatenate(
-        (
-            ring_faces(count, points),
-            np.stack((k, following, np.full(points, first)), 1),
-            np.stack((tip + following, tip + k, np.full(points, last)), 1),
-        )
-    ).astype(np.uint32)
+    near_end = np.stack((k, following, np.full(points, first)), 1)
+    far_end = np.stack((tip + following, tip + k, np.full(points, last)), 1)
+    faces = np.concatenate((ring_faces(count, points), near_end, far_end)).astype(np.uint32)
     vertices = np.concatenate((rings.reshape(-1, 3), rings[[0, -1]].mean(axis=1)))
     return Mesh(vertices, faces if _volume(vertices, faces) > 0.0 else faces[:, ::-1])
 

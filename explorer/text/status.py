@@ -4,7 +4,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers
+from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers, place_of
 from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import SECTIONS, tip
@@ -204,13 +204,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     if climb:
         return f"rate of climb {climb:g} m/s, tested in level flight"
     points = [point for point in measured.points if measured.counts(point)]
-    place = {
-        "mu": solution.design.condition.advance_ratio,
-        "ct": solution.ct,
-        "ct_over_sigma": solution.ct_over_sigma,
-        "collective_deg": math.degrees(solution.controls.collective),
-    }
-    for name, value in place.items():
+    for name, value in place_of(solution).items():
         if name not in measured.given:
             continue
         values = [point[name] for point in points]

@@ -152,12 +152,8 @@ _TIMED_SEARCHES = 8
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
-        commands,
-        "study",
-        run,
-        "Run a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
-    )
+    words = "Run a study file. `study show DIR` prints the best point, the robust best design and the sensitivities."
+    parser = add_command(commands, "study", run, words)
     words = "study file, shipped example (two_segment.toml), or the word show"
     parser.add_argument("file", metavar="FILE.toml", help=words)
     parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")

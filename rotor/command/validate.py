@@ -150,13 +150,8 @@ def report(comparison: Comparison) -> str:
         where = (point.given[name] for name in measured.given)
         scatter = measured.scatter_of({**point.given, **point.measured})
         cells.append((*where, point.measured[quantity], scatter, computed, point.error_percent, words))
-    lines = [
-        wrapped(f"{measured.name}: {measured.title}"),
-        wrapped(measured.report),
-        f"inflow {comparison.inflow}; never fitted",
-        table(columns, cells).text(),
-    ]
-    lines.append(wrapped(verdict(comparison)))
+    lines = [wrapped(f"{measured.name}: {measured.title}"), wrapped(measured.report)]
+    lines += [f"inflow {comparison.inflow}; never fitted", table(columns, cells).text(), wrapped(verdict(comparison))]
     if lost := [point for point in comparison.points if point.computed is None]:
         counted = sum(point.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"

@@ -68,12 +68,9 @@ def hart2_set() -> TrustSet:
     solutions = {case.name: solve(case.design()).require() for case in cases()}
     agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
-    return description(SET).page(
-        f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}",
-        _rows(agreements, solutions),
-        (*_charts(solutions), _vortex_chart(solutions["BL"])),
-        points=_points(agreements),
-    )
+    words = f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}"
+    charts = (*_charts(solutions), _vortex_chart(solutions["BL"]))
+    return description(SET).page(words, _rows(agreements, solutions), charts, points=_points(agreements))
 
 
 _Agreements = Mapping[tuple[str, str], airloads.CurveAgreement]
