@@ -92,7 +92,7 @@ def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
     for harmonic in harmonics:
         if harmonic.per_rev == 1:
             raise ValueError(
-                f"root pitch at 1/rev is cyclic, which is trimmed: choose 2 to {HIGHEST}/rev, or the cyclic of a stand"
+                f"root pitch at 1/rev is cyclic pitch, which is trimmed: choose 2 to {HIGHEST}/rev, or a stand's cyclic"
             )
         if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
             degrees = math.degrees(harmonic.amplitude)

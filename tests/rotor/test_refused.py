@@ -111,7 +111,7 @@ ALIKE = {
         "0.2 3\n0.1 4\n": "ascend", "0.2 3\n0.3 x\n": "line 2", "0.5 1\n": "two or more", "0.2 3\n7 4\n": "line 2",
     },
     "rotor.make_design(pitch_per_rev={})": {
-        "'1:1:0'": "is cyclic, which", "'9:1:0'": "9/rev is outside 1…8", "'2.5:1:0'": "needs a whole number",
+        "'1:1:0'": "is cyclic pitch", "'9:1:0'": "9/rev is outside 1…8", "'2.5:1:0'": "needs a whole number",
         "'3:10.5:0'": "10.5° at 3/rev is outside 0…10°", "'3:1'": "'3:1' is not understood: write N:DEG:PHASE",
         "'3:1:inf'": "two finite angles", "'3:1:0,3:1:0'": "3/rev twice",
         "','.join(['3:1:0'] * 100_000)": "3/rev twice", "3": "pitch_per_rev is 3: write",
