@@ -17,13 +17,18 @@ from explorer.picture.picture import disk_png
 from explorer.picture.polar import ALL_MARKS, DrawnSolution, MarkedRegion, polar_grid, region_codes
 from rotor import Solution
 from rotor.support.chart import DrawnChart, bar_ticks
-from rotor.support.markup import Attribute, Markup, group, tag
+from rotor.support.markup import Attribute, Content, Markup, group, tag
 
 Point = tuple[float, float]
 
 BODY = "var(--mantine-color-body)"
 """The page's ground, for the halo that keeps words readable on lines."""
 _HALO: dict[str, Attribute] = {"stroke": BODY, "stroke_width": 3, "paint_order": "stroke", "stroke_linejoin": "round"}
+
+
+def drawing(width: float, height: float, label: str, *content: Content) -> Markup:
+    """A drawing as wide as its place, with the words of its label for who does not see it."""
+    return tag("svg", *content, viewBox=f"0 0 {width:g} {height:g}", width="100%", role="img", aria_label=label)
 
 
 def line(
