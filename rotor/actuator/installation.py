@@ -116,9 +116,7 @@ def drive_name(installed: InstalledActuator, shares: Sequence[float]) -> str:
     return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}".replace("-", "−")
 
 
-def carrying_driven(
-    design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool = False
-) -> Design:
+def carrying_driven(design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool) -> Design:
     """The design with an actuator on its blades: mass, stiffness, and the twist of its drive.
 
     shares: drive of each segment, −1…1 of either side. crossed: fibres laid the other way.
