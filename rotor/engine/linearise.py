@@ -216,6 +216,13 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     return _with_forces(system, grid, (x, z, by_roots, phi), channels, slopes, flow)
 
 
+def with_slopes(point: Point) -> Point:
+    """The point with the partial derivatives of the section and the flow there; itself where it has both."""
+    if point.slopes.shape[1] and point.flow.shape[1]:
+        return point
+    return evaluate(point.system, point.grid, point.x, slopes=True, flow=True)
+
+
 def begin(system: System, grid: Grid, x: Array) -> Point:
     """The equations at y = 0, but linearised where A y is the `expected` of the nodes.
 

@@ -27,6 +27,8 @@ _COARSE_RATIO = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
 LAST_STEP_RATIO = 3.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice: 2 of 144 trims expect more."""
+_HOPED = 0.1
+"""Part of the residual that a first step with kept factors is expected to leave. Our choice."""
 MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
@@ -97,6 +99,8 @@ class NewtonLimits:
     """Most steps with derivatives on few azimuths: these derivatives serve all later steps."""
     kept_ratio: float = 0.03
     """Factors are kept for the next solution where the last step left less than this part of the residual."""
+    slopes: bool = True
+    """Whether the last point is to have partial derivatives, for slopes of measures."""
 
 
 DEFAULT_LIMITS = NewtonLimits()
@@ -203,14 +207,15 @@ class _Steps:
 
     def __call__(self, grid: Grid, x: Array, goal: float, most_steps: float) -> Point:
         """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
-        system, limits, slow_steps, rises, expected = self._system, self._limits, 0, 0, math.inf
+        system, limits, slow_steps, rises, near = self._system, self._limits, 0, 0, self._corrected is not None
         if self._corrected is not None:
             self._corrected.begin()
         judged = system.nodes is None or x[system.structure.given :].any()
         if judged:
-            point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+            point = self._at(grid, x, slopes=not near and grid is system.thin, flow=near)
         else:
             point, self.passes = begin(system, grid, x), self.passes + 1
+        expected = _HOPED * point.size if near else math.inf
         while point.size > goal and self.passes < limits.most_passes:
             if slow_steps >= MOST_SLOW_STEPS or rises >= _MOST_RISES:
                 break
@@ -261,7 +266,7 @@ class _Steps:
         """A step on; where it may well be the last, with all that a solution and its adjoint need."""
         x = point.x.copy()
         x[self._system.free] += step
-        return self._at(point.grid, x, slopes=last, flow=last)
+        return self._at(point.grid, x, slopes=last and self._limits.slopes, flow=last)
 
     def _differentiate(self, point: Point) -> _Corrected:
         """New factors, on few azimuths."""

@@ -18,7 +18,6 @@ from typing import Any
 
 import numpy as np
 
-from rotor.aero.elements import STATE_NAMES, TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.design.aircraft import Aircraft, reported_names
 from rotor.design.design import Design, check_preset, preset_models
@@ -75,19 +74,16 @@ class WarmStarts:
         if self._kind(values, hovering) != self._key or not self._trims:
             return None
         steps = self._places - self._place(values)
-        near = _wanted(steps.shape[1])
-        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[:near].tolist()
-        vector = np.zeros_like(_vector(self._trims[0]))
-        for weight, k in zip(_weights(steps[order]).tolist(), order, strict=True):
-            vector += weight * _vector(self._trims[k])
-        return _guess(vector, self._trims[order[0]])
+        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[: _wanted(steps.shape[1])].tolist()
+        near = [self._trims[k] for k in order]
+        return near[0].with_array(_weights(steps[order]) @ np.array([trim.array for trim in near]))
 
     def keep(self, values: Mapping[str, Value], solution: Solution) -> None:
         """Keep a trim to start others from; one that did not converge is of no use."""
         if not solution.converged:
             return
         key, left = self._kind(values, solution.design.hovering), solution.start
-        same = not self._trims or len(_vector(self._trims[0])) == len(_vector(left))
+        same = not self._trims or len(self._trims[0].array) == len(left.array)
         if key != self._key or not same:
             self._key, self._places, self._trims = key, self._places[:0], []
         self._places = np.vstack([self._places, self._place(values)])[-_KEPT_TRIMS:]
@@ -102,24 +98,6 @@ class WarmStarts:
 
     def _place(self, values: Mapping[str, Value]) -> Array:
         return np.array([(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()])
-
-
-def _vector(trim: Guess) -> Array:
-    """All numbers of a trim."""
-    parts = [trim.state.array(), *(part.ravel() for part in (trim.elastic, trim.inflow) if part is not None)]
-    return np.concatenate(parts)
-
-
-def _guess(vector: Array, like: Guess) -> Guess:
-    """The trim of these numbers; the factors are those of a trim like it."""
-    n, twists = len(STATE_NAMES), 0 if like.elastic is None else like.elastic.size
-    state, elastic, inflow = np.split(vector, [n, n + twists])
-    return replace(
-        like,
-        state=TrimState.from_array(state),
-        elastic=None if like.elastic is None else elastic.reshape(like.elastic.shape),
-        inflow=None if like.inflow is None else inflow,
-    )
 
 
 def _wanted(axes: int) -> int:

@@ -19,7 +19,7 @@ from rotor.aero.section import FX, FZ, RATE, TH, UP, UR, UT
 from rotor.columns.flight import SWIRL, SWIRL_SLOPE
 from rotor.columns.hover import turning_of
 from rotor.design.twist import SpecTwist, TwistLaw
-from rotor.engine.linearise import MeasureSlopes, jacobian, transposed
+from rotor.engine.linearise import MeasureSlopes, jacobian, transposed, with_slopes
 from rotor.engine.newton import KRYLOV_TOLERANCE, Factors, solve_transposed
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array, ShortRepr
@@ -109,7 +109,7 @@ class _Linear:
 
     def __init__(self, trim: LinearisedTrim, box: FactorBox | None = None, passes: int = 0) -> None:
         """box: factors of a Jacobian nearby, of the same equations; passes: that the trim took with them."""
-        self.trim, self.problem, self.point = trim, trim.problem, trim.point
+        self.trim, self.problem, self.point = trim, trim.problem, with_slopes(trim.point)
         self._box = FactorBox() if box is None else box
         self._far = passes > _MANY_PASSES
 

@@ -283,11 +283,10 @@ def _continue(
             break
         ahead = min(1.0, t + step)
         near = problem if ahead == 1.0 else _easier(design, ahead)
-        state = latest[1].state
-        if before is not None:  # Along the secant through the last two trims.
-            guess, last = state.array(), before[1].state.array()
-            state = TrimState.from_array(guess + (guess - last) * (ahead - t) / (t - before[0]))
-        result = newton(near, replace(latest[1].guess, state=state, box=None), following)
+        guess = latest[1].guess
+        if before is not None:
+            guess = guess.ahead(before[1].guess, (ahead - t) / (t - before[0]))
+        result = newton(near, replace(guess, box=None), following)
         passes += result.passes
         follows = result.converged and not _hangs_under_its_wake(near, result)
         if follows and (ahead == 1.0 or stalled_parts(near, result.linear.elements)[1] <= most_stalled):

@@ -49,6 +49,8 @@ class SolverOptions(SystemTolerances):
     """Asked between two runs of Newton's method; True ends a solve that has not converged."""
     smallest_continuation_step: float = 1.0 / 128.0
     """Step, as a part of the whole way, below which continuation gives up."""
+    slopes: bool = True
+    """Whether slopes of power will be asked for: then the last evaluation has the partial derivatives."""
     remedy: bool = True
     """Whether a refusal names the largest mass and speed that trim. To find them takes longer than the trim."""
 
@@ -61,7 +63,7 @@ class SolverOptions(SystemTolerances):
 DEFAULT_OPTIONS = SolverOptions()
 FEW_DIGITS = SolverOptions(
     residual_tolerance=1e-6, torsion_tolerance=1e-6, inflow_tolerance=1e-4,
-    accepted_residual=1e-6, accepted_inflow=1e-4, remedy=False,
+    accepted_residual=1e-6, accepted_inflow=1e-4, slopes=False, remedy=False,
 )  # fmt: skip
 """The same equations, solved to the digits that are shown: power within 4e-7 (tested)."""
 
@@ -98,6 +100,29 @@ class Guess:
         """Factors for the first steps."""
         return None if self.box is None else self.box.factors
 
+    @property
+    def array(self) -> Array:
+        """All its numbers, flat."""
+        others = (part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None)
+        return np.concatenate([self.state.array(), *others])
+
+    def with_array(self, numbers: Array) -> "Guess":
+        """This guess with other numbers, in the order of `array`."""
+        parts, first = dict[str, Array](), len(STATE_NAMES)
+        for name in ("elastic", "bending", "inflow"):
+            if (part := getattr(self, name)) is not None:
+                parts[name] = numbers[first : first + part.size].reshape(part.shape)
+                first += part.size
+        return replace(self, state=TrimState.from_array(numbers[: len(STATE_NAMES)]), **parts)
+
+    def ahead(self, before: "Guess", steps: float) -> "Guess":
+        """So many steps ahead on the secant that leads from an earlier trim to this one; itself where they differ in
+        kind."""
+        here, there = self.array, before.array
+        if len(here) != len(there) or self.inflow_kind != before.inflow_kind:
+            return self
+        return self.with_array(here + steps * (here - there))
+
 
 @dataclass(frozen=True, eq=False)
 class LinearisedTrim:
@@ -105,7 +130,7 @@ class LinearisedTrim:
 
     problem: Problem
     point: Point
-    """With the partial derivatives and the flow at the sections."""
+    """With the flow at the sections."""
 
     @cached_property
     def elements(self) -> BladeElements:
@@ -152,9 +177,9 @@ class TrimResult:
 
     @cached_property
     def linear(self) -> LinearisedTrim:
-        """The equations there."""
+        """The equations there, with the flow at the sections."""
         point = self.point
-        if not (point.flow.shape[1] and point.slopes.shape[1]):
+        if not point.flow.shape[1]:
             point = evaluate(point.system, point.grid, point.x, slopes=True, flow=True)
         return LinearisedTrim(self.problem, point)
 
@@ -208,8 +233,8 @@ def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonL
     if system.nodes is not None:  # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
         finer = len(system.nodes.matrix) / 576.0
         most, kept = max(20.0, 7.0 * finer), max(20.0, 10.0 * finer)
-        return NewtonLimits(options.max_passes, most_steps=most, most_kept_steps=kept, kept_ratio=0.5)
-    limits = NewtonLimits(options.max_passes)
+        return NewtonLimits(options.max_passes, most, kept, kept_ratio=0.5, slopes=options.slopes)
+    limits = NewtonLimits(options.max_passes, slopes=options.slopes)
     return limits if problem.inflow.load_dependent else replace(limits, most_steps_on_few=0.0)
 
 

@@ -204,6 +204,8 @@ class Solution:
     """`Problem` and `BladeElements` on the azimuths of the trim; None: they are made once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
+    before: tuple[Design, Guess] | None = None
+    """The design and trim that it was itself started from: a next step in the same direction starts ahead of both."""
     wake_course: WakeCourse | None = None
     """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     freedoms: tuple[Freedom, ...] = ()
@@ -214,12 +216,13 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "start": replace(self.start, box=None, structure=None), "evaluated": None}
+        small = {"start": replace(self.start, box=None, structure=None), "before": None, "evaluated": None}
+        return self.__dict__ | small
 
     def light(self) -> "Solution":
         """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
         when it is read; trims that start from it take more steps."""
-        return replace(self, start=replace(self.start, box=None), evaluated=None)
+        return replace(self, start=replace(self.start, box=None), before=None, evaluated=None)
 
     @cached_property
     def shown(self) -> Shown:

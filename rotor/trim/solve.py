@@ -15,6 +15,7 @@ from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
 from rotor.trim.reach import largest, stall_limit, too_stalled
+from rotor.trim.secant import steps_ahead
 from rotor.trim.solution import Solution, Status
 from rotor.trim.validity import MOST_STALLED, stalled_sentence
 
@@ -58,7 +59,8 @@ def analyse(
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     found = _trim_branch(require_design(design), start, options, freedoms)
-    solution = found.solution
+    solution = replace(found.solution, before=_begun(design, start))
+    found = Analysis(solution, found.linear)
     if not solution.converged or design.hovering or not too_stalled(found, stall_limit(found.linear.problem)):
         return found
     # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
@@ -108,4 +110,15 @@ def guess_of(design: Design, start: Start) -> Guess | None:
     """Where a trim begins; None when an earlier solution did not converge, or hovered and this design does not."""
     if not isinstance(start, Solution):
         return start
-    return start.start if start.converged and not (start.design.hovering and not design.hovering) else None
+    if not start.converged or (start.design.hovering and not design.hovering):
+        return None
+    if start.before is None or (steps := steps_ahead(start.before[0], start.design, design)) is None:
+        return start.start
+    return start.start.ahead(start.before[1], steps)
+
+
+def _begun(design: Design, start: Start) -> tuple[Design, Guess] | None:
+    """What a solution keeps of the one that it was started from: of one for the same design, what that one keeps."""
+    if not isinstance(start, Solution) or not start.converged:
+        return None
+    return start.before if start.design == design else (start.design, replace(start.start, box=None))

@@ -31,7 +31,7 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim import analyse, power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import newton
+from rotor.trim.newton import FEW_DIGITS, newton
 from rotor.trim.power_changes import power_changes
 from tests.tools import measured
 
@@ -250,6 +250,7 @@ def measure() -> dict[str, float]:
         pairs = list(zip(nearby, solutions, strict=True))
         figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
         figures[f"{beside}warm, new speed"] = _mean(lambda pair: solve(_new(pair[0]), pair[1]), pairs, 15)
+        figures[f"{beside}moving"] = statistics.fmean(map(_moving, solutions))
         figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
         figures[f"{beside}doubt"] = _mean(power_changes, [analyse(design).adjoint for design in designs], 15)
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
@@ -309,6 +310,16 @@ def _gradient(nearby: Design, start: Solution) -> float:
         power_gradient(trim)
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times[1:])
+
+
+def _moving(start: Solution) -> float:
+    """A frame of a drag [ms]: each trim a quarter of a degree from the last one, which turns round half way."""
+    design, latest, times = start.design, start, list[float]()
+    for k in (*range(1, 17), *range(15, 0, -1)):
+        begin = time.process_time()
+        latest = analyse(design.with_twist(f"linear:{-16.0 + 0.25 * k}"), latest, FEW_DIGITS).solution
+        times.append(time.process_time() - begin)
+    return 1e3 * statistics.median(times)
 
 
 def _mean(call: Callable[[T], Any], cases: list[T], runs: int) -> float:

@@ -17,7 +17,7 @@ from rotor.optimisation import CONCEPTS
 from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, evaluate_objective
 from rotor.trim import Analysis, SolverOptions, analyse, power_gradient
 from rotor.trim.adjoint import Adjoint, ElementSlopes
-from rotor.trim.newton import FactorBox
+from rotor.trim.newton import FEW_DIGITS, FactorBox
 from tests.solved import assert_same_trim
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
@@ -156,6 +156,9 @@ def test_factors_made_at_a_trim_spare_passes_and_change_no_answer(models: dict[s
     np.testing.assert_allclose(adjoint.of_total, exact, rtol=0.0, atol=1e-8 * np.abs(exact).max())
     assert start.box is not None
     assert start.box.at_trim
-    after = solve(nearby, trim.solution)
+    after, moving = solve(nearby, trim.solution), analyse(nearby, trim.solution, FEW_DIGITS)
+    assert not moving.linear.point.slopes.size  # They are made when slopes of power are asked for.
+    whole = power_gradient(after).by_element
+    assert_allclose(moving.gradient.by_element, whole, rtol=0.0, atol=1e-4 * np.abs(whole).max())
     assert after.passes <= without.passes if "bending" in models else after.passes < without.passes
     assert_same_trim(after, without)
